@@ -89,10 +89,7 @@ impl<Spi> As5047p<Spi> {
     /// An encoder that has not been read yet; the first angle is where the mapping says that the
     /// joint can be.
     pub const fn new(spi: Spi, mapping: EncoderMapping) -> Self {
-        Self {
-            spi,
-            turns: MultiTurnEncoder::new(mapping),
-        }
+        Self { spi, turns: MultiTurnEncoder::new(mapping) }
     }
 
     /// The joint's angle in rad at the last good frame.
@@ -126,11 +123,7 @@ impl<Spi> As5047p<Spi> {
         // It is taken before it is examined: one branch for all checks, and both loads side by
         // side.
         let (before, missing) = self.turns.follow(frame);
-        if sent.is_ok() && (u32::from(wrong(frame)) | missing) == 0 {
-            Ok(())
-        } else {
-            Err(before)
-        }
+        if sent.is_ok() && (u32::from(wrong(frame)) | missing) == 0 { Ok(()) } else { Err(before) }
     }
 
     /// Takes what a transfer brought that was not accepted: a function of its own, so that the
@@ -251,11 +244,7 @@ pub fn decode(frame: u16) -> Result<u16, FrameError> {
     if wrong(frame) == 0 {
         return Ok(frame & MASK);
     }
-    Err(if parity(frame) & 1 != 0 {
-        FrameError::Parity
-    } else {
-        FrameError::Flag
-    })
+    Err(if parity(frame) & 1 != 0 { FrameError::Parity } else { FrameError::Flag })
 }
 
 /// Whether a frame has a wrong parity or the error flag, in bit 0: one branch for both, which
@@ -273,11 +262,7 @@ pub const fn encode(raw: u16) -> u16 {
 /// The raw count nearest to an angle in rad; 0 for NaN.
 pub fn quantise(angle: f32) -> u16 {
     let counts = angle * (f32::from(COUNTS) / TAU);
-    let nearest = if counts < 0.0 {
-        counts - 0.5
-    } else {
-        counts + 0.5
-    };
+    let nearest = if counts < 0.0 { counts - 0.5 } else { counts + 0.5 };
     (nearest as i32 & i32::from(MASK)) as u16
 }
 

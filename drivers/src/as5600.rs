@@ -92,10 +92,7 @@ impl<Bus> As5600<Bus> {
     /// An encoder that has not been read yet; the first angle is where the mapping says that the
     /// joint can be.
     pub const fn new(bus: Bus, mapping: EncoderMapping) -> Self {
-        Self {
-            bus,
-            turns: MultiTurnEncoder::new(mapping),
-        }
+        Self { bus, turns: MultiTurnEncoder::new(mapping) }
     }
 
     /// The joint's angle in rad at the last reading.

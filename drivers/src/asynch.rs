@@ -115,10 +115,7 @@ impl<Bus: I2c> As5600<Bus> {
     /// [`As5600Error`].
     pub async fn check_magnet_async(&mut self) -> Result<(), As5600Error> {
         let mut status = [0];
-        self.bus
-            .write_read(ADDRESS, &[STATUS], &mut status)
-            .await
-            .map_err(bus_error)?;
+        self.bus.write_read(ADDRESS, &[STATUS], &mut status).await.map_err(bus_error)?;
         decode_status(status[0])
     }
 
@@ -199,11 +196,7 @@ mod tests {
             (READ_ANGLE, 0),
             (READ_ANGLE, encode(16_383)),
         ];
-        let expected = [
-            Ok(FRAC_PI_2),
-            Err(FrameError::Flag),
-            Ok(-crate::as5047p::RESOLUTION),
-        ];
+        let expected = [Ok(FRAC_PI_2), Err(FrameError::Flag), Ok(-crate::as5047p::RESOLUTION)];
         let mut encoder = As5047p::new(transfers(&frames), near_zero());
         ready(encoder.start_async());
         for angle in expected {
@@ -228,11 +221,7 @@ mod tests {
             ]
         };
         let absent = [i2c::Transaction::write_read(ADDRESS, vec![STATUS], vec![0])];
-        let all = [
-            &registers(0x20, [0x04, 0x00])[..],
-            &absent,
-            &registers(0x20, [0x04, 0x00]),
-        ];
+        let all = [&registers(0x20, [0x04, 0x00])[..], &absent, &registers(0x20, [0x04, 0x00])];
         let expected = [Ok(FRAC_PI_2), Err(As5600Error::MagnetAbsent), Ok(FRAC_PI_2)];
         let mut encoder = As5600::new(i2c::Mock::new(&all.concat()), near_zero());
         for angle in expected {
@@ -303,20 +292,10 @@ mod tests {
             decay_rate: 25.0,
             restart_distance: 0.1,
         };
-        let points = [0, 100].map(|ticks| WayPoint {
-            q: [0.0],
-            qd: [0.0],
-            ticks,
-        });
-        let limits = MotionLimits {
-            velocity: 1.0,
-            acceleration: 1.0,
-        };
+        let points = [0, 100].map(|ticks| WayPoint { q: [0.0], qd: [0.0], ticks });
+        let limits = MotionLimits { velocity: 1.0, acceleration: 1.0 };
         let path = Trajectory::new(&points, 1e-3, &[limits]).unwrap();
-        let gains = Gains {
-            kp: [10.0],
-            kd: [1.0],
-        };
+        let gains = Gains { kp: [10.0], kd: [1.0] };
         let controller = MotionController::new(config);
         let drive = || [Torque(0.0)];
         let mut other = ControlLoop::new(first, drive(), NoBrake, gains, controller, ());

@@ -132,22 +132,12 @@ impl Frame for FdFrame {
         }
         let mut all = [0; 64];
         all.get_mut(..data.len())?.copy_from_slice(data);
-        Some(Self {
-            id: id.into(),
-            data: all,
-            length: data.len(),
-            is_remote: false,
-        })
+        Some(Self { id: id.into(), data: all, length: data.len(), is_remote: false })
     }
 
     /// CAN FD has no remote frames: this is one of classic CAN, of at most 8 bytes.
     fn new_remote(id: impl Into<Id>, dlc: usize) -> Option<Self> {
-        (dlc <= 8).then_some(Self {
-            id: id.into(),
-            data: [0; 64],
-            length: dlc,
-            is_remote: true,
-        })
+        (dlc <= 8).then_some(Self { id: id.into(), data: [0; 64], length: dlc, is_remote: true })
     }
 
     fn is_extended(&self) -> bool {
@@ -189,11 +179,7 @@ pub(crate) fn raw(id: Id) -> u32 {
 /// A little-endian f32 at a place of a frame.
 pub(crate) fn float(data: &[u8], at: usize) -> Result<f32, CanError> {
     let value = f32::from_le_bytes(bytes(data, at)?);
-    if value.is_finite() {
-        Ok(value)
-    } else {
-        Err(CanError::NotFinite)
-    }
+    if value.is_finite() { Ok(value) } else { Err(CanError::NotFinite) }
 }
 
 /// `N` bytes at a place of a frame.
@@ -219,9 +205,5 @@ pub(crate) fn limit(torque: f32, most: f32) -> f32 {
 /// The mapping's torque limit, checked: at the joint, and finite at the shaft.
 pub(crate) fn check_most(most: f32, mapping: &crate::JointMapping) -> Result<(), CanError> {
     let at_shaft = mapping.shaft_torque(most);
-    if most > 0.0 && at_shaft.is_ok() {
-        Ok(())
-    } else {
-        Err(CanError::Torque)
-    }
+    if most > 0.0 && at_shaft.is_ok() { Ok(()) } else { Err(CanError::Torque) }
 }

@@ -122,12 +122,7 @@ struct State<Bus, Joint, const V: usize> {
 impl<Bus: Can, Joint: CanJoint, const V: usize> CanJoints<Bus, Joint, V> {
     /// The joints, of which none has reported yet.
     pub const fn new(bus: Bus, joints: [Joint; V]) -> Self {
-        Self(RefCell::new(State {
-            bus,
-            joints,
-            positions: [None; V],
-            delivers: [Ok(()); V],
-        }))
+        Self(RefCell::new(State { bus, joints, positions: [None; V], delivers: [Ok(()); V] }))
     }
 
     /// Returns the bus to its owner.

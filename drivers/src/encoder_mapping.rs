@@ -127,12 +127,7 @@ impl JointMapping {
         if !(step > 0.0 && step < HALF * PI) {
             return Err(MappingError::Step);
         }
-        Ok(EncoderMapping {
-            mapping: self,
-            range,
-            near,
-            step,
-        })
+        Ok(EncoderMapping { mapping: self, range, near, step })
     }
 }
 

@@ -195,11 +195,8 @@ impl<Port, const N: usize> Servos<Port, N> {
     }
 
     fn goal_positions(&self, positions: &[f32; N]) -> Result<Packet, FeetechError> {
-        let (least, most) = if self.has_turns {
-            (-MOST_COUNTS, MOST_COUNTS)
-        } else {
-            (0.0, f32::from(COUNTS - 1))
-        };
+        let (least, most) =
+            if self.has_turns { (-MOST_COUNTS, MOST_COUNTS) } else { (0.0, f32::from(COUNTS - 1)) };
         let mut goals = [0; N];
         for (joint, goal) in goals.iter_mut().enumerate() {
             let offset = self.offset(joint, positions[joint]);
@@ -368,9 +365,7 @@ impl<Port, const N: usize> EncoderType for Servos<Port, N> {
     type Age = CurrentTick;
 
     fn missed(&mut self, ticks: u32) {
-        self.counters
-            .iter_mut()
-            .for_each(|counter| counter.missed(ticks));
+        self.counters.iter_mut().for_each(|counter| counter.missed(ticks));
     }
 
     fn fault(error: &FeetechError, joint: usize) -> Fault {
@@ -393,19 +388,11 @@ impl<Port: Read + Write + ReadReady, const N: usize> JointEncoders<N> for Servos
 /// A number whose sign is one bit above its magnitude.
 fn from_sign(bits: u16, sign: u16) -> i16 {
     let magnitude = (bits & (sign - 1)) as i16;
-    if bits & sign == 0 {
-        magnitude
-    } else {
-        -magnitude
-    }
+    if bits & sign == 0 { magnitude } else { -magnitude }
 }
 
 /// The nearest number, as sign and magnitude; 0 for NaN.
 fn to_sign(value: f32, sign: u16) -> u16 {
     let magnitude = (value.abs() + 0.5) as u16;
-    if value < 0.0 && magnitude != 0 {
-        magnitude | sign
-    } else {
-        magnitude
-    }
+    if value < 0.0 && magnitude != 0 { magnitude | sign } else { magnitude }
 }

@@ -222,12 +222,7 @@ impl<Pwm: SetDutyCycle, Pin: OutputPin> SignMagnitude<Pwm, Pin> {
     /// set: before the first torque, duty and sign are those of the peripherals.
     pub fn new(pwm: Pwm, pin: Pin, full_scale: FullScale, direction: Direction) -> Self {
         let scale = Scale::new(pwm.max_duty_cycle(), full_scale, direction);
-        Self {
-            pwm,
-            pin,
-            scale,
-            sign: None,
-        }
+        Self { pwm, pin, scale, sign: None }
     }
 
     /// The sign and the duty of a torque, to the nearest, limited to the full scale; NaN becomes

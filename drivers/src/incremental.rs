@@ -249,11 +249,7 @@ impl<Counter: QuadratureCounter> IncrementalEncoder<Counter> {
         // A resolution is never zero, which the compiler cannot know.
         let beyond = index.wrapping_sub(reference).checked_rem_euclid(turn);
         let beyond = beyond.unwrap_or_default();
-        let excess = if beyond > turn / 2 {
-            beyond - turn
-        } else {
-            beyond
-        };
+        let excess = if beyond > turn / 2 { beyond - turn } else { beyond };
         if excess.unsigned_abs() <= u32::from(self.tolerance) {
             return Ok(());
         }

@@ -95,11 +95,7 @@ pub struct JointMapping {
 
 impl JointMapping {
     /// The joint's own angle: zero at zero, forward, one to one.
-    pub const IDENTITY: Self = Self {
-        zero: 0.0,
-        to_joint: 1.0,
-        to_shaft: 1.0,
-    };
+    pub const IDENTITY: Self = Self { zero: 0.0, to_joint: 1.0, to_shaft: 1.0 };
 
     /// A joint that is at zero while the shaft is at `zero` rad, and of which one turn is `ratio`
     /// turns of the shaft.
@@ -113,11 +109,7 @@ impl JointMapping {
         if !(ratio >= 1.0 / MOST && ratio <= MOST) {
             return Err(MappingError::Ratio);
         }
-        Ok(Self {
-            zero,
-            to_joint: direction.sign() / ratio,
-            to_shaft: direction.sign() * ratio,
-        })
+        Ok(Self { zero, to_joint: direction.sign() / ratio, to_shaft: direction.sign() * ratio })
     }
 
     /// The shaft's angle where the joint is at zero, rad.
@@ -137,11 +129,7 @@ impl JointMapping {
 
     /// Which way the joint turns.
     pub const fn direction(&self) -> Direction {
-        if self.to_joint > 0.0 {
-            Direction::Forward
-        } else {
-            Direction::Reverse
-        }
+        if self.to_joint > 0.0 { Direction::Forward } else { Direction::Reverse }
     }
 
     /// The joint's position in rad while the shaft is at `shaft` rad. Cost: 2 flops.
@@ -192,11 +180,7 @@ impl JointMapping {
 }
 
 fn finite(quantity: f32) -> Result<f32, MappingError> {
-    if quantity.is_finite() {
-        Ok(quantity)
-    } else {
-        Err(MappingError::NotFinite)
-    }
+    if quantity.is_finite() { Ok(quantity) } else { Err(MappingError::NotFinite) }
 }
 
 /// The counts per turn of an encoder.
@@ -224,10 +208,7 @@ impl Resolution {
         if counts == 0 || counts > 1 << 24 {
             return Err(MappingError::Counts);
         }
-        Ok(Self {
-            counts,
-            per_count: TAU / counts as f32,
-        })
+        Ok(Self { counts, per_count: TAU / counts as f32 })
     }
 
     /// 2^`bits` counts per turn, 0 to 24 bits.

@@ -103,13 +103,7 @@ impl Moteus {
             return Err(CanError::Node);
         }
         can::check_most(most, mapping.mapping())?;
-        Ok(Self {
-            id,
-            host,
-            most,
-            mapping,
-            whole: None,
-        })
+        Ok(Self { id, host, most, mapping, whole: None })
     }
 
     /// Takes the joint to be at `position` rad or m: the next reply is within half a turn of the
@@ -220,9 +214,5 @@ impl Moteus {
 /// A small whole number, as modes and fault codes are in all types.
 fn number(value: f32) -> Result<u8, CanError> {
     let number = value as u8;
-    if f32::from(number) == value {
-        Ok(number)
-    } else {
-        Err(CanError::Unknown(number))
-    }
+    if f32::from(number) == value { Ok(number) } else { Err(CanError::Unknown(number)) }
 }

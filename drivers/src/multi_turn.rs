@@ -223,11 +223,7 @@ impl<const BITS: u32> MultiTurnEncoder<BITS> {
 /// Twice a number of readings, of which 2³⁰ and more are the same.
 const fn doubled(readings: u32) -> i32 {
     const MOST: u32 = (1 << 30) - 1;
-    if readings < MOST {
-        2 * readings as i32
-    } else {
-        2 * MOST as i32
-    }
+    if readings < MOST { 2 * readings as i32 } else { 2 * MOST as i32 }
 }
 
 /// The middle of the turn in which a joint near `position` is, in half counts: an odd number.
@@ -251,10 +247,7 @@ mod tests {
     /// A counter at a known count.
     fn at<const BITS: u32>(counts: i32) -> MultiTurnEncoder<BITS> {
         let near = JointMapping::IDENTITY.with_range(JointRange::Near(0.0), 0.1);
-        MultiTurnEncoder {
-            halves: 2 * counts,
-            ..MultiTurnEncoder::new(near.unwrap())
-        }
+        MultiTurnEncoder { halves: 2 * counts, ..MultiTurnEncoder::new(near.unwrap()) }
     }
 
     #[test]
@@ -285,11 +278,7 @@ mod tests {
     #[test]
     fn a_sixteen_bit_count_wraps_without_overflow() {
         let mut counter = at::<16>(16_383 << 16);
-        for (raw, counts) in [
-            (0x7fff, 0x3fff_7fff),
-            (0xfffe, 0x3fff_fffe),
-            (1, -0x3fff_ffff),
-        ] {
+        for (raw, counts) in [(0x7fff, 0x3fff_7fff), (0xfffe, 0x3fff_fffe), (1, -0x3fff_ffff)] {
             counter.update(raw).unwrap();
             assert_eq!(counter.counts(), counts);
         }

@@ -123,12 +123,7 @@ impl ODrive {
             return Err(CanError::Node);
         }
         can::check_most(most, mapping.mapping())?;
-        Ok(Self {
-            node,
-            most,
-            mapping,
-            whole: None,
-        })
+        Ok(Self { node, most, mapping, whole: None })
     }
 
     /// Takes the joint to be at `position` rad or m: the next estimate is within half a turn of the

@@ -77,10 +77,7 @@ impl Start {
                 let off = random.between(-0.499, 0.499) * turn;
                 (JointRange::Near(near), f64::from(near) + off)
             }
-            _ => (
-                JointRange::Continuous,
-                random.between(-10_000.0, 10_000.0) * TAU,
-            ),
+            _ => (JointRange::Continuous, random.between(-10_000.0, 10_000.0) * TAU),
         };
         Self {
             zero: random.between(-20.0, 20.0) as f32,
@@ -136,10 +133,7 @@ fn all_starts(counts: f64, read: impl Fn(&Start) -> f32) {
     for number in 0..STARTS {
         let start = Start::random(&mut random);
         let found = read(&start);
-        assert!(
-            start.accepts(found, start.truth, counts),
-            "{number}: {found} {start:?}"
-        );
+        assert!(start.accepts(found, start.truth, counts), "{number}: {found} {start:?}");
     }
 }
 
@@ -150,9 +144,7 @@ fn every_start_of_an_as5047p_is_where_the_joint_is() {
         As5047p::new(magnet, start.mapping())
     };
     all_starts(16_384.0, |start| encoder(start).read().unwrap());
-    all_starts(16_384.0, |start| {
-        ready(encoder(start).read_async()).unwrap()
-    });
+    all_starts(16_384.0, |start| ready(encoder(start).read_async()).unwrap());
 }
 
 #[test]
@@ -184,9 +176,7 @@ fn every_start_of_a_servo_is_where_the_joint_is() {
         Servos::new(bus, [1], [start.mapping()]).unwrap()
     };
     all_starts(4096.0, |start| servo(start).positions().unwrap()[0]);
-    all_starts(4096.0, |start| {
-        ready(servo(start).positions_async()).unwrap()[0]
-    });
+    all_starts(4096.0, |start| ready(servo(start).positions_async()).unwrap()[0]);
 }
 
 /// The goal in the last packet to a servo.
@@ -207,12 +197,8 @@ fn every_goal_of_a_servo_is_its_place_without_the_seam() {
             _ => (start.truth - 0.5, start.truth + 0.5),
         };
         let wanted = random.between(lower, upper) as f32;
-        let mut servos = Servos::new(
-            Bus::at(start.count(start.truth, 4096)),
-            [1],
-            [start.mapping()],
-        )
-        .unwrap();
+        let mut servos =
+            Servos::new(Bus::at(start.count(start.truth, 4096)), [1], [start.mapping()]).unwrap();
         servos.positions().unwrap();
         let sent = match number % 2 {
             0 => servos.set_positions(&[wanted]),
@@ -235,17 +221,10 @@ fn every_goal_of_a_servo_is_its_place_without_the_seam() {
             let off = (f64::from(goal) - exact + 2048.0).rem_euclid(4096.0) - 2048.0;
             let step = f64::from(wanted.abs().next_up() - wanted.abs());
             let steps = 4.0 * step * f64::from(start.ratio) * 4096.0 / TAU;
-            assert!(
-                off.abs() <= 0.51 + steps,
-                "{number}: {goal} {exact} {start:?}"
-            );
+            assert!(off.abs() <= 0.51 + steps, "{number}: {goal} {exact} {start:?}");
         } else if !near_seam {
             refused += 1;
-            assert_eq!(
-                sent,
-                Err(FeetechError::Goal { joint: 0 }),
-                "{number}: {start:?}"
-            );
+            assert_eq!(sent, Err(FeetechError::Goal { joint: 0 }), "{number}: {start:?}");
         }
     }
     assert!((100..1500).contains(&refused), "{refused}");
@@ -258,19 +237,13 @@ fn a_goal_before_the_first_reading_needs_a_range_without_the_seam() {
         let mapping = mapping.with_range(range, 1e-3).unwrap();
         Servos::new(Bus::default(), [1], [mapping]).unwrap()
     };
-    let range = JointRange::Within {
-        lower: -0.8,
-        upper: 0.8,
-    };
+    let range = JointRange::Within { lower: -0.8, upper: 0.8 };
     let mut middle = servo(3.0 + 2.0 * core::f32::consts::TAU, range);
     assert_eq!(middle.set_positions(&[0.6]), Ok(()));
     assert_eq!(goal(&middle.release()), 2347);
     let unknown = Err(FeetechError::Goal { joint: 0 });
     assert_eq!(servo(5.9, range).set_positions(&[0.6]), unknown);
-    assert_eq!(
-        servo(3.0, JointRange::Near(0.0)).set_positions(&[0.6]),
-        unknown
-    );
+    assert_eq!(servo(3.0, JointRange::Near(0.0)).set_positions(&[0.6]), unknown);
     // Both ways round a circle lead to the goal.
     let mut circle = servo(5.9, JointRange::Continuous);
     assert_eq!(circle.set_positions(&[0.6]), Ok(()));
@@ -286,19 +259,14 @@ fn a_servo_that_counts_turns_goes_on_from_its_count() {
     let here = servos.positions().unwrap()[0];
     assert!((f64::from(here) - (1.0 + 100.0 * TAU / 4096.0) / 2.0).abs() < 1e-6);
     for (turns, wanted) in [(0.25, 0x8000 | 2148_u16), (-3.0, 24_476)] {
-        servos
-            .set_positions(&[here + turns * core::f32::consts::TAU])
-            .unwrap();
+        servos.set_positions(&[here + turns * core::f32::consts::TAU]).unwrap();
         let bus = servos.release();
         assert_eq!(goal(&bus), wanted, "{turns}");
         servos = Servos::new(bus, [1], [mapping]).unwrap().with_turns();
         servos.positions().unwrap();
     }
     let far = here - 4.5 * core::f32::consts::TAU;
-    assert_eq!(
-        servos.set_positions(&[far]),
-        Err(FeetechError::Goal { joint: 0 })
-    );
+    assert_eq!(servos.set_positions(&[far]), Err(FeetechError::Goal { joint: 0 }));
 }
 
 /// The position after an index of an encoder of 2000 counts, which the joint passes within a half
@@ -319,10 +287,8 @@ fn after_index(start: &Start) -> Option<(f32, f64)> {
         }
     }
     let steps = [first, last].map(|count| (count - first) as i64 as u16);
-    let (mut counts, mut indices) = (
-        steps.into_iter(),
-        [None, Some((index - first) as i64 as u16)].into_iter(),
-    );
+    let (mut counts, mut indices) =
+        (steps.into_iter(), [None, Some((index - first) as i64 as u16)].into_iter());
     let timer = (|| counts.next().unwrap(), || indices.next().unwrap());
     let resolution = Resolution::new(2000).unwrap();
     let mut encoder = IncrementalEncoder::new(timer, resolution, start.mapping()).unwrap();
@@ -337,10 +303,7 @@ fn every_start_of_an_incremental_encoder_is_where_the_joint_is() {
         let start = Start::random(&mut random);
         if let Some((found, truth)) = after_index(&start) {
             tried += 1;
-            assert!(
-                start.accepts(found, truth, 2000.0),
-                "{found} {truth} {start:?}"
-            );
+            assert!(start.accepts(found, truth, 2000.0), "{found} {truth} {start:?}");
         }
     }
 }
@@ -358,9 +321,7 @@ fn every_start_of_a_controller_on_can_is_where_the_joint_is() {
     all_starts(COUNTS, |start| {
         let mut joint = Moteus::new(1, 0, 1.0, start.mapping()).unwrap();
         let [q0, q1, q2, q3] = reported(start).to_le_bytes();
-        let data = [
-            0x21, 0, 10, 0x2f, 1, q0, q1, q2, q3, 0, 0, 0, 0, 0, 0, 0, 0, 0x21, 0x0f, 0,
-        ];
+        let data = [0x21, 0, 10, 0x2f, 1, q0, q1, q2, q3, 0, 0, 0, 0, 0, 0, 0, 0, 0x21, 0x0f, 0];
         let frame = FdFrame::new(ExtendedId::new(0x100).unwrap(), &data).unwrap();
         joint.reply(&frame).unwrap().position
     });
@@ -383,9 +344,7 @@ fn steps_after_ten_thousand_turns_are_those_of_the_first() {
     let mut encoder = MultiTurnEncoder::<14>::new(circle);
     let mut steps = |from: i64| {
         [0, 40, 80, 120].map(|count| {
-            encoder
-                .update((from + count).rem_euclid(16_384) as u16)
-                .unwrap();
+            encoder.update((from + count).rem_euclid(16_384) as u16).unwrap();
             encoder.position()
         })
     };
@@ -410,53 +369,26 @@ fn a_range_that_an_encoder_does_not_resolve_is_refused() {
     };
     let within = |lower, upper| JointRange::Within { lower, upper };
     for (lower, upper) in [(1.0, -1.0), (f32::NAN, 1.0), (f32::NEG_INFINITY, 1.0)] {
-        assert_eq!(
-            of(1.0, within(lower, upper), 1e-3),
-            Err(MappingError::Range)
-        );
+        assert_eq!(of(1.0, within(lower, upper), 1e-3), Err(MappingError::Range));
     }
     assert_eq!(of(1.0, within(-3.139, 3.139), 1e-3), Ok(()));
-    assert_eq!(
-        of(1.0, within(-3.141_52, 3.141_52), 1e-3),
-        Err(MappingError::Turns)
-    );
+    assert_eq!(of(1.0, within(-3.141_52, 3.141_52), 1e-3), Err(MappingError::Turns));
     assert_eq!(of(2.0, within(-3.0, 3.0), 1e-3), Err(MappingError::Turns));
     assert_eq!(of(0.5, within(-6.279, 6.279), 1e-3), Ok(()));
-    assert_eq!(
-        of(1.0, JointRange::Near(f32::NAN), 1e-3),
-        Err(MappingError::Range)
-    );
-    assert_eq!(
-        of(100.0, JointRange::Near(1100.0), 1e-3),
-        Err(MappingError::Range)
-    );
+    assert_eq!(of(1.0, JointRange::Near(f32::NAN), 1e-3), Err(MappingError::Range));
+    assert_eq!(of(100.0, JointRange::Near(1100.0), 1e-3), Err(MappingError::Range));
     for ratio in [2.0, 0.7, 100.0] {
-        assert_eq!(
-            of(ratio, JointRange::Continuous, 1e-3),
-            Err(MappingError::Circle)
-        );
+        assert_eq!(of(ratio, JointRange::Continuous, 1e-3), Err(MappingError::Circle));
     }
     for step in [0.0, -1.0, f32::NAN, f32::INFINITY, 0.032] {
-        assert_eq!(
-            of(100.0, JointRange::Near(0.0), step),
-            Err(MappingError::Step)
-        );
+        assert_eq!(of(100.0, JointRange::Near(0.0), step), Err(MappingError::Step));
     }
     // A counter of 16 bits and 2²⁴ counts per turn goes round in a 512th of a turn.
     let fine = Resolution::new(1 << 24).unwrap();
     let timer = || (|| 0_u16, || None);
     for (step, fits) in [(0.005, true), (0.02, false)] {
-        let mapping = JointMapping::IDENTITY
-            .with_range(within(-1.0, 1.0), step)
-            .unwrap();
+        let mapping = JointMapping::IDENTITY.with_range(within(-1.0, 1.0), step).unwrap();
         let made = IncrementalEncoder::new(timer(), fine, mapping).map(|_| ());
-        assert_eq!(
-            made,
-            if fits {
-                Ok(())
-            } else {
-                Err(MappingError::Step)
-            }
-        );
+        assert_eq!(made, if fits { Ok(()) } else { Err(MappingError::Step) });
     }
 }

@@ -50,10 +50,7 @@ pub struct Duties {
 
 impl Duties {
     /// No voltage between the phases: 50 % each.
-    pub const ZERO: Self = Self {
-        phases: [0.5; 3],
-        is_saturated: false,
-    };
+    pub const ZERO: Self = Self { phases: [0.5; 3], is_saturated: false };
 
     /// The duties for `v_d` and `v_q` in V at an electrical angle in rad, from a supply of `v_dc`
     /// V.
@@ -142,11 +139,7 @@ impl<Pwm: SetDutyCycle> ThreePhase<Pwm> {
     /// once.
     pub fn new(pwms: [Pwm; 3], commutation: JointMapping) -> Self {
         let max = pwms.each_ref().map(SetDutyCycle::max_duty_cycle);
-        Self {
-            pwms,
-            max,
-            commutation,
-        }
+        Self { pwms, max, commutation }
     }
 
     /// Sets `v_d` and `v_q` in V while the rotor is at `angle` rad and the supply at `v_dc` V, as
@@ -191,10 +184,7 @@ impl<Pwm: SetDutyCycle> ThreePhase<Pwm> {
         let counts = (duty * f32::from(self.max[phase]) + 0.5) as u16;
         self.pwms[phase]
             .set_duty_cycle(counts)
-            .map_err(|error| PhaseError {
-                phase,
-                kind: error.kind(),
-            })
+            .map_err(|error| PhaseError { phase, kind: error.kind() })
     }
 
     /// Returns the PWM channels to their owner.

@@ -37,10 +37,8 @@ fn the_as5047p_is_commanded_as_its_data_sheet_says() {
 #[test]
 fn the_as5047p_counts_turns_and_maps_them_to_the_joint() {
     let raws = [16_000, 16_383, 0, 4096, 8192, 12_288, 0];
-    let frames: Vec<_> = raws
-        .iter()
-        .flat_map(|raw| frame(READ_ANGLE, as5047p::encode(*raw)))
-        .collect();
+    let frames: Vec<_> =
+        raws.iter().flat_map(|raw| frame(READ_ANGLE, as5047p::encode(*raw))).collect();
     let mapping = JointMapping::new(FRAC_PI_2, Direction::Reverse, 2.0).unwrap();
     let mut encoder = As5047p::new(spi::Mock::new(&frames), near_zero(mapping));
     for counts in [-384, -1, 0, 4096, 8192, 12_288, 16_384] {
@@ -105,10 +103,9 @@ fn every_as5047p_frame_is_an_angle_or_an_error() {
                 assert!(raw < as5047p::COUNTS && as5047p::encode(raw) == frame);
             }
             Err(FrameError::Parity) => assert_eq!(frame.count_ones() % 2, 1),
-            Err(error) => assert_eq!(
-                (error, frame & as5047p::ERROR != 0),
-                (FrameError::Flag, true)
-            ),
+            Err(error) => {
+                assert_eq!((error, frame & as5047p::ERROR != 0), (FrameError::Flag, true))
+            }
         }
     }
     assert_eq!(angles, 16_384);
@@ -171,10 +168,7 @@ fn a_first_reading_lies_in_the_joints_range() {
     ];
     for (zero, direction, ratio, half) in joints {
         let mapping = JointMapping::new(zero, direction, ratio).unwrap();
-        let range = JointRange::Within {
-            lower: -half,
-            upper: half,
-        };
+        let range = JointRange::Within { lower: -half, upper: half };
         let mapping = mapping.with_range(range, 5e-3).unwrap();
         for part in [-1.0, -0.5, 0.0, 0.5, 1.0] {
             let truth = part * half;

@@ -103,10 +103,7 @@ fn an_angle_within_a_turn_has_both_signs() {
 
 #[test]
 fn a_frame_has_its_identifier_and_a_length_that_has_a_code() {
-    let (standard, extended) = (
-        StandardId::new(0x101).unwrap(),
-        ExtendedId::new(0x101).unwrap(),
-    );
+    let (standard, extended) = (StandardId::new(0x101).unwrap(), ExtendedId::new(0x101).unwrap());
     let data: [u8; 64] = core::array::from_fn(|at| at as u8);
     for length in 0..=64 {
         let frame = FdFrame::new(standard, &data[..length]);

@@ -78,10 +78,7 @@ fn odrive_commands_are_the_protocols_golden_frames() {
     for (frame, id, data) in golden {
         assert_eq!(frame, Ok(ClassicFrame(standard(id, data))));
     }
-    for (request, id) in [
-        (axis.request_estimates(), 0x29),
-        (axis.request_torques(), 0x3c),
-    ] {
+    for (request, id) in [(axis.request_estimates(), 0x29), (axis.request_torques(), 0x3c)] {
         let remote: ClassicFrame = request.unwrap();
         assert!(remote.is_remote_frame());
         assert_eq!(remote.id(), StandardId::new(id).unwrap().into());
@@ -95,15 +92,9 @@ fn odrive_replies_are_mapped_to_the_joint() {
     let mut axis = ODrive::new(0, 100.0, near_it.unwrap()).unwrap();
     // The heartbeat that the documentation of odrive-can encodes: error 1, state 11, homing.
     let heartbeat = standard(0x001, &[1, 0, 0, 0, 0x0b, 0, 0, 0]);
-    let expected = Reply::Heartbeat {
-        errors: 1,
-        state: AxisState::Other(11),
-    };
+    let expected = Reply::Heartbeat { errors: 1, state: AxisState::Other(11) };
     assert_eq!(axis.reply(&heartbeat), Ok(expected));
-    let running = Reply::Heartbeat {
-        errors: 0x4000_0000,
-        state: AxisState::ClosedLoopControl,
-    };
+    let running = Reply::Heartbeat { errors: 0x4000_0000, state: AxisState::ClosedLoopControl };
     let heartbeat = standard(0x001, &[0, 0, 0, 0x40, 8, 0, 1, 0]);
     assert_eq!(axis.reply(&heartbeat), Ok(running));
     // 1.5 rev and −0.25 rev/s.
@@ -210,25 +201,16 @@ fn moteus_commands_are_too_long_for_classic_can() {
 /// The reply to a query: mode and fault as int8, three f32.
 fn moteus_reply(mode: u8, values: [f32; 3], fault: u8) -> Vec<u8> {
     let values = values.map(f32::to_le_bytes).concat();
-    [
-        &[0x21, 0x00, mode, 0x2f, 0x01][..],
-        &values,
-        &[0x21, 0x0f, fault],
-    ]
-    .concat()
+    [&[0x21, 0x00, mode, 0x2f, 0x01][..], &values, &[0x21, 0x0f, fault]].concat()
 }
 
 #[test]
 fn moteus_replies_of_every_type_are_mapped_to_the_joint() {
     let mut joint = Moteus::new(1, 0, 100.0, identity()).unwrap();
     // The document's example: position 2.88°, velocity 23.04°/s, torque −1.44 N·m, as int16.
-    let golden = [
-        0x24, 4, 0, 0x0a, 0, 0x50, 0, 0, 1, 0x70, 0xff, 0x23, 0x0d, 0x18, 0x14, 0,
-    ];
+    let golden = [0x24, 4, 0, 0x0a, 0, 0x50, 0, 0, 1, 0x70, 0xff, 0x23, 0x0d, 0x18, 0x14, 0];
     // The same as int32, with the count in the type, and as int8 where the resolution allows it.
-    let mut wide = vec![
-        0x2b, 1, 0x20, 3, 0, 0, 0, 0x19, 0, 0, 0x60, 0xfa, 0xff, 0xff,
-    ];
+    let mut wide = vec![0x2b, 1, 0x20, 3, 0, 0, 0, 0x19, 0, 0, 0x60, 0xfa, 0xff, 0xff];
     wide.extend([0x50, 0x21, 0, 10, 0x20, 1, 0x0f, 0]);
     wide.resize(24, 0x50);
     for data in [&golden[..], &wide] {
@@ -242,12 +224,8 @@ fn moteus_replies_of_every_type_are_mapped_to_the_joint() {
     }
     // Registers that were not queried are skipped, whatever their type.
     for (kind, size) in [(0x21, 1), (0x25, 2), (0x29, 4), (0x2d, 4)] {
-        let mut data = [
-            &[kind, 0x0d][..],
-            &vec![0x30; size],
-            &moteus_reply(10, [0.5; 3], 0),
-        ]
-        .concat();
+        let mut data =
+            [&[kind, 0x0d][..], &vec![0x30; size], &moteus_reply(10, [0.5; 3], 0)].concat();
         data.resize(32, 0x50);
         let state = joint.reply(&standard(0x100, &data)).unwrap();
         assert!(near(state.position, PI));

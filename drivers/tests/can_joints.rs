@@ -40,9 +40,7 @@ impl Can for Bus {
 /// A reply of a moteus: mode, position in f32 turns, no velocity, no torque, a fault.
 fn reply(node: u32, mode: u8, turns: f32, fault: u8) -> FdFrame {
     let [q0, q1, q2, q3] = turns.to_le_bytes();
-    let data = [
-        0x21, 0, mode, 0x2f, 1, q0, q1, q2, q3, 0, 0, 0, 0, 0, 0, 0, 0, 0x21, 0x0f, fault,
-    ];
+    let data = [0x21, 0, mode, 0x2f, 1, q0, q1, q2, q3, 0, 0, 0, 0, 0, 0, 0, 0, 0x21, 0x0f, fault];
     FdFrame::new(ExtendedId::new(node << 8).unwrap(), &data).unwrap()
 }
 
@@ -67,10 +65,7 @@ const HALF_A_TURN: [u8; 8] = [0, 0, 0, 0x3f, 0, 0, 0, 0];
 
 fn heard(received: &[FdFrame]) -> Bus {
     let received = received.to_vec();
-    Bus {
-        received,
-        ..Bus::default()
-    }
+    Bus { received, ..Bus::default() }
 }
 
 const fn at(joint: usize, error: CanError) -> JointError<CanError> {
@@ -100,10 +95,7 @@ fn a_bus_that_fails_or_is_full_is_an_error() {
         (nb::Error::Other(overrun), CanError::Bus(overrun)),
         (nb::Error::WouldBlock, CanError::Full),
     ] {
-        let joints = joints(Bus {
-            error: Some(error),
-            ..Bus::default()
-        });
+        let joints = joints(Bus { error: Some(error), ..Bus::default() });
         assert_eq!((&joints).set_torques(&[0.0; 2]), Err(at(0, expected)));
     }
 }

@@ -159,22 +159,12 @@ fn config() -> MotionControllerConfig<f32, 2> {
     }
 }
 
-const GAINS: Gains<f32, 2> = Gains {
-    kp: [0.0; 2],
-    kd: [0.0; 2],
-};
+const GAINS: Gains<f32, 2> = Gains { kp: [0.0; 2], kd: [0.0; 2] };
 
 impl Wires {
     fn arm(&self) -> Arm<'_> {
         let brake = Brake(&self.brake);
-        ControlLoop::new(
-            self.encoders(),
-            self.drives(),
-            brake,
-            GAINS,
-            controller(),
-            (),
-        )
+        ControlLoop::new(self.encoders(), self.drives(), brake, GAINS, controller(), ())
     }
 
     fn encoders(&self) -> [Encoder<'_>; 2] {
@@ -200,10 +190,7 @@ fn at_rest() -> State<f32, 2, 2> {
 }
 
 /// The broken wire of the first joint.
-const WIRE: JointError<&Broken> = JointError {
-    joint: 0,
-    error: &Broken::Wire,
-};
+const WIRE: JointError<&Broken> = JointError { joint: 0, error: &Broken::Wire };
 
 #[test]
 fn an_encoder_error_names_its_joint() {
@@ -355,11 +342,7 @@ fn a_loop_on_circles_turns_without_end() {
         // The angle of a whole number of ticks, of which 2513 are a turn.
         let q = TAU / 2513.0 * (tick % 2513) as f32;
         let qd = TAU / 2.513;
-        State {
-            q: [q, -q],
-            qd: [qd, -qd],
-            qdd: [0.0; 2],
-        }
+        State { q: [q, -q], qd: [qd, -qd], qdd: [0.0; 2] }
     });
     let mut config = config();
     let limits = &mut config.supervisor.limits;

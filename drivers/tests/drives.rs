@@ -13,11 +13,7 @@ use joint_drivers::{Direction, JointMapping};
 /// A PWM channel of 1000 counts that expects these duties.
 pub(crate) fn channel(duties: &[u16]) -> pwm::Mock {
     let mut all = vec![pwm::Transaction::max_duty_cycle(1000)];
-    all.extend(
-        duties
-            .iter()
-            .map(|duty| pwm::Transaction::set_duty_cycle(*duty)),
-    );
+    all.extend(duties.iter().map(|duty| pwm::Transaction::set_duty_cycle(*duty)));
     pwm::Mock::new(&all)
 }
 
@@ -53,10 +49,9 @@ fn locked_antiphase_maps_zero_and_nan_to_half_duty() {
 fn locked_antiphase_duty_is_linear_saturated_and_directed() {
     let torques = [-9.0, -3.0, -1.5, 1.5, 3.0, f32::INFINITY];
     let duties = [0, 0, 250, 750, 1000, 1000];
-    for (direction, duties) in [
-        (Direction::Forward, duties),
-        (Direction::Reverse, duties.map(|duty| 1000 - duty)),
-    ] {
+    for (direction, duties) in
+        [(Direction::Forward, duties), (Direction::Reverse, duties.map(|duty| 1000 - duty))]
+    {
         let mut drive = LockedAntiphase::new(channel(&duties), newton_metres(3.0), direction);
         for torque in torques {
             drive.set_torque(torque).unwrap();
@@ -169,13 +164,7 @@ fn the_forward_transforms_of_the_duties_are_the_commanded_voltages() {
     let (mut worst, v_dc) = (0.0_f64, 24.0);
     for step in -200..200 {
         let angle = (step as f32) * 0.37;
-        for [d, q] in [
-            [0.0, 13.8],
-            [0.0, -13.8],
-            [5.0, 0.0],
-            [-4.0, 9.0],
-            [3.0, -1.0],
-        ] {
+        for [d, q] in [[0.0, 13.8], [0.0, -13.8], [5.0, 0.0], [-4.0, 9.0], [3.0, -1.0]] {
             let duties = Duties::new(d, q, angle, v_dc as f32);
             assert!(!duties.is_saturated);
             let (d_out, q_out) = park(duties.phases, f64::from(angle), v_dc);
@@ -256,11 +245,7 @@ fn a_phase_error_removes_the_voltage_from_all_phases() {
         pwm::Transaction::set_duty_cycle(644).with_error(failure()),
         pwm::Transaction::set_duty_cycle(500).with_error(failure()),
     ];
-    let channels = [
-        channel(&[500, 500]),
-        pwm::Mock::new(&transactions),
-        channel(&[500]),
-    ];
+    let channels = [channel(&[500, 500]), pwm::Mock::new(&transactions), channel(&[500])];
     let mut motor = ThreePhase::new(channels, JointMapping::IDENTITY);
     let PhaseError { phase, kind, .. } = motor.set_voltage(0.0, 4.0, 0.0, 24.0).unwrap_err();
     assert_eq!((phase, kind), (1, PwmKind::Other));

@@ -51,9 +51,7 @@ impl ReadReady for Port {
 
 impl Write for Port {
     fn write(&mut self, bytes: &[u8]) -> Result<usize, ErrorKind> {
-        bytes
-            .iter()
-            .try_for_each(|byte| self.mock.write(*byte).map_err(kind))?;
+        bytes.iter().try_for_each(|byte| self.mock.write(*byte).map_err(kind))?;
         Ok(bytes.len())
     }
 
@@ -89,16 +87,11 @@ fn port(steps: &[Step]) -> Port {
             Step::Received(bytes) => transactions.push(Transaction::read_many(bytes)),
             Step::Timeout => transactions.push(Transaction::read_error(nb::Error::WouldBlock)),
             Step::Broken => {
-                transactions.push(Transaction::read_error(nb::Error::Other(
-                    SerialError::Noise,
-                )));
+                transactions.push(Transaction::read_error(nb::Error::Other(SerialError::Noise)));
             }
         }
     }
-    Port {
-        mock: Mock::new(&transactions),
-        stale: 0,
-    }
+    Port { mock: Mock::new(&transactions), stale: 0 }
 }
 
 /// The servos 1 to N, without a mapping, on a port with these steps.
@@ -141,10 +134,7 @@ fn packets_are_the_golden_ones_of_the_protocol_manual() {
             Packet::sync_read(&[1, 2], PRESENT_POSITION, 8),
             &[0xff, 0xff, 0xfe, 0x06, 0x82, 0x38, 0x08, 0x01, 0x02, 0x36],
         ),
-        (
-            Packet::sync_write(GOAL_POSITION, (1..=4).map(|id| (id, goal))),
-            &four,
-        ),
+        (Packet::sync_write(GOAL_POSITION, (1..=4).map(|id| (id, goal))), &four),
     ];
     for (packet, bytes) in golden {
         assert_eq!(packet.unwrap().bytes(), bytes);
@@ -172,9 +162,7 @@ fn replies_are_the_golden_ones_of_the_protocol_manual() {
 fn six_positions_are_read_in_one_exchange() {
     let request = Packet::sync_read(&[1, 2, 3, 4, 5, 6], PRESENT_POSITION, 2).unwrap();
     let counts = [0_u16, 1024, 2048, 4095, 0x8400, 0x7fff];
-    let replies = (1..)
-        .zip(counts)
-        .map(|(id, counts)| reply(id, 0, &counts.to_le_bytes()));
+    let replies = (1..).zip(counts).map(|(id, counts)| reply(id, 0, &counts.to_le_bytes()));
     let replies: Vec<u8> = replies.flatten().collect();
     // The figures of the module's documentation.
     assert_eq!(request.bytes().len() + replies.len(), 62);
@@ -207,25 +195,17 @@ fn goals_of_all_servos_are_sent_in_one_packet() {
     assert_eq!(packets[0].bytes().len(), 26);
     let transactions = packets.map(|packet| sent(packet.bytes()));
     // The range of each joint is one turn of its servo, from its count 0: no reading is needed.
-    let range = JointRange::Within {
-        lower: 0.0,
-        upper: 4093.0 / 2048.0 * PI,
-    };
+    let range = JointRange::Within { lower: 0.0, upper: 4093.0 / 2048.0 * PI };
     let mapping = JointMapping::IDENTITY.with_range(range, 1e-3).unwrap();
     let port = port(&transactions);
     let mut servos = Servos::new(port, [1, 2, 3, 4, 5, 6], [mapping; 6]).unwrap();
-    servos
-        .set_duties(&[0.0, 0.5, -0.25, 7.0, f32::NEG_INFINITY, f32::NAN])
-        .unwrap();
+    servos.set_duties(&[0.0, 0.5, -0.25, 7.0, f32::NEG_INFINITY, f32::NAN]).unwrap();
     let count = PI / 2048.0;
     let ends = [0.6, -0.4, 4095.4].map(|counts| counts * count);
     let goals = [0.0, FRAC_PI_2, PI, ends[0], ends[1], ends[2]];
     servos.set_positions(&goals).unwrap();
     let beyond = [-0.6, 4095.6].map(|counts| counts * count);
-    for goal in [f32::NAN, f32::INFINITY, 60.0, -60.0]
-        .into_iter()
-        .chain(beyond)
-    {
+    for goal in [f32::NAN, f32::INFINITY, 60.0, -60.0].into_iter().chain(beyond) {
         let mut goals = [0.0; 6];
         goals[3] = goal;
         let refused = Err(FeetechError::Goal { joint: 3 });
@@ -244,20 +224,14 @@ fn goals_of_all_servos_are_sent_in_one_packet() {
 /// At zero the servo is at 5.9 rad, count 3846; its seam is at +0.38 rad.
 #[test]
 fn a_servo_reads_small_steps_across_its_seam() {
-    let range = JointRange::Within {
-        lower: -0.8,
-        upper: 0.8,
-    };
+    let range = JointRange::Within { lower: -0.8, upper: 0.8 };
     let mapping = JointMapping::new(5.9, Direction::Forward, 1.0).unwrap();
     let mapping = mapping.with_range(range, 0.1).unwrap();
     let request = Packet::sync_read(&[1], PRESENT_POSITION, 2).unwrap();
     let turn = |truth: f32| ((truth + 5.9) / (2.0 * PI)).rem_euclid(1.0);
     let reading = |truth| {
         let count = (turn(truth) * 4096.0).round() as u16 & 4095;
-        [
-            sent(request.bytes()),
-            received(&reply(1, 0, &count.to_le_bytes())),
-        ]
+        [sent(request.bytes()), received(&reply(1, 0, &count.to_le_bytes()))]
     };
     let goal = Packet::sync_write(GOAL_POSITION, [(1, 141_u16.to_le_bytes())]).unwrap();
     let truths: Vec<f32> = (-8..=8).map(|step| 0.1 * step as f32).collect();

@@ -142,9 +142,8 @@ fn a_wide_index_is_tolerated_within_its_width() {
         let (mut counts, mut indices) = ([5, 50].into_iter(), [2, 42 + excess].into_iter());
         let timer = (move || counts.next().unwrap(), move || indices.next());
         let resolution = Resolution::new(TURN as u32).unwrap();
-        let mut encoder = IncrementalEncoder::new(timer, resolution, identity())
-            .unwrap()
-            .with_index_width(width);
+        let mut encoder =
+            IncrementalEncoder::new(timer, resolution, identity()).unwrap().with_index_width(width);
         encoder.read().unwrap();
         encoder.read()
     };
@@ -157,9 +156,7 @@ fn the_decoder_follows_levels_that_pins_return() {
     let path: Vec<i32> = (1..=5).chain((1..5).rev()).collect();
     let pin = |level: fn((bool, bool, bool)) -> bool| {
         let state = |high| if high { State::High } else { State::Low };
-        let reads = path
-            .iter()
-            .map(|count| Transaction::get(state(level(levels(*count)))));
+        let reads = path.iter().map(|count| Transaction::get(state(level(levels(*count)))));
         Mock::new(&reads.collect::<Vec<_>>())
     };
     let mut pins = [pin(|(a, _, _)| a), pin(|(_, b, _)| b), pin(|(_, _, z)| z)];

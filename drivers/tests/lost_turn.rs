@@ -56,10 +56,7 @@ impl Law<1> for Unit {
     }
 }
 
-const GAINS: Gains<f32, 1> = Gains {
-    kp: [400.0],
-    kd: [40.0],
-};
+const GAINS: Gains<f32, 1> = Gains { kp: [400.0], kd: [40.0] };
 
 /// The joint, its motor's encoder and its drive.
 #[derive(Clone, Default)]
@@ -141,10 +138,7 @@ const LOST: [(u32, bool); 8] = [
 #[test]
 fn no_ride_through_ends_a_lost_turn_which_its_place_clears() {
     let categories = [StopCategory::ControlledOff, StopCategory::ControlledHold];
-    for (lost, category) in LOST
-        .iter()
-        .flat_map(|lost| categories.map(|one| (lost, one)))
-    {
+    for (lost, category) in LOST.iter().flat_map(|lost| categories.map(|one| (lost, one))) {
         let (lost, is_unknown) = *lost;
         let joint = Joint::default();
         joint.qd.set(2.0);

@@ -43,16 +43,10 @@ fn main() -> Result<(), ModelError> {
     }
 
     // An inertia that is not physical is rejected, and the error names the body.
-    let damaged = BodyInertia {
-        mass: f32::NAN,
-        ..described
-    };
+    let damaged = BodyInertia { mass: f32::NAN, ..described };
     let error = calibrated(damaged).expect_err("no mass");
     println!("{error}");
     assert_eq!(error.body, "upper_arm");
-    assert!(matches!(
-        error.problem,
-        Problem::Mass(_) | Problem::NotFinite
-    ));
+    assert!(matches!(error.problem, Problem::Mass(_) | Problem::NotFinite));
     Ok(())
 }

@@ -16,16 +16,9 @@ const TICK: f32 = 1e-3;
 /// result.
 fn control(reference: &State<f32, 3, 3>, q: &[f32; 3], qd: &[f32; 3]) -> [f32; 3] {
     let (omega, zeta) = (30.0, 1.0); // rad/s, and no overshoot
-    let mut wanted = State {
-        q: *q,
-        qd: *qd,
-        qdd: reference.qdd,
-    };
+    let mut wanted = State { q: *q, qd: *qd, qdd: reference.qdd };
     for joint in 0..3 {
-        let (error, rate) = (
-            reference.q[joint] - q[joint],
-            reference.qd[joint] - qd[joint],
-        );
+        let (error, rate) = (reference.q[joint] - q[joint], reference.qd[joint] - qd[joint]);
         wanted.qdd[joint] += omega * (omega * error + 2.0 * zeta * rate);
     }
     Core::<A1Leg>::rnea(&wanted, &RIGID_BODY)

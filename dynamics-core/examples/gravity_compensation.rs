@@ -36,10 +36,7 @@ fn main() {
     println!("shoulder  elbow, rad | shoulder  elbow, N·m");
     for [shoulder, elbow] in [[0.0_f32, 0.0], [0.5, 0.3], [-1.57, 0.0], [-1.0, -1.2]] {
         let tau = compensation([shoulder, elbow]);
-        println!(
-            "{shoulder:8.2} {elbow:6.2}      | {:8.3} {:6.3}",
-            tau[0], tau[1]
-        );
+        println!("{shoulder:8.2} {elbow:6.2}      | {:8.3} {:6.3}", tau[0], tau[1]);
 
         // The same by hand: weight times horizontal distance.
         let (upper, both) = (shoulder.sin(), (shoulder + elbow).sin());

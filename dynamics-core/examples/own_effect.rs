@@ -37,19 +37,13 @@ impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for GasSpring<R> {
 }
 
 fn main() {
-    let spring = GasSpring {
-        force: -900.0_f32,
-        crank: 0.05,
-    };
+    let spring = GasSpring { force: -900.0_f32, crank: 0.05 };
     println!("shoulder, rad | without  with the spring, N·m");
     for shoulder in [0.0, -0.4, -0.8, -1.2, -1.57] {
         let arm = State::at([0.0, shoulder, 0.4, 0.0, 0.0, 0.0]);
         let bare = Core::<Ur5e>::rnea(&arm, &RIGID_BODY);
         let helped = Core::<Ur5e>::rnea(&arm, &(RIGID_BODY, spring));
-        println!(
-            "{shoulder:13.2} | {:7.2}  {:7.2}",
-            bare[SHOULDER], helped[SHOULDER]
-        );
+        println!("{shoulder:13.2} | {:7.2}  {:7.2}", bare[SHOULDER], helped[SHOULDER]);
 
         let lever = 0.05 * shoulder.cos();
         assert!((helped[SHOULDER] - bare[SHOULDER] - 900.0 * lever).abs() < 1e-3);

@@ -48,13 +48,7 @@ fn main() {
         assert!((tau[0] - 7.2 * (9.81 + state.qdd[0])).abs() < 1e-4);
         // The textbook algorithm in f64 agrees.
         let qdd = state.qdd.map(f64::from);
-        let exact = Core::<Scara>::rnea(
-            &State {
-                qdd,
-                ..State::at([0.1, 0.4, 0.6])
-            },
-            &RIGID_BODY,
-        );
+        let exact = Core::<Scara>::rnea(&State { qdd, ..State::at([0.1, 0.4, 0.6]) }, &RIGID_BODY);
         for (tau, exact) in tau.iter().zip(exact) {
             assert!((f64::from(*tau) - exact).abs() < 1e-4);
         }

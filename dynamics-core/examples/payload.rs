@@ -28,10 +28,7 @@ fn main() -> Result<(), InvalidPayload> {
         com: [0.0, 0.0, 0.06],
         inertia: [1e-3, 0.0, 0.0, 1e-3, 0.0, 5e-4],
     });
-    let arm = State {
-        qdd: [0.5; 6],
-        ..State::at([0.0_f32, -0.8, 0.9, 0.1, 0.2, 0.3])
-    };
+    let arm = State { qdd: [0.5; 6], ..State::at([0.0_f32, -0.8, 0.9, 0.1, 0.2, 0.3]) };
     let bare = Engine::<Ur5e>::rnea(&arm, &(RIGID_BODY, gripper));
     println!("load, kg | shoulder  elbow, N·m");
     let mut last = bare[1];

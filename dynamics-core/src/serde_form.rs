@@ -55,9 +55,7 @@ impl<'de, T: Deserialize<'de>, const N: usize> Visitor<'de> for Elements<T, N> {
         }
         let found = values.len();
         let array = values.into_array();
-        array
-            .map(Array)
-            .map_err(|_| A::Error::invalid_length(found, &self))
+        array.map(Array).map_err(|_| A::Error::invalid_length(found, &self))
     }
 }
 
@@ -128,10 +126,7 @@ impl<R: Real, const H: usize, const N: usize> Form<Array<Array<R, H>, N>> for [[
 /// not compile. What its `check` refuses is not read.
 #[macro_export]
 #[doc(hidden)]
-#[allow(
-    clippy::crate_in_macro_def,
-    reason = "the struct is of the crate that calls it"
-)]
+#[allow(clippy::crate_in_macro_def, reason = "the struct is of the crate that calls it")]
 macro_rules! serde_record {
     ($module:ident::$name:ident<R $(, $n:ident)*> { $($field:ident: $form:ty),+ $(,)? } $($check:ident)?) => {
         const _: () = {

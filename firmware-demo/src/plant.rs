@@ -110,12 +110,7 @@ where
         q: [f32; Q],
         apply: fn(&mut E, &X),
     ) -> Self {
-        Self {
-            robot,
-            effects,
-            apply,
-            state: State::at(q),
-        }
+        Self { robot, effects, apply, state: State::at(q) }
     }
 }
 
@@ -171,14 +166,7 @@ where
         let plant = &mut self.0;
         (plant.apply)(&mut plant.effects, environment);
         let (tau, rest) = (padded(torque), Force::ZERO);
-        momentum_preserving(
-            &plant.robot,
-            &mut plant.state,
-            &tau,
-            &mut plant.effects,
-            rest,
-            h,
-        )
+        momentum_preserving(&plant.robot, &mut plant.state, &tau, &mut plant.effects, rest, h)
     }
 }
 

@@ -69,12 +69,7 @@ where
         wires.publish(&reference.at(0).q);
         let control =
             simulated_loop::<S, _, B, Q, V, N>(&reference, wires, ()).map_err(StartError::Setup)?;
-        Ok(Self {
-            reference,
-            wires,
-            control,
-            ticks: 0,
-        })
+        Ok(Self { reference, wires, control, ticks: 0 })
     }
 
     /// The ticks from the start of the reference to its end.
@@ -110,10 +105,7 @@ where
             self.show();
             let Telemetry { status, torque, .. } = tick(self);
             if !matches!(status.mode, Mode::Full) || status.fault.is_some() {
-                return Err(Interrupted {
-                    tick: number,
-                    status,
-                });
+                return Err(Interrupted { tick: number, status });
             }
             digest.add(torque);
         }

@@ -31,10 +31,7 @@ impl<const N: usize> Wires<N> {
 
     /// The SPI device of joint j's encoder.
     pub fn encoder(&'static self, j: usize) -> SimEncoder {
-        SimEncoder {
-            wire: &self.encoders[j],
-            answer: GARBAGE,
-        }
+        SimEncoder { wire: &self.encoders[j], answer: GARBAGE }
     }
 
     /// Lets joint j's encoder find an error: its answers carry the error flag until its error

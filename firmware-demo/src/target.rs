@@ -143,19 +143,9 @@ where
         defmt::println!("rms{}", Words(&errors.rms()));
         defmt::println!("max{}", Words(&errors.max));
         defmt::println!("total {=f32}", errors.total());
-        if let Some(Status {
-            mode,
-            fault,
-            limited,
-        }) = errors.status
-        {
+        if let Some(Status { mode, fault, limited }) = errors.status {
             let (mode, fault) = (defmt::Debug2Format(&mode), defmt::Debug2Format(&fault));
-            defmt::println!(
-                "status mode {}, fault {}, limited {=bool}",
-                mode,
-                fault,
-                limited
-            );
+            defmt::println!("status mode {}, fault {}, limited {=bool}", mode, fault, limited);
         }
     }
     defmt::println!("stack {=usize}", stack_peak());

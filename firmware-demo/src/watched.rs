@@ -130,11 +130,9 @@ where
     fn advance(&mut self, count: u32) -> bool {
         let environment = |ticks: f32| S::environment(&self.reference, ticks);
         let part = 1.0 / S::STEPS as f32;
-        let advanced = self
-            .rig
-            .advance(self.wires, S::STEPS, S::TICK * part, |step| {
-                environment(count as f32 + part * step as f32)
-            });
+        let advanced = self.rig.advance(self.wires, S::STEPS, S::TICK * part, |step| {
+            environment(count as f32 + part * step as f32)
+        });
         advanced.is_err()
     }
 
@@ -173,10 +171,7 @@ fn timed_tick<S, T, const B: usize, const Q: usize, const V: usize, const N: usi
     S: Scene<B, Q, V, N>,
     T: Timer,
 {
-    let timed = Timed::<T, N> {
-        sample,
-        timer: PhantomData,
-    };
+    let timed = Timed::<T, N> { sample, timer: PhantomData };
     control.tick_probed::<Full<S, B, Q, V>, _, _>(reference, environment, &mut Marked(timed));
 }
 
@@ -246,10 +241,7 @@ where
         link.is_some_and(|link| link.joint.kind == JointKind::Prismatic)
     };
     let limits = S::limits().into_iter().enumerate();
-    let joints = limits.map(|(joint, limits)| Axis {
-        limits,
-        prismatic: slides(joint),
-    });
+    let joints = limits.map(|(joint, limits)| Axis { limits, prismatic: slides(joint) });
     let mut name = String::new();
     // Longer names are cut short.
     let _ = S::NAME.chars().try_for_each(|letter| name.push(letter));

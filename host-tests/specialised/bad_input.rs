@@ -43,25 +43,13 @@ fn same(a: [f64; 3], b: [f64; 3]) -> bool {
 
 #[test]
 fn slides_come_from_the_posture_in_core_and_engine_alike() {
-    let there = State {
-        qd: [0.5, -0.7, 0.9],
-        qdd: [1.0, -2.0, 3.0],
-        ..State::at([0.3_f64, 0.5, 0.7])
-    };
-    let elsewhere = State {
-        q: [0.0; 3],
-        ..there
-    };
+    let there =
+        State { qd: [0.5, -0.7, 0.9], qdd: [1.0, -2.0, 3.0], ..State::at([0.3_f64, 0.5, 0.7]) };
+    let elsewhere = State { q: [0.0; 3], ..there };
     let trig = Engine::<Quill>::joint_trig(&there.q);
     let tau = Core::<Quill>::rnea(&there, &RIGID_BODY);
-    assert!(same(
-        Core::<Quill>::rnea(trig.with(&elsewhere), &RIGID_BODY),
-        tau
-    ));
-    assert!(same(
-        Engine::<Quill>::rnea(trig.with(&elsewhere), &RIGID_BODY),
-        tau
-    ));
+    assert!(same(Core::<Quill>::rnea(trig.with(&elsewhere), &RIGID_BODY), tau));
+    assert!(same(Engine::<Quill>::rnea(trig.with(&elsewhere), &RIGID_BODY), tau));
     let forward =
         Engine::<Quill>::forward_dynamics(trig.with(&elsewhere), &tau, &RIGID_BODY).unwrap();
     let articulated = Engine::<Quill>::aba(trig.with(&elsewhere), &tau, &RIGID_BODY).unwrap();
@@ -82,11 +70,7 @@ impl Robot<40, 1, 1> for Tray {
 // No wrench acts on them.
 #[test]
 fn many_bodies_may_move_with_one_joint() {
-    let state = State {
-        qd: [0.5],
-        qdd: [1.0],
-        ..State::at([0.3_f64])
-    };
+    let state = State { qd: [0.5], qdd: [1.0], ..State::at([0.3_f64]) };
     let [engine] = Engine::<Tray>::rnea(&state, &RIGID_BODY);
     let [core] = Core::<Tray>::rnea(&state, &RIGID_BODY);
     assert!((engine - core).abs() < 1e-12 * core.abs());
@@ -119,10 +103,7 @@ fn contact_friction_is_relative_to_the_moving_base() {
     // Friction alone: a turning base would add centrifugal forces with `Coriolis`, which is not in
     // the scene.
     let velocity = Motion::new(DVec3::new(0.3, -0.2, 0.5), DVec3::new(5.0, 1.0, -2.0));
-    let base = MovingBase {
-        velocity,
-        acceleration: Motion::ZERO,
-    };
+    let base = MovingBase { velocity, acceleration: Motion::ZERO };
     let scene = (Gravity::EARTH, floor(2), base);
     let near = |tau: [f64; 3]| std::iter::zip(tau, still).all(|(a, b)| (a - b).abs() < 1e-9);
     assert!(near(Core::<Quill>::rnea(&state, &scene)));
@@ -156,17 +137,11 @@ fn the_jacobian_of_a_missing_body_is_nan() {
     let q = [0.3, 0.5, 0.7];
     for body in [3, 17] {
         let (_, by_crba) = crba_jacobian(&Quill::MODEL, &q, body, &RIGID_BODY);
-        for column in jacobian(&Quill::MODEL, &q, body, LocalWorldAligned)
-            .iter()
-            .chain(&by_crba)
-        {
+        for column in jacobian(&Quill::MODEL, &q, body, LocalWorldAligned).iter().chain(&by_crba) {
             assert!(column.ang.is_nan() && column.lin.is_nan());
         }
     }
-    assert_eq!(
-        jacobian(&Quill::MODEL, &q, BASE, LocalWorldAligned),
-        [Motion::ZERO; 3]
-    );
+    assert_eq!(jacobian(&Quill::MODEL, &q, BASE, LocalWorldAligned), [Motion::ZERO; 3]);
 }
 
 #[test]
@@ -177,9 +152,7 @@ fn a_quaternion_of_any_length_is_an_attitude() {
     let want = weight(unit);
     for length in [3.0, 1e-3, 0.9, 1.2, 1e6] {
         let found = weight(unit.map(|x| x * length));
-        let off = std::iter::zip(found, want)
-            .map(|(a, b)| (a - b).abs())
-            .fold(0.0, f64::max);
+        let off = std::iter::zip(found, want).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         assert!(off < 1e-13, "{length}: {off:.1e}");
     }
     // Zero has no direction: no turn, as documented.

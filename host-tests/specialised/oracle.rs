@@ -33,11 +33,7 @@ struct Worst {
 
 impl Worst {
     fn new(quantity: &'static str, full_scale: f64) -> Self {
-        Self {
-            quantity,
-            full_scale,
-            error: 0.0,
-        }
+        Self { quantity, full_scale, error: 0.0 }
     }
 
     fn see<R: Real, const N: usize>(&mut self, got: [R; N], want: [f64; N]) {
@@ -228,30 +224,22 @@ fn matrices<R: Real, T, const B: usize, const Q: usize, const V: usize>(
         let wanted_inverse = symmetric::<V>(&r.inverse_mass_matrix, i);
         for k in 0..V {
             m_worst.see::<R, V>(std::array::from_fn(|l| m.get(k, l)), wanted[k]);
-            inverse_worst.see::<R, V>(
-                std::array::from_fn(|l| inverted.get(k, l)),
-                wanted_inverse[k],
-            );
+            inverse_worst
+                .see::<R, V>(std::array::from_fn(|l| inverted.get(k, l)), wanted_inverse[k]);
         }
     }
     let (scalar, kappa) = (std::any::type_name::<R>(), r.condition);
     verdict.check(&r.robot, m_worst.quantity, scalar, m_worst.error);
     let (floor, epsilon) = (1e-11_f64, f64::EPSILON);
     let (error, double) = (inverse_worst.error, scalar == "f64");
-    println!(
-        "{scalar} M⁻¹ of {}: {error:.1e}, κ(M) = {kappa:.1e}",
-        r.robot
-    );
+    println!("{scalar} M⁻¹ of {}: {error:.1e}, κ(M) = {kappa:.1e}", r.robot);
     let bound = if double {
         floor.max(10.0 * kappa * epsilon)
     } else {
         10.0 * kappa * f64::from(f32::EPSILON)
     };
     if error.is_nan() || error > bound {
-        verdict.0.push(format!(
-            "{scalar} M⁻¹ of {}: {error:.1e} > {bound:.1e}",
-            r.robot
-        ));
+        verdict.0.push(format!("{scalar} M⁻¹ of {}: {error:.1e} > {bound:.1e}", r.robot));
     }
 }
 

@@ -18,11 +18,7 @@ fn states<const N: usize>(recorded: &str) -> Vec<State<f64, N, N>> {
     let rows = recording.q.iter().zip(&recording.qd).zip(&recording.qdd);
     let mut random = random_numbers();
     rows.flat_map(|((q, qd), qdd)| {
-        let recorded = State {
-            q: first(q),
-            qd: first(qd),
-            qdd: first(qdd),
-        };
+        let recorded = State { q: first(q), qd: first(qd), qdd: first(qdd) };
         let other = State {
             q: within(&mut random, std::f64::consts::PI),
             qd: within(&mut random, 3.0),

@@ -196,11 +196,7 @@ fn a_wrist_without_mass_is_refused_in_gimbal_lock() {
         let bodies = [arm(rng), z, y, solid(rng, x)];
         let model = Model::<f64, 4, 4, 4>::new("wrist", bodies);
         let mut state = state_of(&model, rng);
-        state.q[2] = if rng.random_range(0.0..1.0) < 0.5 {
-            FRAC_PI_2
-        } else {
-            -FRAC_PI_2
-        };
+        state.q[2] = if rng.random_range(0.0..1.0) < 0.5 { FRAC_PI_2 } else { -FRAC_PI_2 };
         (model, state)
     });
 }
@@ -275,10 +271,7 @@ fn a_plate_between_two_motors_on_one_axis_is_named() {
         let double = verdicts(&far, &state);
         let single = verdicts(&far.to_f32(), &in_single(&state));
         for verdicts in [double, single] {
-            assert_eq!(
-                verdicts.map(|error| error.map(|error| error.joint)),
-                [Some(1); 7]
-            );
+            assert_eq!(verdicts.map(|error| error.map(|error| error.joint)), [Some(1); 7]);
         }
     }
 }

@@ -22,15 +22,11 @@ const ARM: Body = Body::new("arm", BASE, Joint::revolute([0.1, 0.9, -0.3]))
 const AXIS: [f64; 3] = [0.3, -0.2, 1.0];
 
 const fn on_arm(joint: Joint<f64>) -> Body {
-    Body::new("carrier", 0, joint)
-        .xyz([0.3, 0.1, 0.2])
-        .rpy([0.7, -0.4, 0.9])
+    Body::new("carrier", 0, joint).xyz([0.3, 0.1, 0.2]).rpy([0.7, -0.4, 0.9])
 }
 
 const fn solid(body: Body) -> Body {
-    body.mass(1.0)
-        .com([0.1, 0.0, 0.2])
-        .inertia([0.1, 0.0, 0.01, 0.12, 0.0, 0.1])
+    body.mass(1.0).com([0.1, 0.0, 0.2]).inertia([0.1, 0.0, 0.01, 0.12, 0.0, 0.1])
 }
 
 /// Two turns on one axis, and a plate without mass between them.

@@ -17,27 +17,14 @@ pub fn motions() -> Vec<(String, f32, Motion)> {
     let mut all: Vec<(String, f32, Motion)> = Vec::new();
     for (q, ulps) in [(0.51, 1), (0.78, 1), (0.51, 3), (-1.3, -2)] {
         let creep = move |_, q| moved(q, ulps);
-        all.push((
-            format!("creeps by {ulps} ulp a tick from {q}"),
-            q,
-            Box::new(creep),
-        ));
+        all.push((format!("creeps by {ulps} ulp a tick from {q}"), q, Box::new(creep)));
     }
-    for (ups, angles) in [
-        (2, &[0.3_f32, 0.6, 0.7, 0.75, 0.9, 1.2, 2.0, 3.0, -0.75][..]),
-        (3, &[0.6, 0.75]),
-    ] {
+    for (ups, angles) in
+        [(2, &[0.3_f32, 0.6, 0.7, 0.75, 0.9, 1.2, 2.0, 3.0, -0.75][..]), (3, &[0.6, 0.75])]
+    {
         for &at in angles {
-            let rest = move |k: u64, q| {
-                moved(
-                    q,
-                    if k % (ups + 1) < ups {
-                        1
-                    } else {
-                        -(ups as i32)
-                    },
-                )
-            };
+            let rest =
+                move |k: u64, q| moved(q, if k % (ups + 1) < ups { 1 } else { -(ups as i32) });
             all.push((
                 format!("rests at {at}, up by an ulp {ups} times and back"),
                 at,

@@ -43,13 +43,8 @@ pub enum Input {
     Torque,
 }
 
-pub const INPUTS: [Input; 5] = [
-    Input::Position,
-    Input::Reference(0),
-    Input::Reference(1),
-    Input::Reference(2),
-    Input::Torque,
-];
+pub const INPUTS: [Input; 5] =
+    [Input::Position, Input::Reference(0), Input::Reference(1), Input::Reference(2), Input::Torque];
 
 /// With the rotors of scene `ur5e`, without which the wrist weighs next to nothing.
 type Scene<R> = (Gravity, Inertia, Coriolis, Armature<R, 6>);
@@ -76,16 +71,10 @@ impl<R: Real> Bench<R> {
     /// to come back.
     pub fn new(step: f64, ticks: u32) -> Self {
         let of = |x: [f64; 6]| x.map(R::from_f64);
-        let stop = |q, ticks| WayPoint {
-            q: of(q),
-            qd: of([0.0; 6]),
-            ticks,
-        };
+        let stop = |q, ticks| WayPoint { q: of(q), qd: of([0.0; 6]), ticks };
         let away = HOME.map(|q| q + step);
-        let speeds = [MotionLimits {
-            velocity: R::from_f64(3.0),
-            acceleration: R::from_f64(30.0),
-        }; 6];
+        let speeds =
+            [MotionLimits { velocity: R::from_f64(3.0), acceleration: R::from_f64(30.0) }; 6];
         let points = [stop(HOME, 0), stop(away, ticks), stop(HOME, ticks)];
         let limits = SafetyLimits {
             torque: of(TORQUE),
@@ -146,21 +135,19 @@ impl<R: Real> Bench<R> {
         let (model, scene, gains) = (self.model, &self.scene, &self.gains);
         let followed = &mut self.aim;
         let trajectory = &self.trajectory;
-        let command = self
-            .controller
-            .tick(measured, trajectory, |reference, estimate| {
-                *followed = *reference;
-                let mut aim = *reference;
-                spoil(&mut aim.q, poison, Input::Reference(0));
-                spoil(&mut aim.qd, poison, Input::Reference(1));
-                spoil(&mut aim.qdd, poison, Input::Reference(2));
-                let mut tau = rnea(model, &aim, scene);
-                for (tau, pd) in tau.iter_mut().zip(feedback(gains, &aim, estimate)) {
-                    *tau += pd;
-                }
-                spoil(&mut tau, poison, Input::Torque);
-                tau
-            });
+        let command = self.controller.tick(measured, trajectory, |reference, estimate| {
+            *followed = *reference;
+            let mut aim = *reference;
+            spoil(&mut aim.q, poison, Input::Reference(0));
+            spoil(&mut aim.qd, poison, Input::Reference(1));
+            spoil(&mut aim.qdd, poison, Input::Reference(2));
+            let mut tau = rnea(model, &aim, scene);
+            for (tau, pd) in tau.iter_mut().zip(feedback(gains, &aim, estimate)) {
+                *tau += pd;
+            }
+            spoil(&mut tau, poison, Input::Torque);
+            tau
+        });
         (self.command, self.brake) = (command.torque, command.brake);
         command
     }

@@ -52,20 +52,15 @@ pub struct Placement {
 pub fn robot<const B: usize, const Q: usize, const V: usize>(model: &Model<f64, B, Q, V>) -> Robot {
     Robot {
         name: model.name.into(),
-        bodies: (0..B)
-            .map(|i| body(&model.links[i], model.in_link_frame(i)))
-            .collect(),
+        bodies: (0..B).map(|i| body(&model.links[i], model.in_link_frame(i))).collect(),
     }
 }
 
 fn body(link: &Link<f64>, (placement, inertia): (Xform<f64>, SpatialInertia<f64>)) -> Body {
     let (joint, kind) = (&link.joint, link.joint.kind);
     let universal = kind == JointKind::Universal;
-    let com = if inertia.mass > 0.0 {
-        inertia.first_moment / inertia.mass
-    } else {
-        inertia.first_moment
-    };
+    let com =
+        if inertia.mass > 0.0 { inertia.first_moment / inertia.mass } else { inertia.first_moment };
     let about_origin = inertia.rotational.to_cols_array_2d();
     let c = com.to_array().map(|x| x + 0.0); // no negative zero
     let about_com = |i: usize, j: usize| {
@@ -74,18 +69,9 @@ fn body(link: &Link<f64>, (placement, inertia): (Xform<f64>, SpatialInertia<f64>
     };
     Body {
         name: link.name.into(),
-        parent: if link.parent == BASE {
-            -1
-        } else {
-            link.parent as i64
-        },
+        parent: if link.parent == BASE { -1 } else { link.parent as i64 },
         joint: format!("{kind:?}").to_lowercase(),
-        axis: if universal {
-            joint.first_axis
-        } else {
-            joint.axis
-        }
-        .to_array(),
+        axis: if universal { joint.first_axis } else { joint.axis }.to_array(),
         axis2: universal.then(|| joint.axis.to_array()),
         pitch: (kind == JointKind::Helical).then_some(joint.pitch),
         placement: Placement {

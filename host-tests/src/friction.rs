@@ -81,14 +81,8 @@ impl Belt {
     /// away.
     pub fn run<R: Real>(&self) -> Cycle {
         let (of, h) = (R::from_f64, 5e-5);
-        let spring = Spring {
-            stiffness: [of(Self::STIFFNESS)],
-            rest: [R::ZERO],
-        };
-        let dry = Coulomb {
-            torque: [of(self.sliding)],
-            width: Width::new(of(self.width)),
-        };
+        let spring = Spring { stiffness: [of(Self::STIFFNESS)], rest: [R::ZERO] };
+        let dry = Coulomb { torque: [of(self.sliding)], width: Width::new(of(self.width)) };
         let stribeck = Stribeck {
             excess: [of(self.excess)],
             stribeck_speed: Width::new(of(self.speed)),

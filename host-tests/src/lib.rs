@@ -19,9 +19,5 @@ pub mod widen;
 /// Numbers of states, runs or ticks, or bounds of them: those of an everyday run, or with the
 /// feature `full` the second ones.
 pub const fn everyday_or_full<T: Copy>(everyday: T, full: T) -> T {
-    if cfg!(feature = "full") {
-        full
-    } else {
-        everyday
-    }
+    if cfg!(feature = "full") { full } else { everyday }
 }

@@ -10,10 +10,7 @@ pub fn largest<T: Into<f64>>(values: impl IntoIterator<Item = T>) -> f64 {
         true => largest,
         false => value,
     };
-    values
-        .into_iter()
-        .map(Into::into)
-        .fold(f64::NEG_INFINITY, larger)
+    values.into_iter().map(Into::into).fold(f64::NEG_INFINITY, larger)
 }
 
 /// The larger one, or the one that is not a number.
@@ -31,8 +28,5 @@ pub fn within(what: &str, measured: impl Into<f64>, bound: f64) {
     let measured = measured.into();
     let place = format!("{what}: {measured:.3e}, bound {bound:.1e}");
     assert!(measured <= bound, "{place}: exceeded");
-    assert!(
-        SLACK * measured >= bound,
-        "{place}: slack by more than ten times, lower it"
-    );
+    assert!(SLACK * measured >= bound, "{place}: slack by more than ten times, lower it");
 }

@@ -39,11 +39,7 @@ pub fn six_points(mut point: impl FnMut() -> (f64, [f64; 3])) -> (f64, [f64; 3],
 /// `body` at a random place, with the inertia of six points.
 pub fn random_body(rng: &mut TestRng, body: Body) -> Body {
     let (mass, com, inertia) = six_points(|| (rng.random_range(0.1..0.5), within(rng, 0.3)));
-    body.xyz(within(rng, 0.5))
-        .rpy(within(rng, 3.0))
-        .mass(mass)
-        .com(com)
-        .inertia(inertia)
+    body.xyz(within(rng, 0.5)).rpy(within(rng, 3.0)).mass(mass).com(com).inertia(inertia)
 }
 
 /// Bodies, position and velocity coordinates of [`mixed_tree`].
@@ -104,9 +100,5 @@ where
 {
     let mut q = within(rng, core::f64::consts::PI);
     normalise(robot, &mut q).expect("no random quaternion is zero");
-    State {
-        q,
-        qd: within(rng, 3.0),
-        qdd: within(rng, 10.0),
-    }
+    State { q, qd: within(rng, 3.0), qdd: within(rng, 10.0) }
 }

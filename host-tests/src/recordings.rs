@@ -186,10 +186,7 @@ pub fn read<T: serde::de::DeserializeOwned>(name: &str) -> T {
 /// # Panics
 /// If the sizes differ.
 pub fn row<const N: usize>(rows: &[Vec<f64>], state: usize) -> [f64; N] {
-    rows[state]
-        .as_slice()
-        .try_into()
-        .expect("the recording is of another robot")
+    rows[state].as_slice().try_into().expect("the recording is of another robot")
 }
 
 /// A recorded matrix of six rows, or a list of wrenches: its columns.
@@ -199,9 +196,7 @@ pub fn row<const N: usize>(rows: &[Vec<f64>], state: usize) -> [f64; N] {
 pub fn columns<const N: usize>(rows: &[Vec<f64>], state: usize) -> [[f64; 6]; N] {
     let (columns, rest) = rows[state].as_chunks::<6>();
     assert!(rest.is_empty(), "not six rows");
-    columns
-        .try_into()
-        .expect("the recording is of another robot")
+    columns.try_into().expect("the recording is of another robot")
 }
 
 /// A recorded symmetric matrix.
@@ -210,11 +205,7 @@ pub fn columns<const N: usize>(rows: &[Vec<f64>], state: usize) -> [[f64; 6]; N]
 /// If the sizes differ.
 pub fn symmetric<const N: usize>(rows: &[Vec<f64>], state: usize) -> [[f64; N]; N] {
     let entries = &rows[state];
-    assert_eq!(
-        entries.len(),
-        N * (N + 1) / 2,
-        "the recording is of another robot"
-    );
+    assert_eq!(entries.len(), N * (N + 1) / 2, "the recording is of another robot");
     // Row i of the triangle begins after N + (N − 1) + … entries.
     let entry = |i: usize, j: usize| entries[i * (2 * N + 1 - i) / 2 + j - i];
     std::array::from_fn(|i| std::array::from_fn(|j| entry(i.min(j), i.max(j))))

@@ -359,12 +359,7 @@ const TABLE: &[(&str, &str, f64, f64)] = &[
     ("a1_leg", "left out at 0.1 %", 2e-4, NONE),
     ("odd", "left out at 5 %", 2e-2, NONE),
     ("double pendulum", "energy kept for a second", 6e-14, 1e-5),
-    (
-        "double pendulum",
-        "compensated Runge-Kutta in fine steps",
-        NONE,
-        6e-7,
-    ),
+    ("double pendulum", "compensated Runge-Kutta in fine steps", NONE, 6e-7),
     ("four_bar", "forward of inverse dynamics", 4e-14, NONE),
     ("parallelogram", "forward of inverse dynamics", 4e-15, NONE),
     ("five_bar", "forward of inverse dynamics", 7e-15, NONE),
@@ -397,12 +392,7 @@ const TABLE: &[(&str, &str, f64, f64)] = &[
     ("four_bar", "recorded rates", 4e-15, 4e-7),
     ("four_bar", "recorded dependent accelerations", 6e-15, 5e-7),
     ("five_bar", "recorded rates", 1.5e-14, 4e-7),
-    (
-        "five_bar",
-        "recorded dependent accelerations",
-        1.5e-14,
-        5e-7,
-    ),
+    ("five_bar", "recorded dependent accelerations", 1.5e-14, 5e-7),
     ("delta", "recorded rates", 2e-14, 1.5e-6),
     ("delta", "recorded dependent accelerations", 4e-14, 1.5e-6),
     ("stewart", "recorded rates", 1e-14, 5e-7),
@@ -422,12 +412,7 @@ const TABLE: &[(&str, &str, f64, f64)] = &[
     ("four_bar_leg", "gravity", 1.5e-14, 1.5e-5),
     ("four_bar_leg", "engine gravity", 5e-15, 3e-6),
     ("four_bar_leg", "engine and core, gravity", 1e-14, 8e-6),
-    (
-        "four_bar_leg",
-        "engine and core, friction and rotors",
-        6e-15,
-        6e-6,
-    ),
+    ("four_bar_leg", "engine and core, friction and rotors", 6e-15, 6e-6),
     ("four_bar_leg", "aba", 1.5e-12, 5e-4),
     ("five_bar_leg", "position", 1.5e-15, NONE),
     ("five_bar_leg", "rate", 1.5e-15, NONE),
@@ -440,12 +425,7 @@ const TABLE: &[(&str, &str, f64, f64)] = &[
     ("five_bar_leg", "gravity", 6e-16, 1e-7),
     ("five_bar_leg", "engine gravity", 1e-15, 1e-7),
     ("five_bar_leg", "engine and core, gravity", 1e-15, 2e-7),
-    (
-        "five_bar_leg",
-        "engine and core, friction and rotors",
-        6e-16,
-        8e-7,
-    ),
+    ("five_bar_leg", "engine and core, friction and rotors", 6e-16, 8e-7),
     ("five_bar_leg", "aba", 3e-14, 8e-6),
     ("ankle_leg", "position", 4e-15, NONE),
     ("ankle_leg", "rate", 6e-15, NONE),
@@ -458,24 +438,14 @@ const TABLE: &[(&str, &str, f64, f64)] = &[
     ("ankle_leg", "gravity", 4e-16, 4e-7),
     ("ankle_leg", "engine gravity", 8e-16, 5e-7),
     ("ankle_leg", "engine and core, gravity", 8e-16, 6e-7),
-    (
-        "ankle_leg",
-        "engine and core, friction and rotors",
-        6e-16,
-        4e-7,
-    ),
+    ("ankle_leg", "engine and core, friction and rotors", 6e-16, 4e-7),
     ("ankle_leg", "aba", 5e-14, 5e-6),
     ("delta_robot", "M", 2e-14, NONE),
     ("delta_robot", "aba", 3e-14, 6e-6),
     ("delta_robot", "aba of rnea", 8e-15, 5e-6),
     ("delta_robot", "acceleration", 1.5e-14, NONE),
     ("delta_robot", "engine and core", 6e-16, 4e-7),
-    (
-        "delta_robot",
-        "engine and core, friction and rotors",
-        5e-16,
-        4e-7,
-    ),
+    ("delta_robot", "engine and core, friction and rotors", 5e-16, 4e-7),
     ("delta_robot", "engine and core, gravity", 8e-16, 5e-7),
     ("delta_robot", "engine gravity", 1.5e-14, 8e-7),
     ("delta_robot", "engine rnea", 1e-14, 8e-7),
@@ -488,18 +458,8 @@ const TABLE: &[(&str, &str, f64, f64)] = &[
     ("stewart_platform", "aba of rnea", 4e-15, 2e-6),
     ("stewart_platform", "acceleration", 4e-15, NONE),
     ("stewart_platform", "engine and core", 1.5e-15, 4e-7),
-    (
-        "stewart_platform",
-        "engine and core, friction and rotors",
-        1.5e-15,
-        4e-7,
-    ),
-    (
-        "stewart_platform",
-        "engine and core, gravity",
-        1.5e-15,
-        4e-7,
-    ),
+    ("stewart_platform", "engine and core, friction and rotors", 1.5e-15, 4e-7),
+    ("stewart_platform", "engine and core, gravity", 1.5e-15, 4e-7),
     ("stewart_platform", "engine gravity", 1.5e-15, 6e-7),
     ("stewart_platform", "engine rnea", 1.5e-15, 5e-7),
     ("stewart_platform", "gravity", 1.5e-15, 8e-7),
@@ -530,12 +490,7 @@ const TABLE: &[(&str, &str, f64, f64)] = &[
     ("geared", "gravity", 1e-15, 6e-7),
     ("geared", "engine gravity", 8e-16, 4e-7),
     ("geared", "engine and core, gravity", 8e-16, 4e-7),
-    (
-        "geared",
-        "engine and core, friction and rotors",
-        8e-17,
-        1.5e-7,
-    ),
+    ("geared", "engine and core, friction and rotors", 8e-17, 1.5e-7),
     ("geared", "aba", 4e-14, 1.5e-5),
 ];
 
@@ -576,10 +531,7 @@ pub struct Errors {
 
 impl Errors {
     pub fn new(robot: &'static str) -> Self {
-        Self {
-            robot,
-            rows: Vec::new(),
-        }
+        Self { robot, rows: Vec::new() }
     }
 
     /// Compares the numbers of a state.
@@ -597,10 +549,7 @@ impl Errors {
     /// The largest error of a quantity relative to its full scale, if it was compared in this
     /// scalar.
     pub fn of(&self, quantity: &str, scalar: &str) -> Option<f64> {
-        let row = self
-            .rows
-            .iter()
-            .find(|row| (row.0, row.1) == (quantity, scalar));
+        let row = self.rows.iter().find(|row| (row.0, row.1) == (quantity, scalar));
         row.map(|row| row.2 / row.3)
     }
 

@@ -33,11 +33,7 @@ impl Draw {
     }
 
     const fn vector(&mut self, scale: f64) -> [f64; 3] {
-        [
-            scale * self.next(),
-            scale * self.next(),
-            scale * self.next(),
-        ]
+        [scale * self.next(), scale * self.next(), scale * self.next()]
     }
 
     /// An axis of any direction, away from zero.

@@ -46,20 +46,12 @@ fn distinct(names: &[String]) -> usize {
 
 #[test]
 fn each_robot_has_80_configurations_default_first() {
-    for names in [
-        names::<Ur5e, 6, 6>(),
-        names::<Panda, 7, 7>(),
-        names::<A1Leg, 4, 3>(),
-    ] {
+    for names in [names::<Ur5e, 6, 6>(), names::<Panda, 7, 7>(), names::<A1Leg, 4, 3>()] {
         assert!(names.len() >= 80, "{}", names.len());
         assert_eq!(distinct(&names), names.len());
         assert_eq!(names[0], Key::DEFAULT.to_string());
         // One word, as the firmware's log has it.
-        assert!(
-            names
-                .iter()
-                .all(|name| !name.contains(' ') && name.len() <= 96)
-        );
+        assert!(names.iter().all(|name| !name.contains(' ') && name.len() <= 96));
     }
 }
 
@@ -127,11 +119,9 @@ fn f64_is_good_to_1e_13_by_50_digits() {
         }
         worst / scale
     }
-    for error in [
-        worst::<Ur5e, 6, 6>("ur5e"),
-        worst::<Panda, 7, 7>("panda"),
-        worst::<A1Leg, 4, 3>("a1"),
-    ] {
+    for error in
+        [worst::<Ur5e, 6, 6>("ur5e"), worst::<Panda, 7, 7>("panda"), worst::<A1Leg, 4, 3>("a1")]
+    {
         assert!(error <= 1e-13, "{error:.1e}");
     }
 }
@@ -154,10 +144,7 @@ fn kernels_are_within_their_stated_error() {
         ("minimax of degree 3", worst_of::<Minimax<3, 2>>(100.0)),
         ("minimax of degree 5", worst_of::<Minimax<5, 2>>(100.0)),
         ("minimax of degree 7", worst_of::<Minimax<7, 2>>(100.0)),
-        (
-            "minimax of degree 7, 3 parts",
-            worst_of::<Minimax<7, 3>>(1e4),
-        ),
+        ("minimax of degree 7, 3 parts", worst_of::<Minimax<7, 3>>(1e4)),
         ("table of 256, order 1", worst_of::<Table<256, 1>>(100.0)),
         ("table of 256, order 2", worst_of::<Table<256, 2>>(100.0)),
         ("table of 64, order 4", worst_of::<Table<64, 4>>(100.0)),
@@ -169,13 +156,11 @@ fn kernels_are_within_their_stated_error() {
 
 #[test]
 fn carried_sines_do_not_drift_in_any_motion() {
-    let errors = carried::motions()
-        .into_iter()
-        .map(|(name, first, mut motion)| {
-            let error = carried::worst_error::<7>(20_000, first, &mut motion);
-            println!("{name}: {error:.1e}");
-            error
-        });
+    let errors = carried::motions().into_iter().map(|(name, first, mut motion)| {
+        let error = carried::worst_error::<7>(20_000, first, &mut motion);
+        println!("{name}: {error:.1e}");
+        error
+    });
     check("trig", "carried, seven joints", "f32", largest(errors)).unwrap();
 }
 
@@ -196,17 +181,8 @@ fn torque_between_computations_is_exact_where_it_is_linear() {
         } else {
             linearised.hold(&state.qdd)
         };
-        let goes_on = if tick % 4 == 0 {
-            extrapolated.update([line])
-        } else {
-            extrapolated.hold()
-        };
-        assert!(
-            torque
-                .iter()
-                .zip(computed)
-                .all(|(a, b)| (a - b).abs() < 1e-12)
-        );
+        let goes_on = if tick % 4 == 0 { extrapolated.update([line]) } else { extrapolated.hold() };
+        assert!(torque.iter().zip(computed).all(|(a, b)| (a - b).abs() < 1e-12));
         assert!(tick < 4 || (goes_on[0] - line).abs() < 1e-12);
     }
 }

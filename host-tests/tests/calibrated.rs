@@ -91,15 +91,13 @@ where
     let nominal = Calibrated::<T, f64, B, Q, V>::nominal();
     let mut arm = Calibrated::<T, f64, B, Q, V>::nominal();
     for body in 0..B {
-        arm.set_inertia(body, IDENTIFIED, 0.0)
-            .expect("a body can be like that");
+        arm.set_inertia(body, IDENTIFIED, 0.0).expect("a body can be like that");
     }
     assert!(apart(arm.model(), nominal.model()) > 0.1);
     for body in 0..B {
         let inertia = nominal.inertia(body).expect("the robot has this body");
         // The published Panda passes by a hair, which rounding may cost it.
-        arm.set_inertia(body, inertia, 1e-9)
-            .expect("the robot itself");
+        arm.set_inertia(body, inertia, 1e-9).expect("the robot itself");
     }
     apart(arm.model(), nominal.model())
 }
@@ -109,9 +107,8 @@ fn described_numbers_reproduce_the_model() {
     assert!(described_again::<Ur5e, 6, 6, 6>() < 1e-15);
     assert!(described_again::<Panda, 7, 7, 7>() < 1e-15);
     assert!(described_again::<StressRobot, 4, 2, 2>() < 2e-15);
-    let inertia = Calibrated::<StressRobot, f64, 4, 2, 2>::nominal()
-        .inertia(FOREARM)
-        .expect("a body");
+    let inertia =
+        Calibrated::<StressRobot, f64, 4, 2, 2>::nominal().inertia(FOREARM).expect("a body");
     let pairs = [(inertia.com, DESCRIBED.com)].map(|(a, b)| (a.to_vec(), b.to_vec()));
     let more = (inertia.inertia.to_vec(), DESCRIBED.inertia.to_vec());
     for (got, want) in pairs.into_iter().chain([more]) {
@@ -126,13 +123,8 @@ fn described_numbers_reproduce_the_model() {
 #[test]
 fn calibrated_and_described_robots_need_equal_torques() {
     let mut arm = Calibrated::<StressRobot, f64, 4, 2, 2>::nominal();
-    arm.set_inertia(FOREARM, IDENTIFIED, 0.0)
-        .expect("a body can be like that");
-    let state = State {
-        q: [0.4, -0.9],
-        qd: [1.1, -0.6],
-        qdd: [2.0, 3.0],
-    };
+    arm.set_inertia(FOREARM, IDENTIFIED, 0.0).expect("a body can be like that");
+    let state = State { q: [0.4, -0.9], qd: [1.1, -0.6], qdd: [2.0, 3.0] };
     let got = rnea(&arm, &state, &RIGID_BODY);
     let want = rnea(&odd(IDENTIFIED), &state, &RIGID_BODY);
     let before = rnea(&StressRobot::MODEL, &state, &RIGID_BODY);
@@ -145,13 +137,10 @@ fn calibrated_and_described_robots_need_equal_torques() {
 #[test]
 fn an_impossible_inertia_is_named_and_not_taken_over() {
     let mut arm = Calibrated::<StressRobot, f64, 4, 2, 2>::nominal();
-    arm.set_inertia(FOREARM, IDENTIFIED, 0.0)
-        .expect("a body can be like that");
+    arm.set_inertia(FOREARM, IDENTIFIED, 0.0).expect("a body can be like that");
     let good = *arm.model();
     let mut refused = |body, inertia| -> ModelError {
-        let error = arm
-            .set_inertia(body, inertia, 1e-6)
-            .expect_err("no body is like that");
+        let error = arm.set_inertia(body, inertia, 1e-6).expect_err("no body is like that");
         assert_eq!(*arm.model(), good);
         error
     };
@@ -167,14 +156,8 @@ fn an_impossible_inertia_is_named_and_not_taken_over() {
     };
     assert_eq!(problem(changed(|i| i.mass = -0.1)), Problem::Mass(-0.1));
     assert_eq!(problem(changed(|i| i.mass = f64::NAN)), Problem::NotFinite);
-    assert_eq!(
-        problem(changed(|i| i.com[1] = f64::INFINITY)),
-        Problem::NotFinite
-    );
-    assert_eq!(
-        problem(changed(|i| i.inertia[4] = f64::NAN)),
-        Problem::NotFinite
-    );
+    assert_eq!(problem(changed(|i| i.com[1] = f64::INFINITY)), Problem::NotFinite);
+    assert_eq!(problem(changed(|i| i.inertia[4] = f64::NAN)), Problem::NotFinite);
     assert_eq!(problem(changed(|i| i.mass = 0.0)), Problem::Massless);
     let long = |i: &mut BodyInertia<f64>| i.inertia = [0.05, 0.0, 0.0, 0.02, 0.0, 0.02];
     let Problem::Triangle(excess) = problem(changed(long)) else {
@@ -183,10 +166,7 @@ fn an_impossible_inertia_is_named_and_not_taken_over() {
     assert!((excess - 0.2).abs() < 1e-12, "{excess}");
     let error = refused(4, IDENTIFIED);
     assert_eq!((error.body, error.problem), ("odd", Problem::NoBody(4)));
-    assert_eq!(
-        error.to_string(),
-        "body `odd`: the robot has no body of this number: 4"
-    );
+    assert_eq!(error.to_string(), "body `odd`: the robot has no body of this number: 4");
     assert_eq!(arm.inertia(4), None);
 }
 

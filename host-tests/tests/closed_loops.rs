@@ -18,11 +18,7 @@ use glam::Vec3;
 use motion_control::{Fault, Reference};
 
 fn wide<const N: usize>(state: &State<f32, N, N>) -> State<f64, N, N> {
-    State {
-        q: state.q.map(f64::from),
-        qd: state.qd.map(f64::from),
-        qdd: state.qdd.map(f64::from),
-    }
+    State { q: state.q.map(f64::from), qd: state.qd.map(f64::from), qdd: state.qdd.map(f64::from) }
 }
 
 /// The platform's rows of the tree's state.
@@ -42,17 +38,15 @@ fn the_cranks_move_the_platform_along_its_path() {
         let motion = Clustered::<Core<PickDelta>>::motion(&exact).unwrap();
         assert_eq!(motion.singular(), None);
         let got = platform(motion.state().state());
-        for (worst, (got, want)) in double
-            .iter_mut()
-            .zip(got.into_iter().zip([want.q, want.qd, want.qdd]))
+        for (worst, (got, want)) in
+            double.iter_mut().zip(got.into_iter().zip([want.q, want.qd, want.qdd]))
         {
             worst.see(got, want);
         }
         let motion = Clustered::<Engine<PickDelta>>::motion(&cranks(&path)).unwrap();
         let got = platform(motion.state().state());
-        for (worst, (got, want)) in single
-            .iter_mut()
-            .zip(got.into_iter().zip([want.q, want.qd, want.qdd]))
+        for (worst, (got, want)) in
+            single.iter_mut().zip(got.into_iter().zip([want.q, want.qd, want.qdd]))
         {
             worst.see(got, want);
         }
@@ -77,9 +71,7 @@ fn a_pick_takes_half_a_second_there_and_back() {
         let (from, to) = (at(one * MOVE), at((one + 1) * MOVE));
         assert!(((to - from).length() - REACH).abs() < 1e-6);
         assert_eq!(picks.platform(one * MOVE).qd, [0.0; 3]);
-        let highest = (0..MOVE)
-            .map(|tick| at(one * MOVE + tick).z)
-            .fold(f32::MIN, f32::max);
+        let highest = (0..MOVE).map(|tick| at(one * MOVE + tick).z).fold(f32::MIN, f32::max);
         assert!((highest - (FEEDER[2] + LIFT)).abs() < 1e-6, "{highest}");
         // The path within 20 mm of the ends is lifted and lowered there.
         for tick in 0..MOVE {
@@ -103,14 +95,8 @@ where
         let (wanted, environment) = (reference.at(tick), S::environment(&reference, tick as f32));
         let tau = S::inverse(&wanted, &environment, &S::EFFECTS);
         for (j, limit) in limits.iter().enumerate() {
-            assert!(
-                (limit.lower..=limit.upper).contains(&wanted.q[j]),
-                "{wanted:?}"
-            );
-            let used = [
-                tau[j].abs() / limit.torque,
-                wanted.qd[j].abs() / limit.velocity,
-            ];
+            assert!((limit.lower..=limit.upper).contains(&wanted.q[j]), "{wanted:?}");
+            let used = [tau[j].abs() / limit.torque, wanted.qd[j].abs() / limit.velocity];
             assert!(used.iter().all(|share| *share < 1.0), "{used:?}");
             most = core::array::from_fn(|k| most[k].max(used[k]));
         }
@@ -131,9 +117,7 @@ fn the_motions_use_a_good_share_of_motor_limits() {
 #[test]
 fn motor_derivatives_agree_with_differences() {
     let reference = AnkleSteps::reference().unwrap();
-    let states: Vec<_> = (0..=reference.ticks())
-        .map(|tick| reference.at(tick))
-        .collect();
+    let states: Vec<_> = (0..=reference.ticks()).map(|tick| reference.at(tick)).collect();
     let (mut positions, mut velocities) = (Worst::default(), Worst::default());
     for pair in states.windows(2) {
         let [from, to] = [wide(&pair[0]), wide(&pair[1])];
@@ -167,10 +151,7 @@ impl Reference<f32, 3> for Torn {
 #[test]
 fn a_reference_that_cannot_close_is_a_fault() {
     let torn = Clustered::<Engine<G1Ankle>>::motors(&Torn.at(20)).unwrap_err();
-    assert_eq!(
-        (torn.cluster, torn.problem),
-        ("ankle", ClusterProblem::CannotClose)
-    );
+    assert_eq!((torn.cluster, torn.problem), ("ankle", ClusterProblem::CannotClose));
     assert_eq!(
         AnkleSteps::inverse(&State::at([0.0; 3]), &Torn.at(20), &AnkleSteps::EFFECTS),
         [0.0; 3]
@@ -184,18 +165,12 @@ fn a_reference_that_cannot_close_is_a_fault() {
         AnkleSteps::control_loop(devices(wires), gains, (), Start::OnTrajectory).unwrap();
     for tick in 0..60 {
         let telemetry = control.tick::<Full<AnkleSteps, 9, 9, 9>, _, _>(&reference, &Torn.at(tick));
-        assert!(
-            telemetry.torque.iter().all(|tau| tau.is_finite()),
-            "{telemetry:?}"
-        );
+        assert!(telemetry.torque.iter().all(|tau| tau.is_finite()), "{telemetry:?}");
         let fault = telemetry.status.fault;
         if tick < 20 {
             assert_eq!(fault, None);
         } else {
-            assert!(
-                matches!(fault, Some(Fault::Torque { .. })),
-                "{tick}: {fault:?}"
-            );
+            assert!(matches!(fault, Some(Fault::Torque { .. })), "{tick}: {fault:?}");
         }
     }
 }

@@ -66,10 +66,7 @@ fn run(posture: f64) -> Errors {
     let mut arm = State::at([0.3, -0.4, 0.2, -2.0, 0.3, 1.9, 0.5]);
     let start = kinematics(robot, &arm, &()).poses[HAND];
     let axes = DMat3::from_rotation_z(0.5) * DMat3::from_rotation_y(0.3); // normal: x
-    let wall = Wall {
-        origin: start.pos + axes.x_axis * 0.005,
-        normal: axes.x_axis,
-    };
+    let wall = Wall { origin: start.pos + axes.x_axis * 0.005, normal: axes.x_axis };
     let frame = TaskFrame { axes };
     let directions = frame.turn_and_place(1.0);
     let mut errors = Errors::default();
@@ -152,10 +149,7 @@ fn within_the_table(errors: &Errors, verdict: &mut Verdict) {
 #[test]
 fn the_elbow_does_not_disturb_pressing_along_a_wall() {
     let (calm, driven) = (run(0.0), run(5.0));
-    assert!(
-        driven.swing > 5.0 * calm.swing,
-        "the elbow is driven: {calm:?} {driven:?}"
-    );
+    assert!(driven.swing > 5.0 * calm.swing, "the elbow is driven: {calm:?} {driven:?}");
     let mut verdict = Verdict::default();
     within_the_table(&calm, &mut verdict);
     within_the_table(&driven, &mut verdict);

@@ -42,10 +42,7 @@ fn controller(limits: SafetyLimits<f32, 6>, ride_through_ticks: u32) -> MotionCo
 }
 
 fn observer() -> Observer<f32, 6> {
-    Observer::new(ObserverConfig {
-        bandwidth: 250.0,
-        tick: TICK,
-    })
+    Observer::new(ObserverConfig { bandwidth: 250.0, tick: TICK })
 }
 
 /// Any bits: NaN, infinities and subnormals among them.
@@ -121,11 +118,7 @@ proptest! {
 #[test]
 fn a_rejected_torque_is_never_remembered() {
     let mut controller = controller(LIMITS, 5);
-    for tau in [
-        [70.0; 6],
-        [f32::NAN; 6],
-        [1.0, 1.0, 1.0, 1.0, 1.0, f32::INFINITY],
-    ] {
+    for tau in [[70.0; 6], [f32::NAN; 6], [1.0, 1.0, 1.0, 1.0, 1.0, f32::INFINITY]] {
         controller.tick(Ok(&HOME), &State::at(HOME), |_, _| tau);
     }
     let command = controller.tick(Ok(&HOME), &State::at(HOME), |_, _| [-150.0; 6]);
@@ -143,10 +136,7 @@ fn the_same_inputs_after_a_fault_give_the_same_bits() {
             qdd: [x, 1.0, -x, 0.5, 0.0, -0.0],
         };
         let mut tau = Core::<Ur5e>::rnea(&reference, &RIGID_BODY);
-        let rest = Estimate {
-            q: HOME,
-            qd: [0.0; 6],
-        };
+        let rest = Estimate { q: HOME, qd: [0.0; 6] };
         let pd = feedback(&gains, &reference, &rest);
         tau.iter_mut().zip(pd).for_each(|(tau, pd)| *tau += pd);
         tau
@@ -187,48 +177,27 @@ fn the_observer_forgets_a_fault_but_for_rounding() {
 fn too_fast_way_points_name_joint_and_need() {
     let mut away = HOME;
     away[3] += 1.0;
-    let way = |q, ticks| WayPoint {
-        q,
-        qd: [0.0; 6],
-        ticks,
-    };
-    let limits = [MotionLimits {
-        velocity: 3.0_f32,
-        acceleration: 20.0,
-    }; 6];
+    let way = |q, ticks| WayPoint { q, qd: [0.0; 6], ticks };
+    let limits = [MotionLimits { velocity: 3.0_f32, acceleration: 20.0 }; 6];
     let new = |ticks| {
-        let points = [
-            way(HOME, 0),
-            way(HOME, 100),
-            way(away, ticks),
-            way(HOME, 2000),
-        ];
+        let points = [way(HOME, 0), way(HOME, 100), way(away, ticks), way(HOME, 2000)];
         Trajectory::new(&points, TICK, &limits)
     };
     // A quintic from rest to rest peaks at 15/8 D/T and at 10/√3 D/T².
     assert!(new(700).is_ok());
     match new(600) {
-        Err(TrajectoryError::Velocity {
-            point: 2,
-            joint: 3,
-            needed,
-            allowed,
-        }) => assert!((needed - 1.875 / 0.6).abs() < 1e-5 && allowed == 3.0),
+        Err(TrajectoryError::Velocity { point: 2, joint: 3, needed, allowed }) => {
+            assert!((needed - 1.875 / 0.6).abs() < 1e-5 && allowed == 3.0)
+        }
         other => panic!("{other:?}"),
     }
-    let slow = [MotionLimits {
-        acceleration: 10.0,
-        ..limits[0]
-    }; 6];
+    let slow = [MotionLimits { acceleration: 10.0, ..limits[0] }; 6];
     let points = [way(HOME, 0), way(away, 700)];
     let error = Trajectory::new(&points, TICK, &slow).unwrap_err();
     match error {
-        TrajectoryError::Acceleration {
-            point: 1,
-            joint: 3,
-            needed,
-            allowed,
-        } => assert!((needed - 10.0 / 3.0_f64.sqrt() / 0.49).abs() < 1e-4 && allowed == 10.0),
+        TrajectoryError::Acceleration { point: 1, joint: 3, needed, allowed } => {
+            assert!((needed - 10.0 / 3.0_f64.sqrt() / 0.49).abs() < 1e-4 && allowed == 10.0)
+        }
         other => panic!("{other:?}"),
     }
     assert_eq!(

@@ -52,14 +52,8 @@ fn lost_frames(at: u32, lost: u32) -> Outcome {
         let error = largest(followed.iter().zip(&arm.q).map(apart));
         for _ in 0..STEPS {
             let h = TICK / STEPS as f32;
-            linearly_implicit(
-                &Static::<Ur5e>::NEW,
-                arm,
-                &command.torque,
-                &mut { EFFECTS },
-                h,
-            )
-            .unwrap();
+            linearly_implicit(&Static::<Ur5e>::NEW, arm, &command.torque, &mut { EFFECTS }, h)
+                .unwrap();
         }
         (error, command)
     };
@@ -90,12 +84,7 @@ fn lost_frames(at: u32, lost: u32) -> Outcome {
             back = tick - lost + 1;
         }
     }
-    Outcome {
-        error: largest(errors),
-        reversal: largest(reversals),
-        back,
-        speeds,
-    }
+    Outcome { error: largest(errors), reversal: largest(reversals), back, speeds }
 }
 
 // No joint turns back.
@@ -109,11 +98,7 @@ fn the_documented_loop_stops_and_resumes_a_fast_arm() {
         // q̈ = −λ q̇ from the tick on that is not ridden through.
         let decay = (-f64::from((lost - RIDE) as f32 * OMEGA_N * TICK)).exp();
         let [fast, slow] = held.speeds;
-        within(
-            &format!("speed after {lost}, rad/s"),
-            slow,
-            1.1 * fast * decay,
-        );
+        within(&format!("speed after {lost}, rad/s"), slow, 1.1 * fast * decay);
         back.push(held.back);
     }
     within("ticks until back", largest(back), 100.0);

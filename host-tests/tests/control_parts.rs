@@ -24,14 +24,8 @@ fn a_late_observer_has_both_poles_at_its_bandwidth() {
         let beta = (-bandwidth * H).exp();
         // The observer's exponential ends with the fifth power of ω h.
         let rest = (bandwidth * H).powi(6) / 720.0;
-        assert!(
-            (trace - 2.0 * beta).abs() < 2.5 * rest,
-            "{bandwidth}: {trace}"
-        );
-        assert!(
-            (product - beta * beta).abs() < 2.5 * rest,
-            "{bandwidth}: {product}"
-        );
+        assert!((trace - 2.0 * beta).abs() < 2.5 * rest, "{bandwidth}: {trace}");
+        assert!((product - beta * beta).abs() < 2.5 * rest, "{bandwidth}: {product}");
     }
 }
 
@@ -45,11 +39,7 @@ fn between_updates_the_bias_is_extrapolated_linearly() {
     between.update(torque(5.0, -2.0), m, &[-2.0; 6]);
     for (bias, qdd) in [(5.5, 0.5), (6.0, 7.0), (6.5, 0.0)] {
         let held = between.hold(&[qdd; 6]);
-        let error = largest(
-            held.iter()
-                .zip(torque(bias, qdd))
-                .map(|(a, b)| (a - b).abs()),
-        );
+        let error = largest(held.iter().zip(torque(bias, qdd)).map(|(a, b)| (a - b).abs()));
         assert!(error < 2e-14, "{bias}: {error:e}");
     }
 }

@@ -16,10 +16,7 @@ use dynamics_core::state::State;
 use glam::DVec3;
 
 type Matrix<const V: usize> = [[f64; V]; V];
-type Scene = (
-    (Armature<f64, V>, GyroscopicRotors<f64, V>),
-    (Payload<f64, { B - 1 }>, Coriolis),
-);
+type Scene = ((Armature<f64, V>, GyroscopicRotors<f64, V>), (Payload<f64, { B - 1 }>, Coriolis));
 
 /// The additions to the inertia of a tree's bodies: armatures, spinning rotors and a payload.
 fn scene(tree: &Tree) -> Scene {
@@ -108,10 +105,7 @@ fn laws() -> [Worst; 6] {
             core::array::from_fn(|i| 0.25 * (sum[i] - apart[i])),
         );
         let m = rows(&crba(&tree, &state.q, &(scene.0.1, scene.1)));
-        worst[2].see(
-            core::array::from_fn(|i| xy[i] - yx[i]),
-            times(&m, &bracket(&tree, &x, &y)),
-        );
+        worst[2].see(core::array::from_fn(|i| xy[i] - yx[i]), times(&m, &bracket(&tree, &x, &y)));
         let c = coriolis_matrix(&tree, &state, &scene);
         worst[3].see(times(&c, &y), xy);
         let rate = slope(|t| {
@@ -119,10 +113,7 @@ fn laws() -> [Worst; 6] {
             let m = rows(&crba(&tree, &q, &scene));
             core::array::from_fn::<_, { V * V }, _>(|k| m[k / V][k % V])
         });
-        worst[4].see(
-            core::array::from_fn(|k| c[k / V][k % V] + c[k % V][k / V]),
-            rate,
-        );
+        worst[4].see(core::array::from_fn(|k| c[k / V][k % V] + c[k % V][k / V]), rate);
         let ct_qd = momentum_and_coriolis(&tree, &state, &scene).ct_qd;
         worst[5].see(times(&transposed(&c), &x), ct_qd);
     }
@@ -187,13 +178,7 @@ fn c_of_an_arm_is_that_of_the_christoffel_symbols() {
 fn two_equal_velocities_give_the_torque_of_rnea() {
     let mut worst = [(); 2].map(|()| Worst::default());
     let mut rng = Rng::new(23);
-    let friction = (
-        Viscous([2.0; V]),
-        Coulomb {
-            torque: [1.0; V],
-            width: Width::new(0.05),
-        },
-    );
+    let friction = (Viscous([2.0; V]), Coulomb { torque: [1.0; V], width: Width::new(0.05) });
     let ship = MovingBase {
         velocity: Motion::new(DVec3::new(0.3, -0.5, 0.7), DVec3::new(0.1, 0.2, -0.3)),
         acceleration: Motion::new(DVec3::new(-1.0, 2.0, 0.5), DVec3::new(0.4, 1.0, -2.0)),
@@ -206,10 +191,7 @@ fn two_equal_velocities_give_the_torque_of_rnea() {
         let y = rng.vector::<V>(3.0);
         let (with, without) = (torque(&y), torque(&[0.0; V]));
         let c = coriolis_matrix(&tree, &state, &(scene(&tree), ship));
-        worst[1].see(
-            core::array::from_fn(|i| with[i] - without[i]),
-            times(&c, &y),
-        );
+        worst[1].see(core::array::from_fn(|i| with[i] - without[i]), times(&c, &y));
     }
     let mut verdict = Verdict::default();
     verdict.see("mixed tree", "rnea of equal velocities", "f64", &worst[0]);

@@ -22,12 +22,9 @@ fn the_scene_has_no_false_alarm() {
         let control = simulated_loop::<PickAndPlace, _, 6, 6, 6, 6>(&path, wires, detectors);
         let mut control = control.unwrap();
         for tick in 0..path.ticks() + 500 {
-            let status = control
-                .tick::<Full<PickAndPlace, 6, 6, 6>, _, ()>(&path, &())
-                .status;
+            let status = control.tick::<Full<PickAndPlace, 6, 6, 6>, _, ()>(&path, &()).status;
             assert_eq!((status.mode, status.fault), (Mode::Full, None), "{tick}");
-            rig.advance(wires, STEPS, TICK / STEPS as f32, |_| ())
-                .unwrap();
+            rig.advance(wires, STEPS, TICK / STEPS as f32, |_| ()).unwrap();
         }
     }
 }

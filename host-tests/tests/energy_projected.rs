@@ -31,21 +31,13 @@ impl Dynamics<f64, 1, 1> for Mass {
 /// second order leaves it.
 #[test]
 fn a_step_brings_lost_energy_back_to_third_order() {
-    let at = |energy: f64| State {
-        q: [0.0],
-        qd: [(2.0 * energy).sqrt()],
-        qdd: [0.0],
-    };
+    let at = |energy: f64| State { q: [0.0], qd: [(2.0 * energy).sqrt()], qdd: [0.0] };
     for x in [-0.05, -0.01, 0.01, 0.05] {
         let mut state = at(1.0);
         let integrator = EnergyProjected::start(&Mass, &at(1.0 + 2.0 * x));
         integrator.advance(&Mass, &mut state, 1e-3).unwrap();
         let (energy, _) = Mass.energies(&state);
         let error = (energy - 1.0 - 2.0 * x).abs();
-        within(
-            &format!("energy that lacked {x}"),
-            error,
-            1.3 * x.abs().powi(3),
-        );
+        within(&format!("energy that lacked {x}"), error, 1.3 * x.abs().powi(3));
     }
 }

@@ -80,9 +80,7 @@ fn dot(a: &[f64; 6], b: &[f64; 6]) -> f64 {
 fn rest(mut v: [f64; 6], units: &[[f64; 6]]) -> [f64; 6] {
     for unit in units {
         let part = dot(&v, unit);
-        v.iter_mut()
-            .zip(unit)
-            .for_each(|(v, unit)| *v -= part * unit);
+        v.iter_mut().zip(unit).for_each(|(v, unit)| *v -= part * unit);
     }
     v
 }
@@ -104,16 +102,9 @@ fn a_wrench_without_torque_is_estimated_as_zero() {
     assert_eq!(units.len(), 5);
     let silent = rest([1.0, 2.0, -1.0, 0.5, 3.0, -2.0], &units).map(|x| 20.0 * x);
     let given = estimator(1e-3, [100.0, 100.0]);
-    let estimate = |push| {
-        six(given
-            .estimate(&jacobian, &pushed(&jacobian, push))
-            .expect("finite"))
-    };
+    let estimate = |push| six(given.estimate(&jacobian, &pushed(&jacobian, push)).expect("finite"));
     let found = estimate(silent);
-    assert!(
-        found.iter().all(|f| f.abs() < 1e-6),
-        "{found:?}, {silent:?}"
-    );
+    assert!(found.iter().all(|f| f.abs() < 1e-6), "{found:?}, {silent:?}");
     // A push that lifts the arm, and all that does not press along the direction without torque.
     let push = units[1].map(|x| 20.0 * x);
     let found = estimate(core::array::from_fn(|k| push[k] + silent[k]));
@@ -154,10 +145,7 @@ fn singular_postures_do_not_enlarge_wrenches_in_f32() {
 // With two poles it rises as the external torque of the same error does.
 #[test]
 fn the_threshold_rises_with_the_stated_model_error() {
-    let config = ObserverConfig {
-        bandwidth: 50.0,
-        tick: 1e-3,
-    };
+    let config = ObserverConfig { bandwidth: 50.0, tick: 1e-3 };
     let margin = 0.5;
     let mut detector: ContactDetector<f64, 1, 2> =
         ContactDetector::try_new(config, [margin]).expect("a good one");
@@ -167,10 +155,7 @@ fn the_threshold_rises_with_the_stated_model_error() {
         let contact = detector.update(&[p], &[0.0], &[3.0]).expect("finite");
         assert_eq!(contact, None);
         let ([threshold], [r]) = (detector.threshold(), *detector.external_torque());
-        assert!(
-            (threshold - margin - r).abs() < 1e-12,
-            "{tick}: {threshold} {r}"
-        );
+        assert!((threshold - margin - r).abs() < 1e-12, "{tick}: {threshold} {r}");
         detector.drive(&[0.0]);
     }
     assert!((detector.external_torque()[0] - 3.0).abs() < 0.01);

@@ -12,11 +12,7 @@ use fixtures::accuracy::simulation::{Run, Simulation};
 #[test]
 fn a_pasted_simulation_gives_the_bits_of_the_measured_one() {
     let [q, qd] = Ur5e::START.map(|numbers| numbers.map(|x| x as f32));
-    let mut generated = ur5e_rk4::Simulation::start(State {
-        q,
-        qd,
-        qdd: [0.0; 6],
-    });
+    let mut generated = ur5e_rk4::Simulation::start(State { q, qd, qdd: [0.0; 6] });
     let mut run = Run::<Ur5e, Free, RungeKutta, f32, 6, true>::start();
     for _ in 0..200 {
         let state = generated.step().expect("a robot with inertia");

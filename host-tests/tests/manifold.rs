@@ -96,24 +96,14 @@ fn velocities_of_steps_are_those_of_the_dynamics() {
         let tree = mixed_tree(rng);
         let state = state_of(&tree, rng);
         let energy = |q: &[f64; MIXED.1], qd: &[f64; MIXED.2]| {
-            let at = State {
-                q: *q,
-                qd: [0.0; MIXED.2],
-                qdd: *qd,
-            };
+            let at = State { q: *q, qd: [0.0; MIXED.2], qdd: *qd };
             0.5 * std::iter::zip(rnea(&tree, &at, &(Inertia,)), qd)
                 .map(|(p, qd)| p * qd)
                 .sum::<f64>()
         };
         // dE/dt = q̇ᵀ τ, at any q̈.
-        let tau = rnea(
-            &tree,
-            &State { ..state },
-            &(Inertia, dynamics_core::effects::Coriolis),
-        );
-        let power: f64 = std::iter::zip(tau, state.qd)
-            .map(|(tau, qd)| tau * qd)
-            .sum();
+        let tau = rnea(&tree, &State { ..state }, &(Inertia, dynamics_core::effects::Coriolis));
+        let power: f64 = std::iter::zip(tau, state.qd).map(|(tau, qd)| tau * qd).sum();
         let along = |t: f64| {
             let step = core::array::from_fn(|i| t * (state.qd[i] + 0.5 * t * state.qdd[i]));
             let qd = core::array::from_fn(|i| state.qd[i] + t * state.qdd[i]);
@@ -157,10 +147,7 @@ fn a_drifting_quaternion_costs_what_is_stated() {
     state.qd = [1.0, -2.0, 0.5];
     let exact = rnea(&ball, &state, &RIGID_BODY);
     for epsilon in [1e-2_f64, 1e-3, 1e-4] {
-        let stretched = State {
-            q: state.q.map(|q| q * (1.0 + epsilon).sqrt()),
-            ..state
-        };
+        let stretched = State { q: state.q.map(|q| q * (1.0 + epsilon).sqrt()), ..state };
         let tau = rnea(&ball, &stretched, &RIGID_BODY);
         let error = largest(tau.iter().zip(exact).map(|(a, b)| a - b));
         // An attitude that is longer by 3ε²/8 turns coordinates by twice that; gravity's moment is

@@ -16,16 +16,8 @@ use host_tests::trees::{TreeA, TreeB};
 use proptest::prelude::RngExt;
 use proptest::test_runner::TestRng;
 
-const QUANTITIES: [&str; 8] = [
-    "rnea",
-    "crba",
-    "aba",
-    "poses",
-    "velocities",
-    "accelerations",
-    "jacobian",
-    "wrenches",
-];
+const QUANTITIES: [&str; 8] =
+    ["rnea", "crba", "aba", "poses", "velocities", "accelerations", "jacobian", "wrenches"];
 
 /// The differences of a robot, in the order of [`QUANTITIES`].
 type Differences = [Worst; 8];
@@ -67,28 +59,20 @@ fn see<const B: usize, const M: usize, const Q: usize, const V: usize>(
     let model = &merged.model;
     let tau = rnea(robot, state, &RIGID_BODY);
     torque.see(rnea(model, state, &RIGID_BODY), tau);
-    let (m, m_merged) = (
-        crba(robot, &state.q, &RIGID_BODY),
-        crba(model, &state.q, &RIGID_BODY),
-    );
+    let (m, m_merged) = (crba(robot, &state.q, &RIGID_BODY), crba(model, &state.q, &RIGID_BODY));
     for i in 0..V {
         inertia.see(*m_merged.row(i).unwrap(), *m.row(i).unwrap());
     }
-    let moved = [
-        aba(model, state, &tau, &RIGID_BODY),
-        aba(robot, state, &tau, &RIGID_BODY),
-    ];
+    let moved = [aba(model, state, &tau, &RIGID_BODY), aba(robot, state, &tau, &RIGID_BODY)];
     let [got, want] = moved.map(|qdd| qdd.expect("every body has mass"));
     forward.see(got, want);
     let (k, k_merged) = (kinematics(robot, state, &()), kinematics(model, state, &()));
     for (i, place) in merged.places.iter().enumerate() {
         let x = place.placement;
         let (pose, v, a) = match k_merged.poses.get(place.body) {
-            Some(pose) => (
-                pose.xform(),
-                k_merged.velocities[place.body],
-                k_merged.accelerations[place.body],
-            ),
+            Some(pose) => {
+                (pose.xform(), k_merged.velocities[place.body], k_merged.accelerations[place.body])
+            }
             None => (Xform::IDENTITY, Motion::ZERO, Motion::ZERO),
         };
         let (got, want) = (x * pose, k.poses[i].xform());
@@ -110,14 +94,9 @@ fn see<const B: usize, const M: usize, const Q: usize, const V: usize>(
             rnea(robot, state, &floor(i, point)),
         );
         let wrench = Force::new(DVec3::new(1.0, -2.0, 0.5), DVec3::new(3.0, 4.0, -5.0));
-        let carried = BodyWrench {
-            body: place.body,
-            wrench: x.transpose_mul(wrench),
-        };
-        wrenches.see(
-            rnea(model, state, &carried),
-            rnea(robot, state, &BodyWrench { body: i, wrench }),
-        );
+        let carried = BodyWrench { body: place.body, wrench: x.transpose_mul(wrench) };
+        wrenches
+            .see(rnea(model, state, &carried), rnea(robot, state, &BodyWrench { body: i, wrench }));
     }
 }
 
@@ -180,11 +159,8 @@ fn merged_robots_have_the_dynamics_and_kinematics_of_before() {
     let mut seen = [0; 3];
     for _ in 0..30 {
         let tree = welded(rng);
-        let fixed = |i: usize| {
-            tree.links
-                .get(i)
-                .is_some_and(|link| link.joint.kind == JointKind::Fixed)
-        };
+        let fixed =
+            |i: usize| tree.links.get(i).is_some_and(|link| link.joint.kind == JointKind::Fixed);
         for (i, link) in tree.links.iter().enumerate() {
             seen[0] += usize::from(fixed(i) && fixed(link.parent));
             seen[1] += usize::from(fixed(i) && link.parent == BASE);
@@ -220,19 +196,12 @@ fn a_part_in_another_place_shows_in_every_quantity() {
 fn merging_keeps_order_names_and_frames_of_bodies_that_move() {
     let Merged { model, places, .. } = StressRobot::MODEL.merged::<7>();
     let names = model.links.map(|link| link.name);
-    assert_eq!(
-        names,
-        ["rail", "yoke", "quill", "head", "boom", "jib", "lift"]
-    );
+    assert_eq!(names, ["rail", "yoke", "quill", "head", "boom", "jib", "lift"]);
     let body = |name| places[StressRobot::MODEL.body(name)].body;
     let [plinth, bracket, tool, ballast] = ["plinth", "bracket", "tool", "ballast"].map(body);
     assert_eq!([plinth, bracket, tool, ballast], [BASE, 1, 3, 6]);
     let mass: f64 = model.links.iter().map(|link| link.inertia.mass).sum();
-    let before: f64 = StressRobot::MODEL
-        .links
-        .iter()
-        .map(|link| link.inertia.mass)
-        .sum();
+    let before: f64 = StressRobot::MODEL.links.iter().map(|link| link.inertia.mass).sum();
     assert!((mass + 3.0 - before).abs() < 1e-14); // what stands on the base is not in it
     assert!(model.check(1e-9).is_ok());
     assert_eq!(Ur5e::MODEL.merged::<6>().model, Ur5e::MODEL);
@@ -245,10 +214,7 @@ fn another_number_of_bodies_is_refused_and_named() {
     assert_eq!(error.body, "a1");
     let (expected, given) = (A1::MODEL.moving_bodies(), 16);
     assert_eq!(error.problem, Problem::Bodies { expected, given });
-    assert_eq!(
-        error.to_string(),
-        "robot `a1`: 12 of its bodies move, not M = 16"
-    );
+    assert_eq!(error.to_string(), "robot `a1`: 12 of its bodies move, not M = 16");
     assert!(A1::MODEL.try_merged::<11>().is_err());
     let still = Model::<f64, 1, 0, 0>::new("still", [Body::new("foot", BASE, Joint::fixed())]);
     assert!(still.try_merged::<1>().is_err());

@@ -18,12 +18,8 @@ fn tip() -> Body {
         .limits(LIMITS)
 }
 
-const LIMITS: JointLimits<f64> = JointLimits {
-    lower: -1.0,
-    upper: 1.0,
-    velocity: 3.0,
-    torque: 100.0,
-};
+const LIMITS: JointLimits<f64> =
+    JointLimits { lower: -1.0, upper: 1.0, velocity: 3.0, torque: 100.0 };
 
 fn root() -> Body {
     Body::new("root", BASE, Joint::prismatic(Y)).mass(1.0)
@@ -77,16 +73,10 @@ fn a_length_that_is_not_finite_is_named() {
 }
 
 #[test]
-#[should_panic(
-    expected = "body `tip`: a limit is not a number, lower exceeds upper, or a speed \
-                           or torque limit is negative"
-)]
+#[should_panic(expected = "body `tip`: a limit is not a number, lower exceeds upper, or a speed \
+                           or torque limit is negative")]
 fn limits_that_exclude_each_other_are_named() {
-    arm(tip().limits(JointLimits {
-        lower: 1.0,
-        upper: -1.0,
-        ..LIMITS
-    }));
+    arm(tip().limits(JointLimits { lower: 1.0, upper: -1.0, ..LIMITS }));
 }
 
 #[test]
@@ -148,41 +138,15 @@ fn a_moment_of_inertia_that_overflows_is_refused() {
 fn limits_that_are_not_numbers_or_negative_are_refused() {
     let nan = f64::NAN;
     for limits in [
-        JointLimits {
-            lower: nan,
-            ..LIMITS
-        },
-        JointLimits {
-            upper: nan,
-            ..LIMITS
-        },
-        JointLimits {
-            velocity: nan,
-            ..LIMITS
-        },
-        JointLimits {
-            torque: nan,
-            ..LIMITS
-        },
-        JointLimits {
-            velocity: -3.0,
-            ..LIMITS
-        },
-        JointLimits {
-            torque: -100.0,
-            ..LIMITS
-        },
-        JointLimits {
-            lower: 1.0,
-            upper: -1.0,
-            ..LIMITS
-        },
+        JointLimits { lower: nan, ..LIMITS },
+        JointLimits { upper: nan, ..LIMITS },
+        JointLimits { velocity: nan, ..LIMITS },
+        JointLimits { torque: nan, ..LIMITS },
+        JointLimits { velocity: -3.0, ..LIMITS },
+        JointLimits { torque: -100.0, ..LIMITS },
+        JointLimits { lower: 1.0, upper: -1.0, ..LIMITS },
     ] {
-        assert_eq!(
-            problem(tip().limits(limits)),
-            Some(Problem::Limits),
-            "{limits:?}"
-        );
+        assert_eq!(problem(tip().limits(limits)), Some(Problem::Limits), "{limits:?}");
     }
 }
 
@@ -243,15 +207,9 @@ fn a_negative_moment_is_refused_with_its_amount() {
         Some(error.to_string())
     };
     let negative = "body `tip`: a principal moment of its inertia is negative: -2.60e-2 kg·m²";
-    assert_eq!(
-        said([0.03, 0.0, 0.0, -0.026, 0.0, 0.03]).as_deref(),
-        Some(negative)
-    );
+    assert_eq!(said([0.03, 0.0, 0.0, -0.026, 0.0, 0.03]).as_deref(), Some(negative));
     // A negative moment with a diagonal that is positive: 0.02 ± 0.046.
-    assert_eq!(
-        said([0.02, 0.046, 0.0, 0.02, 0.0, 0.03]).as_deref(),
-        Some(negative)
-    );
+    assert_eq!(said([0.02, 0.046, 0.0, 0.02, 0.0, 0.03]).as_deref(), Some(negative));
     // Six right numbers in the order of other descriptions; the moment is the root of a cubic.
     for [xx, xy, xz, yy, yz, zz] in [
         [0.03, 0.001, -0.002, 0.04, 0.003, 0.05],
@@ -261,10 +219,7 @@ fn a_negative_moment_is_refused_with_its_amount() {
     ] {
         assert_eq!(said([xx, xy, xz, yy, yz, zz]), None);
         let text = said([xx, yy, zz, xy, xz, yz]).expect("a negative moment");
-        assert!(
-            text.contains("in the order xx, yy, zz, xy, xz, yz it has none: -"),
-            "{text}"
-        );
+        assert!(text.contains("in the order xx, yy, zz, xy, xz, yz it has none: -"), "{text}");
     }
     // Rounded digits, and what breaks the triangle inequality alone, as published robots do.
     assert_eq!(said([0.03, 0.0, 0.0, 0.03, 0.0, -2e-5]), None);
@@ -328,16 +283,10 @@ fn a_checks_tolerance_is_the_amount_of_violation() {
     // xy and yx differ by 0.1 of the largest entry, 2.
     let mut skewed = arm(tip().inertia([2.0, 0.3, 0.0, 2.0, 0.0, 2.0]).com([0.0; 3]));
     let inertia = &mut skewed.links[1].inertia.rotational;
-    let size = inertia
-        .to_cols_array()
-        .iter()
-        .fold(0.0, |size: f64, x| size.max(x.abs()));
+    let size = inertia.to_cols_array().iter().fold(0.0, |size: f64, x| size.max(x.abs()));
     inertia.x_axis.y += 0.1 * size;
     let skew = (inertia.x_axis.y - inertia.y_axis.x).abs()
-        / inertia
-            .to_cols_array()
-            .iter()
-            .fold(0.0, |size: f64, x| size.max(x.abs()));
+        / inertia.to_cols_array().iter().fold(0.0, |size: f64, x| size.max(x.abs()));
     assert!(skew > 0.09);
     assert!(skewed.check(1.001 * skew).is_ok());
     let error = skewed.check(0.999 * skew).unwrap_err();

@@ -26,11 +26,7 @@ fn momentum_is_m_qd_and_energy_half_qd_m_qd() {
     for (tree, state) in trees(false) {
         let scene = (Inertia, Armature([0.3; V]), load());
         // M q̇ is the torque of q̈ = q̇ at rest.
-        let at_rest = State {
-            qd: [0.0; V],
-            qdd: state.qd,
-            ..state
-        };
+        let at_rest = State { qd: [0.0; V], qdd: state.qd, ..state };
         let p = rnea(&tree, &at_rest, &scene);
         let half: f64 = p.iter().zip(state.qd).map(|(p, qd)| 0.5 * p * qd).sum();
         worst[0].see([kinetic_energy(&tree, &state, &scene)], [half]);
@@ -65,42 +61,26 @@ fn motors_supply_the_rate_of_both_energies() {
 fn centroidal_momentum_is_mass_times_centre_velocity() {
     let mut worst = [(); 3].map(|()| Worst::default());
     for (tree, state) in trees(false) {
-        let (h, c) = (
-            momentum(&tree, &state, &()),
-            center_of_mass(&tree, &state, &()),
-        );
+        let (h, c) = (momentum(&tree, &state, &()), center_of_mass(&tree, &state, &()));
         let mass: f64 = tree.links.iter().map(|link| link.inertia.mass).sum();
         assert!((c.mass - mass).abs() < 1e-14 * mass);
         let centre =
             |t| center_of_mass(&tree, &State::at(moved(&tree, &state.q, &state.qd, t)), &());
-        worst[0].see(
-            c.velocity.to_array(),
-            slope(|t| centre(t).position.to_array()),
-        );
+        worst[0].see(c.velocity.to_array(), slope(|t| centre(t).position.to_array()));
         let about_centre = centroidal_momentum(&tree, &state, &());
         let moved = about_centre.ang + c.position.cross(about_centre.lin);
-        worst[1].see(
-            flat::<f64>(moved, about_centre.lin),
-            flat::<f64>(h.ang, h.lin),
-        );
+        worst[1].see(flat::<f64>(moved, about_centre.lin), flat::<f64>(h.ang, h.lin));
         let columns = centroidal_matrix(&tree, &state.q, &());
-        let product = columns
-            .iter()
-            .zip(state.qd)
-            .fold(Force::<f64>::ZERO, |sum, (&a, qd)| sum + a * qd);
+        let product =
+            columns.iter().zip(state.qd).fold(Force::<f64>::ZERO, |sum, (&a, qd)| sum + a * qd);
         worst[2].see(
             flat::<f64>(product.ang, product.lin),
             flat::<f64>(about_centre.ang, about_centre.lin),
         );
     }
     let mut verdict = Verdict::default();
-    for (law, worst) in [
-        "velocity of the centre",
-        "momentum about the centre",
-        "A_G qd",
-    ]
-    .iter()
-    .zip(&worst)
+    for (law, worst) in
+        ["velocity of the centre", "momentum about the centre", "A_G qd"].iter().zip(&worst)
     {
         verdict.see("mixed tree", law, "f64", worst);
     }
@@ -123,11 +103,8 @@ fn only_gravity_changes_a_falling_trees_momentum() {
         let c = center_of_mass(&tree, &state, &());
         let weight = DVec3::new(0.0, 0.0, -9.81 * c.mass);
         worst.see(rate, flat::<f64>(c.position.cross(weight), weight));
-        let rate = slope(|t| {
-            centroidal_momentum(&tree, &later(&tree, &state, t), &())
-                .ang
-                .to_array()
-        });
+        let rate =
+            slope(|t| centroidal_momentum(&tree, &later(&tree, &state, t), &()).ang.to_array());
         worst.see(rate, [0.0; 3]);
     }
     let mut verdict = Verdict::default();
@@ -143,10 +120,7 @@ fn rate_of_momentum() -> Worst {
         let scale = (i % 2) as f64;
         let v = Motion::new(DVec3::new(0.3, -0.5, 0.7), DVec3::new(0.1, 0.2, -0.3)) * scale;
         let a = Motion::new(DVec3::new(-1.0, 2.0, 0.5), DVec3::new(0.4, 1.0, -2.0)) * scale;
-        let ship = |t| MovingBase {
-            velocity: v + a * t,
-            acceleration: a,
-        };
+        let ship = |t| MovingBase { velocity: v + a * t, acceleration: a };
         let scene = |t| ((Inertia, Coriolis, Armature([0.3; V])), (load(), ship(t)));
         let rate = slope(|t| momentum_and_coriolis(&tree, &later(&tree, &state, t), &scene(t)).p);
         let tau = rnea(&tree, &state, &scene(0.0));
@@ -199,23 +173,13 @@ fn generalised_momentum_changes_by_motor_torque_and_drift() {
         let v = Motion::new(DVec3::new(0.3, -0.5, 0.7), DVec3::new(0.1, 0.2, -0.3)) * scale;
         let a = Motion::new(DVec3::new(-1.0, 2.0, 0.5), DVec3::new(0.4, 1.0, -2.0)) * scale;
         let width = Width::new(0.5);
-        let coulomb = Coulomb {
-            torque: [0.8; V],
-            width,
-        };
+        let coulomb = Coulomb { torque: [0.8; V], width };
         let scene = |t| {
-            let ship = MovingBase {
-                velocity: v + a * t,
-                acceleration: a,
-            };
+            let ship = MovingBase { velocity: v + a * t, acceleration: a };
             let joints = (Armature([0.3; V]), Viscous([0.7; V]), coulomb);
             (RIGID_BODY, joints, load(), ship, Air)
         };
-        let gears = LoadFriction {
-            driving: [0.2; V],
-            backdriving: [0.1; V],
-            width,
-        };
+        let gears = LoadFriction { driving: [0.2; V], backdriving: [0.1; V], width };
         let rate = slope(|t| {
             let later = later(&tree, &state, t);
             momentum_and_drift(&tree, &later, &scene(t)).p
@@ -253,10 +217,7 @@ fn of_an_arm<const N: usize, const V: usize>(arm: &Model<f64, N, V, V>, worst: &
         let m_qd = |q: &[f64; V]| product(&crba(arm, q, &scene), &state.qd);
         let MomentumAndCoriolis { p, ct_qd } = momentum_and_coriolis(arm, &state, &scene);
         worst[0].see(p, m_qd(&state.q));
-        let rest = State {
-            qdd: [0.0; V],
-            ..state
-        };
+        let rest = State { qdd: [0.0; V], ..state };
         let mut less = rnea(arm, &rest, &scene).map(|c_qd| -c_qd);
         for k in 0..V {
             let by_q = slope_of_turn(|by| m_qd(&at(k, by).q));

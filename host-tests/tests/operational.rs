@@ -29,9 +29,7 @@ fn both_ways<F: frame::Frame>(frame: F, worst: &mut Worst) {
             let damping = Damping::relative(DAMPING);
             let task =
                 operational_space(&tree, &q, (body, frame), &unit(), &scene, damping).unwrap();
-            let recursion = osim_inverse(&tree, &q, body, frame, &scene)
-                .unwrap()
-                .along(&unit());
+            let recursion = osim_inverse(&tree, &q, body, frame, &scene).unwrap().along(&unit());
             for (got, want) in recursion.into_iter().zip(task.mobility) {
                 worst.see(got, want);
             }
@@ -58,23 +56,15 @@ fn a_joint_that_moves_no_inertia_is_named() {
     let empty: ArmModel<f64, 2> = Model::new(
         "empty hand",
         [
-            Body::new("arm", BASE, Joint::revolute([0.0, 1.0, 0.0]))
-                .mass(1.0)
-                .com([0.3, 0.0, 0.0]),
+            Body::new("arm", BASE, Joint::revolute([0.0, 1.0, 0.0])).mass(1.0).com([0.3, 0.0, 0.0]),
             Body::new("hand", 0, Joint::revolute([0.0, 1.0, 0.0])).xyz([0.6, 0.0, 0.0]),
         ],
     );
     let error = osim_inverse(&empty, &[0.1, 0.2], 1, frame::Local, &RIGID_BODY).unwrap_err();
     assert_eq!(error.joint, 1);
     let damping = Damping::relative(DAMPING);
-    let task = operational_space(
-        &empty,
-        &[0.1, 0.2],
-        (1, frame::Local),
-        &unit(),
-        &RIGID_BODY,
-        damping,
-    );
+    let task =
+        operational_space(&empty, &[0.1, 0.2], (1, frame::Local), &unit(), &RIGID_BODY, damping);
     assert_eq!(task.unwrap_err().joint, 1);
 }
 
@@ -96,9 +86,7 @@ fn regular_tasks<T: Robot<N, N, N>, const N: usize, const M: usize>(
         )
     };
     let tasks = poses.iter().map(|q| task(q).unwrap());
-    tasks
-        .filter(|task| task.conditioning == Conditioning::Regular)
-        .collect()
+    tasks.filter(|task| task.conditioning == Conditioning::Regular).collect()
 }
 
 fn dot<const N: usize>(a: &[f64; N], b: &[f64; N]) -> f64 {
@@ -123,9 +111,7 @@ fn inverses<T: Robot<N, N, N>, const N: usize, const M: usize>(
         // twice.
         let tau: [f64; N] = rng.vector(30.0);
         let felt = |tau: &[f64; N]| task.response.map(|response| dot(&response, tau));
-        let all = felt(&tau)
-            .into_iter()
-            .fold(0.0, |most: f64, x| most.max(x.abs()));
+        let all = felt(&tau).into_iter().fold(0.0, |most: f64, x| most.max(x.abs()));
         let unseen = felt(&task.null_space_torque(&tau)).map(|x| x / all);
         worst[2].full_scale = 1.0;
         worst[2].see(unseen, [0.0; M]);
@@ -140,10 +126,7 @@ fn operational_inertia_and_jacobian_have_their_inverses() {
     inverses::<Panda, 7, 3>(&TaskFrame::BASE.place(), &mut worst);
     inverses::<Panda, 7, 6>(&TaskFrame::BASE.turn_and_place(0.3), &mut worst);
     let mut verdict = Verdict::default();
-    for (law, worst) in ["Λ of Λ⁻¹", "J of its inverse", "free torque"]
-        .iter()
-        .zip(&worst)
-    {
+    for (law, worst) in ["Λ of Λ⁻¹", "J of its inverse", "free torque"].iter().zip(&worst) {
         verdict.see("arms", law, "f64", worst);
     }
     verdict.speak();
@@ -169,8 +152,5 @@ fn a_task_frame_turns_the_inertia_with_it() {
     };
     let (base, turned) = (of(TaskFrame::BASE), of(TaskFrame { axes }));
     let apart = turned - axes.transpose() * base * axes;
-    assert!(
-        apart.to_cols_array().iter().all(|x| x.abs() < 1e-12),
-        "{apart}"
-    );
+    assert!(apart.to_cols_array().iter().all(|x| x.abs() < 1e-12), "{apart}");
 }

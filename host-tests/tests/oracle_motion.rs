@@ -18,10 +18,7 @@ use host_tests::recordings::{Recording, columns, full_scale, load, row, symmetri
 
 /// Largest error of a quantity, and the full scale of what was recorded.
 fn worst(rows: &[Vec<f64>]) -> Worst {
-    Worst {
-        error: 0.0,
-        full_scale: full_scale(rows),
-    }
+    Worst { error: 0.0, full_scale: full_scale(rows) }
 }
 
 /// The largest error of each quantity in each scalar, over all robots and relative to the robot's
@@ -31,10 +28,7 @@ struct Most(BTreeMap<(&'static str, &'static str), f64>);
 
 impl Most {
     fn see<R>(&mut self, quantity: &'static str, worst: &Worst) {
-        let most = self
-            .0
-            .entry((quantity, core::any::type_name::<R>()))
-            .or_default();
+        let most = self.0.entry((quantity, core::any::type_name::<R>())).or_default();
         *most = largest([*most, worst.error / worst.full_scale]);
     }
 }
@@ -82,10 +76,7 @@ fn motions<R: Real, T, const B: usize, const Q: usize, const V: usize>(
             core::array::from_fn(|k| if k < 9 { flat_rot(k) } else { place[k - 9] });
         errors[0].compare(got, row(&r.tip_pose, i));
         errors[1].compare(six(k.velocity(tip, frame::Local)), row(&r.tip_velocity, i));
-        errors[2].compare(
-            six(k.acceleration(tip, frame::Local)),
-            row(&r.tip_acceleration, i),
-        );
+        errors[2].compare(six(k.acceleration(tip, frame::Local)), row(&r.tip_acceleration, i));
         let jacobians = [
             Core::<T>::jacobian(&state.q, tip, frame::Local),
             Core::<T>::jacobian(&state.q, tip, frame::World),
@@ -106,11 +97,7 @@ fn motions<R: Real, T, const B: usize, const Q: usize, const V: usize>(
             row(&r.drift_world, i),
         );
         errors[8].compare(
-            six(Core::<T>::bias_acceleration(
-                &state,
-                tip,
-                frame::LocalWorldAligned,
-            )),
+            six(Core::<T>::bias_acceleration(&state, tip, frame::LocalWorldAligned)),
             row(&r.drift_mixed, i),
         );
         let [kinetic, potential] = [
@@ -122,17 +109,11 @@ fn motions<R: Real, T, const B: usize, const Q: usize, const V: usize>(
         let centre = center_of_mass(&Static::<T>::NEW, &state, &()).position;
         errors[11].compare(centre.array().map(R::to_f64), row(&r.centre_of_mass, i));
         let all = |f: Force<R>| flat::<R>(f.ang, f.lin);
-        errors[12].compare(
-            all(momentum(&Static::<T>::NEW, &state, &())),
-            row(&r.momentum, i),
-        );
+        errors[12].compare(all(momentum(&Static::<T>::NEW, &state, &())), row(&r.momentum, i));
         let h = centroidal_momentum(&Static::<T>::NEW, &state, &());
         errors[13].compare(all(h), row(&r.centroidal_momentum, i));
         let matrix = centroidal_matrix(&Static::<T>::NEW, &state.q, &());
-        for (got, want) in matrix
-            .into_iter()
-            .zip(columns::<V>(&r.centroidal_matrix, i))
-        {
+        for (got, want) in matrix.into_iter().zip(columns::<V>(&r.centroidal_matrix, i)) {
             errors[14].compare(all(got), want);
         }
         let rate = Core::<T>::momentum_and_coriolis(&state, &());
@@ -157,10 +138,7 @@ fn mobilities<R: Real, T, const B: usize, const Q: usize, const V: usize>(
         let mobility =
             Core::<T>::osim_inverse(&q, B - 1, frame::Local, &()).expect("M is positive");
         let got = mobility.along(&unit()).map(|row| row.map(R::to_f64));
-        for (got, want) in got
-            .into_iter()
-            .zip(symmetric::<6>(&r.operational_inverse, i))
-        {
+        for (got, want) in got.into_iter().zip(symmetric::<6>(&r.operational_inverse, i)) {
             errors.compare(got, want);
         }
     }
@@ -186,12 +164,7 @@ fn motions_energies_and_momenta_agree_with_pinocchio() {
     let mut verdict = Verdict::default();
     for ((quantity, scalar), &error) in &most.0 {
         let full_scale = 1.0;
-        verdict.see(
-            "recorded robots",
-            quantity,
-            scalar,
-            &Worst { error, full_scale },
-        );
+        verdict.see("recorded robots", quantity, scalar, &Worst { error, full_scale });
     }
     verdict.speak();
 }

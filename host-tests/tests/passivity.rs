@@ -9,10 +9,7 @@ use dynamics_core::robots::{Panda, Ur5e};
 use dynamics_core::state::State;
 use motion_control::{Estimate, PassivityGains, passivity_based_torque};
 
-type Scene<const V: usize> = (
-    (Gravity, Inertia, Coriolis),
-    (Armature<f64, V>, Viscous<f64, V>),
-);
+type Scene<const V: usize> = ((Gravity, Inertia, Coriolis), (Armature<f64, V>, Viscous<f64, V>));
 
 fn scene<const V: usize>() -> Scene<V> {
     let joints = (Armature([0.5; V]), Viscous([2.0; V]));
@@ -60,11 +57,7 @@ fn without_c_of_the_reference<const B: usize, const V: usize>(
     estimate: &Estimate<f64, V>,
 ) -> [f64; V] {
     let sliding = gains.sliding(reference, estimate);
-    let state = State {
-        q: estimate.q,
-        qd: estimate.qd,
-        qdd: sliding.qdd_r,
-    };
+    let state = State { q: estimate.q, qd: estimate.qd, qdd: sliding.qdd_r };
     let tau = rnea(arm, &state, &scene());
     core::array::from_fn(|i| tau[i] - gains.kd[i] * sliding.s[i])
 }
@@ -80,10 +73,7 @@ fn rates<const B: usize, const V: usize>(arm: &Model<f64, B, V, V>, law: Law<'_,
             qd: rng.vector(3.0),
             qdd: rng.vector(10.0),
         };
-        let estimate = Estimate {
-            q: state.q,
-            qd: state.qd,
-        };
+        let estimate = Estimate { q: state.q, qd: state.qd };
         let sliding = gains.sliding(&reference, &estimate);
         let tau = law(arm, &gains, &reference, &estimate);
         let qdd = aba(arm, &state, &tau, &scene()).unwrap();
@@ -101,10 +91,8 @@ fn rates<const B: usize, const V: usize>(arm: &Model<f64, B, V, V>, law: Law<'_,
 #[test]
 fn the_energy_of_s_changes_by_its_damping_alone() {
     let mut verdict = Verdict::default();
-    let both = [
-        ("ur5e", rates(&Ur5e::MODEL, &slotine_li)),
-        ("panda", rates(&Panda::MODEL, &slotine_li)),
-    ];
+    let both =
+        [("ur5e", rates(&Ur5e::MODEL, &slotine_li)), ("panda", rates(&Panda::MODEL, &slotine_li))];
     for (arm, worst) in &both {
         verdict.see(arm, "rate of the energy of s", "f64", worst);
     }
@@ -145,11 +133,7 @@ fn run(arm: &ArmModel<f64, 6>, model: &ArmModel<f64, 6>, ticks: usize) -> Run {
     let gains = gains();
     let rate = |q: &[f64; 6], qd: &[f64; 6], t: f64| {
         let tau = slotine_li(model, &gains, &reference(t), &Estimate { q: *q, qd: *qd });
-        let state = State {
-            q: *q,
-            qd: *qd,
-            qdd: [0.0; 6],
-        };
+        let state = State { q: *q, qd: *qd, qdd: [0.0; 6] };
         aba(arm, &state, &tau, &scene()).unwrap()
     };
     let mut at = State::at(START.map(|q| q + 0.2));
@@ -173,11 +157,7 @@ fn run(arm: &ArmModel<f64, 6>, model: &ArmModel<f64, 6>, ticks: usize) -> Run {
         }
     }
     let end = at;
-    Run {
-        end,
-        errors,
-        energies,
-    }
+    Run { end, errors, energies }
 }
 
 fn plus(x: &[f64; 6], rate: &[f64; 6], h: f64) -> [f64; 6] {
@@ -224,11 +204,7 @@ fn tracking_with_wrong_inertias_converges_to_the_stated_error() {
     let most = |errors: &[f64]| errors.iter().copied().fold(0.0, f64::max);
     // It starts with 0.2 rad; the second swing of 4 rad/s and 0.8 rad is tracked within a tenth of
     // that.
-    assert!(
-        most(&errors[1570..3140]) < 0.02,
-        "{}",
-        most(&errors[1570..3140])
-    );
+    assert!(most(&errors[1570..3140]) < 0.02, "{}", most(&errors[1570..3140]));
     // At rest K_D Λ (q_d − q) is the error of gravity.
     let weight = |arm| rnea(arm, &State::at(end.q), &Gravity::EARTH);
     let (truth, modelled, gains) = (weight(&arm), weight(&model), gains::<6>());

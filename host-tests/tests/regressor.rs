@@ -99,12 +99,7 @@ fn the_regressor_its_rows_and_its_columns_agree_with_pinocchio() {
     let mut verdict = Verdict::default();
     for (scalar, error) in ["f64", "f32"].into_iter().zip(most) {
         let full_scale = 1.0;
-        verdict.see(
-            "recorded robots",
-            "regressor",
-            scalar,
-            &Worst { error, full_scale },
-        );
+        verdict.see("recorded robots", "regressor", scalar, &Worst { error, full_scale });
     }
     verdict.speak();
 }

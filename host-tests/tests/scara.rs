@@ -98,10 +98,7 @@ fn gravity_adds_nothing_to_vertical_axes() {
     for state in random_states::<f32>() {
         let without = Engine::<Scara>::rnea(&state, &EFFECTS);
         let along = GravityVector(Vec3::NEG_Z * 9.81);
-        assert_eq!(
-            Engine::<Scara>::rnea(&state, &(Gravity::EARTH, EFFECTS)),
-            without
-        );
+        assert_eq!(Engine::<Scara>::rnea(&state, &(Gravity::EARTH, EFFECTS)), without);
         assert_eq!(Engine::<Scara>::rnea(&state, &(along, EFFECTS)), without);
     }
 }

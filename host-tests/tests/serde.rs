@@ -25,9 +25,7 @@ fn comes_back<T: Serialize + DeserializeOwned + PartialEq + std::fmt::Debug>(val
 
 /// Why a text is not read as a T.
 fn refusal<T: DeserializeOwned + std::fmt::Debug>(text: &str) -> String {
-    serde_json::from_str::<T>(text)
-        .expect_err("not a T")
-        .to_string()
+    serde_json::from_str::<T>(text).expect_err("not a T").to_string()
 }
 
 const LIMITS: SafetyLimits<f32, 2> = SafetyLimits {
@@ -67,23 +65,12 @@ fn controller_configurations_roundtrip_bit_by_bit() {
     comes_back(LIMITS);
     comes_back(CONFIG.supervisor);
     comes_back(CONFIG);
-    comes_back(ObserverConfig {
-        bandwidth: 250.1_f32,
-        tick: 1e-3,
-    });
+    comes_back(ObserverConfig { bandwidth: 250.1_f32, tick: 1e-3 });
     comes_back(Gains { kp: a, kd: b });
     comes_back(PassivityGains { lambda: a, kd: b });
-    comes_back(ImpedanceConfig {
-        stiffness: LIMITS.torque,
-        zeta: 0.7,
-        slowest: 2.1,
-    });
+    comes_back(ImpedanceConfig { stiffness: LIMITS.torque, zeta: 0.7, slowest: 2.1 });
     let positive = THIRDS.map(f32::abs);
-    comes_back(TipWrenchConfig {
-        noise: positive,
-        force: 30.1,
-        couple: 0.0,
-    });
+    comes_back(TipWrenchConfig { noise: positive, force: 30.1, couple: 0.0 });
     comes_back(PayloadEstimatorConfig {
         noise: positive,
         prior: [0.3; 10],
@@ -97,11 +84,7 @@ fn controller_configurations_roundtrip_bit_by_bit() {
         forgetting: 1e-3,
         limit: 5.1,
     });
-    let spring = LimitedSpring {
-        stiffness: positive,
-        damping: [0.1, 0.2],
-        torque: [0.3, 0.4],
-    };
+    let spring = LimitedSpring { stiffness: positive, damping: [0.1, 0.2], torque: [0.3, 0.4] };
     comes_back(HandGuidingConfig {
         error: 0.1,
         share: 0.9,
@@ -118,26 +101,10 @@ fn controller_configurations_roundtrip_bit_by_bit() {
         damping: positive,
         torque: positive,
     });
-    comes_back(MotionLimits {
-        velocity: a[0],
-        acceleration: b[1],
-    });
-    comes_back(WayPoint {
-        q: a,
-        qd: b,
-        ticks: u32::MAX,
-    });
-    comes_back(State {
-        q: [0.1_f64, 0.2, 0.3],
-        qd: [0.4, 0.5],
-        qdd: [0.6, 0.7],
-    });
-    comes_back(JointLimits {
-        lower: a[0],
-        upper: a[1],
-        velocity: b[0],
-        torque: b[1],
-    });
+    comes_back(MotionLimits { velocity: a[0], acceleration: b[1] });
+    comes_back(WayPoint { q: a, qd: b, ticks: u32::MAX });
+    comes_back(State { q: [0.1_f64, 0.2, 0.3], qd: [0.4, 0.5], qdd: [0.6, 0.7] });
+    comes_back(JointLimits { lower: a[0], upper: a[1], velocity: b[0], torque: b[1] });
 }
 
 #[test]
@@ -152,25 +119,10 @@ fn identified_parameters_roundtrip_bit_by_bit() {
     comes_back(Viscous(a));
     comes_back(ConstantTorque(a));
     comes_back(Armature(b));
-    comes_back(Coulomb {
-        torque: a,
-        width: Width::new(0.05),
-    });
-    comes_back(AsymmetricCoulomb {
-        forward: a,
-        backward: b,
-        width: Width::new(0.05),
-    });
-    comes_back(LoadFriction {
-        driving: a,
-        backdriving: b,
-        width: Width::new(0.05),
-    });
-    comes_back(Stribeck {
-        excess: a,
-        stribeck_speed: Width::new(0.1),
-        width: Width::new(0.007),
-    });
+    comes_back(Coulomb { torque: a, width: Width::new(0.05) });
+    comes_back(AsymmetricCoulomb { forward: a, backward: b, width: Width::new(0.05) });
+    comes_back(LoadFriction { driving: a, backdriving: b, width: Width::new(0.05) });
+    comes_back(Stribeck { excess: a, stribeck_speed: Width::new(0.1), width: Width::new(0.007) });
     comes_back(Lugre {
         stiffness: LIMITS.torque,
         damping: b,
@@ -180,15 +132,8 @@ fn identified_parameters_roundtrip_bit_by_bit() {
         stribeck_speed: Width::new(0.1),
         bristle: b,
     });
-    comes_back(Cogging {
-        per_turn: a,
-        cos: [[0.1, 0.2, 0.3]; 2],
-        sin: [[0.4, 0.5, 0.6]; 2],
-    });
-    comes_back(Spring {
-        stiffness: LIMITS.torque,
-        rest: b,
-    });
+    comes_back(Cogging { per_turn: a, cos: [[0.1, 0.2, 0.3]; 2], sin: [[0.4, 0.5, 0.6]; 2] });
+    comes_back(Spring { stiffness: LIMITS.torque, rest: b });
     comes_back(EndStops {
         lower: a,
         upper: b,
@@ -220,10 +165,7 @@ fn a_field_that_is_missing_or_unknown_is_refused() {
 
 #[test]
 fn bounds_that_allow_nothing_are_refused_as_they_are_read() {
-    let negative = SafetyLimits {
-        torque: [10.0, -10.0],
-        ..LIMITS
-    };
+    let negative = SafetyLimits { torque: [10.0, -10.0], ..LIMITS };
     let text = serde_json::to_string(&negative).expect("bounds");
     assert!(refusal::<SafetyLimits<f32, 2>>(&text).contains("joint 1: its torque limit"));
     let mut config = CONFIG;

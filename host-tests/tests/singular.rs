@@ -64,11 +64,7 @@ fn eigen<R: Real, const M: usize>(worst: &mut Worst) {
             worst.see(got.map(|x| scaled(x.to_f64())), want.map(scaled));
         }
         let least = values.iter().fold(f64::INFINITY, |least, &x| least.min(x));
-        assert_eq!(
-            how == Conditioning::Regular,
-            least >= threshold,
-            "{how:?} {least} {threshold}"
-        );
+        assert_eq!(how == Conditioning::Regular, least >= threshold, "{how:?} {least} {threshold}");
     }
 }
 
@@ -93,19 +89,14 @@ fn sweep<const M: usize, const N: usize>(
     n: usize,
     task: &impl Fn(f64) -> OperationalSpace<f64, M, N>,
 ) -> ([f64; 2], [bool; 3]) {
-    let tasks: Vec<_> = (0..=n)
-        .map(|k| task(2.0 * k as f64 / n as f64 - 1.0))
-        .collect();
+    let tasks: Vec<_> = (0..=n).map(|k| task(2.0 * k as f64 / n as f64 - 1.0)).collect();
     let mut most = [0.0_f64; 2];
     for three in tasks.windows(3) {
         for i in 0..M {
             for j in 0..M {
                 let [a, b, c] = [0, 1, 2].map(|k| three[k].inertia[i][j]);
                 assert!(c.is_finite());
-                most = [
-                    most[0].max((b - a).abs()),
-                    most[1].max((a - 2.0 * b + c).abs()),
-                ];
+                most = [most[0].max((b - a).abs()), most[1].max((a - 2.0 * b + c).abs())];
             }
         }
     }
@@ -123,11 +114,7 @@ fn is_smooth<const M: usize, const N: usize>(
     let (fine, _) = sweep(8000, &task);
     let ratios = [fine[0] / coarse[0], fine[1] / coarse[1]];
     println!("{what}: {ratios:?}");
-    assert_eq!(
-        damped,
-        [false, true, false],
-        "{what}: regular, through the singularity, regular"
-    );
+    assert_eq!(damped, [false, true, false], "{what}: regular, through the singularity, regular");
     assert!(ratios[0] < 0.51 && ratios[1] < 0.27, "{what}: {ratios:?}");
 }
 
@@ -135,9 +122,7 @@ fn is_smooth<const M: usize, const N: usize>(
 const TWO: ArmModel<f64, 3> = Model::new(
     "two links",
     [
-        Body::new("upper", BASE, Joint::revolute([0.0, 1.0, 0.0]))
-            .mass(2.0)
-            .com([0.5, 0.0, 0.0]),
+        Body::new("upper", BASE, Joint::revolute([0.0, 1.0, 0.0])).mass(2.0).com([0.5, 0.0, 0.0]),
         Body::new("lower", 0, Joint::revolute([0.0, 1.0, 0.0]))
             .xyz([1.0, 0.0, 0.0])
             .mass(1.0)
@@ -158,15 +143,8 @@ fn damped_results_are_smooth_through_a_singularity() {
     let all = TaskFrame::BASE.turn_and_place(0.3);
     let geared = (Inertia, Armature([0.9, 0.9, 0.9, 0.25, 0.25, 0.25]));
     let arm = |q| {
-        operational_space(
-            &Ur5e::MODEL,
-            &q,
-            (5, frame::LocalWorldAligned),
-            &all,
-            &geared,
-            damping,
-        )
-        .unwrap()
+        operational_space(&Ur5e::MODEL, &q, (5, frame::LocalWorldAligned), &all, &geared, damping)
+            .unwrap()
     };
     is_smooth("elbow", |s| arm(elbow(s)));
     is_smooth("wrist", |s| arm(wrist(s)));
@@ -187,15 +165,8 @@ fn damped_results_are_smooth_through_a_singularity() {
     is_smooth("two links", plane);
     let heavy = Damping::relative(0.0).with_max_inertia(500.0);
     let line = |s| {
-        operational_space(
-            &TWO,
-            &two(s),
-            (2, frame::LocalWorldAligned),
-            &[x],
-            &RIGID_BODY,
-            heavy,
-        )
-        .unwrap()
+        operational_space(&TWO, &two(s), (2, frame::LocalWorldAligned), &[x], &RIGID_BODY, heavy)
+            .unwrap()
     };
     is_smooth("along two links", line);
 }
@@ -219,12 +190,7 @@ fn singular_poses_give_finite_results_and_a_status() {
             matches!(task.conditioning, Conditioning::Damped { smallest } if smallest < R::from_f64(1e-2))
         );
         assert!(task.inertia.iter().flatten().all(|x| x.is_finite()));
-        assert!(
-            task.consistent_inverse()
-                .iter()
-                .flatten()
-                .all(|x| x.is_finite())
-        );
+        assert!(task.consistent_inverse().iter().flatten().all(|x| x.is_finite()));
     }
     at::<f64, Ur5e, 6>();
     at::<f32, Ur5e, 6>();
@@ -232,10 +198,7 @@ fn singular_poses_give_finite_results_and_a_status() {
     at::<f32, Panda, 7>();
     // A body that cannot move at all.
     let (inertia, how) = damped_inverse(&[[0.0_f32; 6]; 6], Damping::relative(1e-3));
-    assert_eq!(
-        (inertia, how),
-        ([[0.0; 6]; 6], Conditioning::Damped { smallest: 0.0 })
-    );
+    assert_eq!((inertia, how), ([[0.0; 6]; 6], Conditioning::Damped { smallest: 0.0 }));
 }
 
 #[test]

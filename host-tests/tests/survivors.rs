@@ -55,16 +55,9 @@ fn near(got: [f64; 2], want: [f64; 2], relative: f64) {
 
 #[test]
 fn stribecks_slope_at_rest_is_that_of_its_torque() {
-    let stribeck = Stribeck {
-        excess: [2.0],
-        stribeck_speed: Width::f64(0.1),
-        width: Width::f64(0.01),
-    };
-    near(
-        derivatives(&stribeck, at(0.0, 0.0)),
-        differences(&stribeck, at(0.0, 0.0)),
-        1e-8,
-    );
+    let stribeck =
+        Stribeck { excess: [2.0], stribeck_speed: Width::f64(0.1), width: Width::f64(0.01) };
+    near(derivatives(&stribeck, at(0.0, 0.0)), differences(&stribeck, at(0.0, 0.0)), 1e-8);
     assert!(derivatives(&stribeck, at(0.0, 0.0))[1] > 100.0);
 }
 
@@ -99,13 +92,7 @@ fn slopes_of_the_stops_are_those_of_their_torque() {
     };
     // Deep enough that the damping no longer grows with the depth; within, at both ends, and pulled
     // out of one so fast that the stop has let go.
-    for state in [
-        at(0.0, 2.0),
-        at(1.5, 0.3),
-        at(1.5, -0.3),
-        at(-1.5, 0.3),
-        at(1.5, -200.0),
-    ] {
+    for state in [at(0.0, 2.0), at(1.5, 0.3), at(1.5, -0.3), at(-1.5, 0.3), at(1.5, -200.0)] {
         near(derivatives(&stops, state), differences(&stops, state), 1e-5);
     }
     assert_eq!(derivatives(&stops, at(1.5, -200.0)), [0.0; 2]);
@@ -113,11 +100,8 @@ fn slopes_of_the_stops_are_those_of_their_torque() {
 
 /// A payload whose principal moments exceed what a body has by 0.2 of the largest.
 fn checked(relative: f64) -> Result<Payload<f64, 0>, InvalidPayload> {
-    let load = BodyInertia {
-        mass: 2.0,
-        com: [0.0, 0.0, 0.1],
-        inertia: [0.05, 0.0, 0.0, 0.02, 0.0, 0.02],
-    };
+    let load =
+        BodyInertia { mass: 2.0, com: [0.0, 0.0, 0.1], inertia: [0.05, 0.0, 0.0, 0.02, 0.0, 0.02] };
     Payload::try_new(load, relative)
 }
 
@@ -150,11 +134,7 @@ const FLOATING: Model<f64, 2, 8, 7> = Model::new(
 fn floating() -> State<f64, 8, 7> {
     let step = [0.3, -0.2, 0.5, 0.1, 0.4, -0.3, 0.7];
     let q = integrate(&FLOATING, &neutral(&FLOATING), &step);
-    State {
-        q,
-        qd: [0.4, -0.3, 0.8, 0.5, 0.2, -0.6, 1.3],
-        qdd: [0.0; 7],
-    }
+    State { q, qd: [0.4, -0.3, 0.8, 0.5, 0.2, -0.6, 1.3], qdd: [0.0; 7] }
 }
 
 #[track_caller]
@@ -204,32 +184,18 @@ const WHEEL: ArmModel<f64, 1> = Model::new(
 
 #[test]
 fn a_spring_adds_to_a_compliant_joints_torque_rate() {
-    let joints = ElasticJoints {
-        stiffness: [100.0],
-        rotor: [0.5],
-        friction: [0.0],
-    };
+    let joints = ElasticJoints { stiffness: [100.0], rotor: [0.5], friction: [0.0] };
     let course = ElasticReference {
-        state: State {
-            q: [0.7],
-            qd: [0.3],
-            qdd: [-0.4],
-        },
+        state: State { q: [0.7], qd: [0.3], qdd: [-0.4] },
         jerk: [1.1],
         snap: [-2.0],
     };
-    let spring = Spring {
-        stiffness: [30.0],
-        rest: [0.2],
-    };
+    let spring = Spring { stiffness: [30.0], rest: [0.2] };
     let motors = elastic_inverse_dynamics(&WHEEL, &joints, &course, &(Inertia, Coriolis, spring))
         .expect("one joint");
     // τ = I q̈ + k (q − q₀) with its derivatives; θ = q + τ/K; τ_m = J θ̈ + τ.
-    let [tau, rate, accel] = [
-        2.0 * -0.4 + 30.0 * 0.5,
-        2.0 * 1.1 + 30.0 * 0.3,
-        2.0 * -2.0 + 30.0 * -0.4,
-    ];
+    let [tau, rate, accel] =
+        [2.0 * -0.4 + 30.0 * 0.5, 2.0 * 1.1 + 30.0 * 0.3, 2.0 * -2.0 + 30.0 * -0.4];
     let close = |got: f64, want: f64| assert!((got - want).abs() < 1e-14, "{got} for {want}");
     close(motors.position[0], 0.7 + tau / 100.0);
     close(motors.velocity[0], 0.3 + rate / 100.0);
@@ -238,10 +204,7 @@ fn a_spring_adds_to_a_compliant_joints_torque_rate() {
 
 #[test]
 fn a_wanted_momentum_is_reached_with_spinning_rotors() {
-    let mut rotors = GyroscopicRotors {
-        inertia: [0.0; 7],
-        ratio: [20.0; 7],
-    };
+    let mut rotors = GyroscopicRotors { inertia: [0.0; 7], ratio: [20.0; 7] };
     rotors.inertia[6] = 0.02;
     let wanted = Force::new(DVec3::new(0.5, -1.0, 2.0), DVec3::new(3.0, 1.0, -2.0));
     let mut state = floating();
@@ -255,10 +218,8 @@ fn a_wanted_momentum_is_reached_with_spinning_rotors() {
 fn a_floating_point_masss_inertia_has_no_factors() {
     for step in 0..50 {
         let com = [0.1, -0.23, 0.37].map(|x| x * (1.0 + f64::from(step) / 7.0));
-        let model: Model<f64, 1, 7, 6> = Model::new(
-            "point",
-            [Body::new("point", BASE, Joint::free()).mass(1.5).com(com)],
-        );
+        let model: Model<f64, 1, 7, 6> =
+            Model::new("point", [Body::new("point", BASE, Joint::free()).mass(1.5).com(com)]);
         let m = crba(&model, &neutral(&model), &Inertia);
         assert!(ltdl(&model, &m).is_err(), "{com:?}");
         assert!(cholesky(&model, &m).is_err(), "{com:?}");
@@ -278,13 +239,8 @@ fn a_held_torque_is_the_last_that_was_computed() {
 
 #[test]
 fn a_tasks_damping_is_twice_ratio_times_frequency() {
-    let task = TaskMotion {
-        error: 0.0,
-        error_rate: 2.0,
-        acceleration: 0.5,
-        omega_n: 10.0,
-        zeta: 0.7,
-    };
+    let task =
+        TaskMotion { error: 0.0, error_rate: 2.0, acceleration: 0.5, omega_n: 10.0, zeta: 0.7 };
     let TaskCommand::Motion { acceleration } = TaskCommand::<f64>::motion(task) else {
         panic!("a motion");
     };
@@ -293,13 +249,8 @@ fn a_tasks_damping_is_twice_ratio_times_frequency() {
 
 #[test]
 fn an_impossible_payload_is_named_with_its_excess() {
-    let text = checked(0.2 - 1e-9)
-        .expect_err("no body is like that")
-        .to_string();
-    assert!(
-        text.contains("body 0") && text.contains("of the largest"),
-        "{text}"
-    );
+    let text = checked(0.2 - 1e-9).expect_err("no body is like that").to_string();
+    assert!(text.contains("body 0") && text.contains("of the largest"), "{text}");
 }
 
 #[test]
@@ -331,9 +282,7 @@ fn a_pivot_inherits_errors_only_within_its_joint() {
     // elsewhere.
     let wheel = |name, parent, inertia| {
         let x = [inertia, 0.0, 0.0, 1.0, 0.0, 1.0];
-        Body::new(name, parent, Joint::revolute([1.0, 0.0, 0.0]))
-            .mass(1.0)
-            .inertia(x)
+        Body::new(name, parent, Joint::revolute([1.0, 0.0, 0.0])).mass(1.0).inertia(x)
     };
     let bodies = [
         wheel("inner", BASE, SMALL),

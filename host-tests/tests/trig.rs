@@ -85,12 +85,10 @@ fn sines_stay_within_one_for_every_input() {
     fn largest<K: Kernel<f32>>() -> f32 {
         let wild = [3e9, 1e30, 1e37, f32::MAX, -f32::MAX];
         let pairs = all_sizes().chain(wild).map(K::sin_cos);
-        pairs
-            .flat_map(|(s, c)| [s.abs(), c.abs()])
-            .fold(0.0, |worst, x| {
-                assert!(x.is_finite());
-                worst.max(x)
-            })
+        pairs.flat_map(|(s, c)| [s.abs(), c.abs()]).fold(0.0, |worst, x| {
+            assert!(x.is_finite());
+            worst.max(x)
+        })
     }
     let exact = [
         largest::<Native>(),
@@ -121,10 +119,7 @@ fn nonfinite_angles_have_nan_sines() {
             Table::<256, 1>::sin_cos(x),
             Minimax::<7, 3>::sin_cos(x),
         ];
-        assert!(
-            pairs.iter().all(|(s, c)| s.is_nan() && c.is_nan()),
-            "{x}: {pairs:?}"
-        );
+        assert!(pairs.iter().all(|(s, c)| s.is_nan() && c.is_nan()), "{x}: {pairs:?}");
         let (s, c) = sin_cos_f64(x.into());
         assert!(s.is_nan() && c.is_nan());
     }
@@ -135,12 +130,8 @@ fn digest<R: Real>(pair: impl Fn(R) -> (R, R), range: f64) -> u64 {
     let sweep = (-100_000..=100_000).map(|i| f64::from(i) * 1e-5 * range);
     let tiny = (1..100).map(|i| 0.7 * 2.0_f64.powi(-i));
     let pairs = sweep.chain(tiny).map(R::from_f64).map(pair);
-    let bits = pairs
-        .flat_map(|(s, c)| [s, c])
-        .map(|x| x.to_f64().to_bits());
-    bits.fold(0, |hash: u64, bits| {
-        (hash.rotate_left(5) ^ bits).wrapping_mul(0x9e37_79b9_7f4a_7c15)
-    })
+    let bits = pairs.flat_map(|(s, c)| [s, c]).map(|x| x.to_f64().to_bits());
+    bits.fold(0, |hash: u64, bits| (hash.rotate_left(5) ^ bits).wrapping_mul(0x9e37_79b9_7f4a_7c15))
 }
 
 /// Results within range are part of what a release promises: host and target, this version and the
@@ -181,9 +172,6 @@ fn incremental_sines_recover_from_a_wrong_reading() {
         assert_eq!(held.q, 0.3);
         assert!(held.sin.abs() <= 1.0 && held.cos.abs() <= 1.0);
         let back = turns.follow(&[0.301]).coordinates[0];
-        assert!(
-            (back.sin - 0.301_f32.sin()).abs() < 2e-7 && back.q == 0.301,
-            "{wrong}: {back:?}"
-        );
+        assert!((back.sin - 0.301_f32.sin()).abs() < 2e-7 && back.q == 0.301, "{wrong}: {back:?}");
     }
 }

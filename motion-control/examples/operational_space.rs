@@ -24,10 +24,7 @@ fn control(arm: &State<f32, 6, 6>) -> Result<[f32; 6], NotPositiveDefinite> {
     assert_eq!(task.conditioning, Conditioning::Regular);
 
     let still = TaskCommand::Motion { acceleration: 0.0 };
-    let press = TaskCommand::Force {
-        force: -20.0,
-        acceleration: 0.0,
-    };
+    let press = TaskCommand::Force { force: -20.0, acceleration: 0.0 };
     let drift = Core::<Ur5e>::bias_acceleration(arm, HAND, frame::LocalWorldAligned); // J̇ q̇
     let drift = directions.map(|direction| drift.dot(direction));
     let bias = Core::<Ur5e>::rnea(arm, &(Gravity::EARTH, Coriolis));

@@ -3,12 +3,8 @@ use dynamics_core::{Core, robots::Ur5e, state::State};
 use motion_control::*;
 
 pub type Effects = (Gravity, Inertia, Coriolis, Armature<f32, 6>);
-pub const EFFECTS: Effects = (
-    Gravity::EARTH,
-    Inertia,
-    Coriolis,
-    Armature([0.9, 0.9, 0.9, 0.25, 0.25, 0.25]),
-);
+pub const EFFECTS: Effects =
+    (Gravity::EARTH, Inertia, Coriolis, Armature([0.9, 0.9, 0.9, 0.25, 0.25, 0.25]));
 pub const TICK: f32 = 1e-3; // s
 pub const RIDE_THROUGH: u32 = 5; // ticks of a fault that the observer bridges
 pub const HOLD: u32 = 100; // ticks more until the brake

@@ -6,10 +6,7 @@ use dynamics_core::state::State;
 use crate::*;
 
 pub(crate) const fn motion_limits<R: Copy>(velocity: R, acceleration: R) -> MotionLimits<R> {
-    MotionLimits {
-        velocity,
-        acceleration,
-    }
+    MotionLimits { velocity, acceleration }
 }
 
 pub(crate) const fn estimate_of<R: Copy, const V: usize>(q: [R; V], qd: [R; V]) -> Estimate<R, V> {
@@ -29,13 +26,7 @@ pub(crate) const fn safety_limits<R: Copy, const V: usize>(
     lower: [R; V],
     upper: [R; V],
 ) -> SafetyLimits<R, V> {
-    SafetyLimits {
-        torque,
-        rate,
-        speed,
-        lower,
-        upper,
-    }
+    SafetyLimits { torque, rate, speed, lower, upper }
 }
 
 /// The ticks of the ride-through, of the hold and of the reentry; encoders without steps.
@@ -75,16 +66,8 @@ pub(crate) const fn full_command<R: Copy, const V: usize>(
     torque: [R; V],
     brake: bool,
 ) -> Command<R, V> {
-    let status = Status {
-        mode: Mode::Full,
-        fault: None,
-        limited: false,
-    };
-    Command {
-        torque,
-        brake,
-        status,
-    }
+    let status = Status { mode: Mode::Full, fault: None, limited: false };
+    Command { torque, brake, status }
 }
 
 /// A motion without an end, by a function of the tick.

@@ -78,13 +78,7 @@ impl<const N: usize> Decoder<N> {
     pub const fn new() -> Self {
         Self {
             frames: Frames::new(),
-            counts: Counts {
-                frames: 0,
-                bad: 0,
-                missing: 0,
-                dropped: 0,
-                restarts: 0,
-            },
+            counts: Counts { frames: 0, bad: 0, missing: 0, dropped: 0, restarts: 0 },
             last: None,
         }
     }
@@ -167,11 +161,7 @@ impl Frames {
     /// ```
     #[must_use]
     pub const fn new() -> Self {
-        Self {
-            bytes: [0; ROOM],
-            length: 0,
-            started: false,
-        }
+        Self { bytes: [0; ROOM], length: 0, started: false }
     }
 
     /// Takes the next byte; returns the message that it completes, or why a frame holds none.

@@ -171,11 +171,7 @@ impl<const N: usize> Sample<N> {
 }
 
 /// The status of a tick without a fault.
-const IDLE: Status = Status {
-    mode: Mode::Full,
-    fault: None,
-    limited: false,
-};
+const IDLE: Status = Status { mode: Mode::Full, fault: None, limited: false };
 
 /// A tick on the wire.
 ///

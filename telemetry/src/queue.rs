@@ -52,10 +52,7 @@ pub struct Consumer<'q, 's, const N: usize> {
 
 impl<const N: usize, const Q: usize> Default for Slots<N, Q> {
     fn default() -> Self {
-        Self {
-            first: Sample::default(),
-            others: [(); Q].map(|()| Sample::default()),
-        }
+        Self { first: Sample::default(), others: [(); Q].map(|()| Sample::default()) }
     }
 }
 
@@ -68,10 +65,7 @@ impl<const N: usize, const Q: usize> Queue<'_, N, Q> {
     /// ```
     #[must_use]
     pub const fn new() -> Self {
-        Self {
-            filled: spsc::Queue::new(),
-            free: spsc::Queue::new(),
-        }
+        Self { filled: spsc::Queue::new(), free: spsc::Queue::new() }
     }
 }
 
@@ -106,18 +100,8 @@ pub fn split<'q, 's, const N: usize, const Q: usize>(
     }
     let (filled, waiting) = queue.filled.split();
     let (used, free) = queue.free.split();
-    let producer = Producer {
-        filled,
-        free,
-        sample: &mut slots.first,
-        number: 0,
-        dropped: 0,
-    };
-    let consumer = Consumer {
-        filled: waiting,
-        free: used,
-        period,
-    };
+    let producer = Producer { filled, free, sample: &mut slots.first, number: 0, dropped: 0 };
+    let consumer = Consumer { filled: waiting, free: used, period };
     (producer, consumer)
 }
 

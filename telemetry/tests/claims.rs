@@ -21,35 +21,20 @@ fn tick(number: u32) -> Tick<JOINTS> {
         number,
         dropped: 0,
         tick: number / 3,
-        status: Status {
-            mode: Mode::Hold,
-            fault: Some(Fault::Jump { joint: 4 }),
-            limited: true,
-        },
+        status: Status { mode: Mode::Hold, fault: Some(Fault::Jump { joint: 4 }), limited: true },
         joints: (0..JOINTS).map(joint).collect(),
         cost: [80, 0, 90_000, 4, 5],
     }
 }
 
 fn machine() -> Machine<JOINTS> {
-    let limits = JointLimits {
-        lower: -6.3,
-        upper: 6.3,
-        velocity: 3.1,
-        torque: 150.0,
-    };
-    let axis = Axis {
-        limits,
-        prismatic: false,
-    };
+    let limits = JointLimits { lower: -6.3, upper: 6.3, velocity: 3.1, torque: 150.0 };
+    let axis = Axis { limits, prismatic: false };
     Machine {
         name: "sixteen letters.".try_into().expect("short enough"),
         tick_us: u32::MAX,
         timer_hz: u32::MAX,
-        joints: [const { 0 }; JOINTS]
-            .map(|_| axis.clone())
-            .into_iter()
-            .collect(),
+        joints: [const { 0 }; JOINTS].map(|_| axis.clone()).into_iter().collect(),
     }
 }
 
@@ -114,9 +99,7 @@ fn each_corrupted_pair_of_neighbours_is_found() {
 
 #[test]
 fn a_lost_byte_costs_one_frame_at_most() {
-    let frames: Vec<u8> = (0..3)
-        .flat_map(|n| frame(&Message::Tick(tick(n))))
-        .collect();
+    let frames: Vec<u8> = (0..3).flat_map(|n| frame(&Message::Tick(tick(n)))).collect();
     let length = frames.len() / 3;
     for lost in 0..frames.len() {
         let mut bytes = [&[0][..], &frames, &[0]].concat();
@@ -134,27 +117,20 @@ fn a_lost_byte_costs_one_frame_at_most() {
 
 #[test]
 fn a_gap_costs_only_the_frames_it_touches() {
-    let frames: Vec<u8> = (0..4)
-        .flat_map(|n| frame(&Message::Tick(tick(n))))
-        .collect();
+    let frames: Vec<u8> = (0..4).flat_map(|n| frame(&Message::Tick(tick(n)))).collect();
     let length = frames.len() / 4;
     for from in 0..2 * length {
         for gap in 1..length {
             let bytes = [&frames[..from], &frames[from + gap..]].concat();
             let left = numbers(&bytes);
-            assert!(
-                left.len() >= 2 && left.ends_with(&[3]),
-                "{from} {gap}: {left:?}"
-            );
+            assert!(left.len() >= 2 && left.ends_with(&[3]), "{from} {gap}: {left:?}");
         }
     }
 }
 
 #[test]
 fn a_listener_that_comes_late_counts_nothing_bad() {
-    let frames: Vec<u8> = (0..3)
-        .flat_map(|n| frame(&Message::Tick(tick(n))))
-        .collect();
+    let frames: Vec<u8> = (0..3).flat_map(|n| frame(&Message::Tick(tick(n)))).collect();
     for start in 0..frames.len() / 3 {
         assert_eq!(decoded(&frames[start..]).1.bad, 0, "{start}");
     }
@@ -168,10 +144,7 @@ fn a_full_queue_drops_counts_and_never_blocks() {
     let kept: Vec<bool> = (0..10).map(|_| interrupt.push()).collect();
     assert_eq!(kept.iter().filter(|&&kept| kept).count(), 3);
     assert_eq!(interrupt.dropped(), 7);
-    assert_eq!(
-        main.pop().map(|tick| (tick.number, tick.dropped)),
-        Some((0, 0))
-    );
+    assert_eq!(main.pop().map(|tick| (tick.number, tick.dropped)), Some((0, 0)));
     assert!(interrupt.push());
     let rest: Vec<_> = std::iter::from_fn(|| main.pop()).collect();
     let last = rest.last().expect("the one after the drops");
@@ -211,10 +184,7 @@ fn each_tick_arrives_as_written() {
 fn queue_drops_and_line_losses_are_counted_apart() {
     let mut sent = Vec::new();
     for (number, dropped) in [(0, 0), (1, 0), (6, 4), (9, 4)] {
-        let tick = Tick {
-            dropped,
-            ..tick(number)
-        };
+        let tick = Tick { dropped, ..tick(number) };
         sent.extend(frame(&Message::Tick(tick)));
     }
     let counts = decoded(&sent).1;
@@ -254,10 +224,7 @@ fn more_joints_than_there_is_room_for_are_refused() {
 fn endless_noise_without_a_zero_is_one_bad_frame() {
     let noise = [&[0][..], &[9; 5000], &[0], &frame(&Message::Tick(tick(1)))].concat();
     let (found, counts) = decoded(&noise);
-    assert_eq!(
-        (found[0].clone(), counts.frames),
-        (Err(FrameError::Long), 1)
-    );
+    assert_eq!((found[0].clone(), counts.frames), (Err(FrameError::Long), 1));
 }
 
 // It is less than twice as long as the frame.

@@ -68,9 +68,8 @@ enum Command {
 }
 
 /// The commands for users, in the order of the help; all others are the laboratory's.
-const FIRST: [&str; 9] = [
-    "demo", "test", "new", "import", "meter", "watch", "identify", "costs", "accuracy",
-];
+const FIRST: [&str; 9] =
+    ["demo", "test", "new", "import", "meter", "watch", "identify", "costs", "accuracy"];
 
 /// The commands that lists name behind those of the studies.
 const LAST: [&str; 4] = ["fuzz", "soak", "miri", "help"];
@@ -81,9 +80,7 @@ const LABORATORY: &str = "\x1b[1;4mLaboratory, which writes the pages of docs/\x
 fn command() -> clap::Command {
     let place = |name: &str| FIRST.iter().position(|first| *first == name);
     let last = |arg: clap::Arg| arg.display_order(900);
-    let root = Cli::command()
-        .mut_args(last)
-        .subcommands(studies::commands());
+    let root = Cli::command().mut_args(last).subcommands(studies::commands());
     let root = root.mut_subcommands(|command| match place(command.get_name()) {
         Some(place) => command.display_order(place),
         None => command.hide(true),
@@ -91,11 +88,7 @@ fn command() -> clap::Command {
     let hidden = in_order(&root).filter(|command| command.is_hide_set());
     let lines = hidden.map(|command| {
         let about = command.get_about().map(ToString::to_string);
-        format!(
-            "\n  {:13} {}",
-            command.get_name(),
-            about.unwrap_or_default()
-        )
+        format!("\n  {:13} {}", command.get_name(), about.unwrap_or_default())
     });
     let laboratory = format!("{LABORATORY}:{}", lines.collect::<String>());
     root.after_help(laboratory)

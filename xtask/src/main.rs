@@ -34,10 +34,7 @@ mod tests {
 
     #[test]
     fn commands_use_studies_and_both_use_the_kit() {
-        for (folder, users) in [
-            ("kit", &["studies", "commands"][..]),
-            ("studies", &["commands"]),
-        ] {
+        for (folder, users) in [("kit", &["studies", "commands"][..]), ("studies", &["commands"])] {
             for path in sources(&root().join("xtask/src").join(folder)).expect("sources") {
                 let source = read(&path);
                 for user in users {

@@ -105,11 +105,7 @@ fn unconfirmed_commands_are_printed_and_not_run() {
             ["    sudo apt-get install", "--yes"],
         ),
         (alone, ran, ["as root", "    apt-get install"]),
-        (
-            root_with_a_conflict(root),
-            root.join("apt-ran"),
-            ["    apt-get install", "--yes"],
-        ),
+        (root_with_a_conflict(root), root.join("apt-ran"), ["    apt-get install", "--yes"]),
     ] {
         let (code, _, said) = outcome(&mut command);
         assert_eq!(code, Some(1), "{said}");
@@ -224,9 +220,7 @@ fn a_read_only_directory_is_named_before_anything_is_measured() {
     let measured = dir.join("measured");
     let touch = format!("touch {}", measured.display());
     let mut command = xtask(&["hard-cases", "--reports"]);
-    command
-        .arg(file.join("reports"))
-        .env("CARGO", cargo_but(&dir, "build", &touch));
+    command.arg(file.join("reports")).env("CARGO", cargo_but(&dir, "build", &touch));
     let (code, _, said) = outcome(&mut command);
     assert_eq!(code, Some(1), "{said}");
     assert!(said.contains("cannot create"), "{said}");

@@ -20,15 +20,9 @@ fn assert_refused(contents: &[u8], with: &str) {
 #[test]
 fn what_cannot_be_measured_is_refused_with_what_to_do() {
     assert_refused(b"", "no ELF file");
-    assert_refused(
-        b":10010000214601360121470136007EFE09D2190140",
-        "no ELF file",
-    );
+    assert_refused(b":10010000214601360121470136007EFE09D2190140", "no ELF file");
     assert_refused(b"\x7fELF and then nothing", "firmware: ");
-    assert_refused(
-        &firmware(EXIT, 62),
-        "build it with --target thumbv7em-none-eabihf",
-    );
+    assert_refused(&firmware(EXIT, 62), "build it with --target thumbv7em-none-eabihf");
     assert_refused(&firmware(EXIT, 40), "it has no markers");
     let (code, _, said) = outcome(&mut xtask(&["meter", "not/there"]));
     assert_eq!(code, Some(1));
@@ -36,10 +30,7 @@ fn what_cannot_be_measured_is_refused_with_what_to_do() {
 }
 
 fn has_qemu() -> bool {
-    let there = Command::new("qemu-system-arm")
-        .arg("--version")
-        .output()
-        .is_ok();
+    let there = Command::new("qemu-system-arm").arg("--version").output().is_ok();
     if !there {
         eprintln!("skipped: there is no qemu-system-arm");
     }
@@ -71,12 +62,7 @@ fn the_figures_of_an_endless_firmware_are_printed() {
     let (code, text, said) = metered(&three_passages(FOR_EVER), &["--seconds", "1"]);
     assert_eq!(code, Some(0), "{said}");
     assert!(text.contains("stopped after 1 s"), "{text}");
-    let row: Vec<&str> = text
-        .lines()
-        .last()
-        .unwrap_or_default()
-        .split_whitespace()
-        .collect();
+    let row: Vec<&str> = text.lines().last().unwrap_or_default().split_whitespace().collect();
     assert_eq!(row, ["0", "3", "2", "2", "2", "2", "2", "2", "0"], "{text}");
 }
 
@@ -90,10 +76,7 @@ fn a_foreign_instruction_is_named_with_its_function() {
     let foreign = [EXIT, &[0xfe00, 0x0a00]].concat();
     let (code, text, said) = metered(&three_passages(&foreign), &[]);
     assert_eq!(code, Some(1), "{said}");
-    assert!(
-        text.contains("not of a Cortex-M4F: 0x800005e in `tick`"),
-        "{text}"
-    );
+    assert!(text.contains("not of a Cortex-M4F: 0x800005e in `tick`"), "{text}");
     assert!(said.contains("none of a Cortex-M4F"), "{said}");
 }
 

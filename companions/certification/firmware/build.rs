@@ -2,8 +2,5 @@
 
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
-    println!(
-        "cargo::rustc-link-search={}/../../..",
-        env!("CARGO_MANIFEST_DIR")
-    );
+    println!("cargo::rustc-link-search={}/../../..", env!("CARGO_MANIFEST_DIR"));
 }

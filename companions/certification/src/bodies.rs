@@ -55,13 +55,7 @@ impl Position<f64> {
     /// Of a number.
     pub fn at(q: f64) -> Self {
         let ((s, c), (s2, c2)) = (q.sin_cos(), (2.0 * q).sin_cos());
-        Self {
-            cosine: c,
-            sine: s,
-            cosine_of_two: c2,
-            sine_of_two: s2,
-            q,
-        }
+        Self { cosine: c, sine: s, cosine_of_two: c2, sine_of_two: s2, q }
     }
 }
 
@@ -71,13 +65,7 @@ impl Position<Taylor> {
         let slope = (joint < SLOPES).then_some(joint);
         let [cosine, sine] = Taylor::cosine_and_sine(range, 1.0, slope);
         let [cosine_of_two, sine_of_two] = Taylor::cosine_and_sine(range, 2.0, slope);
-        Self {
-            cosine,
-            sine,
-            cosine_of_two,
-            sine_of_two,
-            q: Taylor::coordinate(range, slope),
-        }
+        Self { cosine, sine, cosine_of_two, sine_of_two, q: Taylor::coordinate(range, slope) }
     }
 }
 
@@ -139,8 +127,7 @@ impl Body {
 
     /// From the parent's coordinates to its own at q = 0.
     pub(crate) fn placed<S: Scalar>(&self, x: Vector<S>) -> Vector<S> {
-        self.rot
-            .map(|row| x[0].times(row[0]) + x[1].times(row[1]) + x[2].times(row[2]))
+        self.rot.map(|row| x[0].times(row[0]) + x[1].times(row[1]) + x[2].times(row[2]))
     }
 
     /// The other way.
@@ -219,11 +206,7 @@ impl<S: Scalar> Inertia<S> {
             let entry = rows[i][j] - first[i] * r[j] - r[i] * moved[j];
             if i == j { entry + trace } else { entry }
         });
-        Self {
-            mass: self.mass,
-            first: moved,
-            second,
-        }
+        Self { mass: self.mass, first: moved, second }
     }
 
     /// In coordinates at q = 0: by twice the angle, so that cos² and sin² stay one together.
@@ -254,11 +237,7 @@ impl<S: Scalar> Inertia<S> {
 
 /// The inertia of a body that stands still on its parent, in the parent's frame.
 pub(crate) fn at_parent(body: &Body) -> [f64; 10] {
-    let Inertia {
-        mass,
-        first,
-        second,
-    } = Inertia::of(body).before(body, &[]);
+    let Inertia { mass, first, second } = Inertia::of(body).before(body, &[]);
     let [a, b, c, d, e, f] = second;
     let [x, y, z] = first;
     [mass, x, y, z, a, b, c, d, e, f]
@@ -281,10 +260,9 @@ pub fn inertia_matrix<S: Scalar>(
         let one = S::of(1.0);
         let (mut moment, mut force) = match bodies[i].moves {
             // z × h, and the column of z.
-            Moves::Turns(_) => (
-                inertia.row(2),
-                [-inertia.first[1], inertia.first[0], S::default()],
-            ),
+            Moves::Turns(_) => {
+                (inertia.row(2), [-inertia.first[1], inertia.first[0], S::default()])
+            }
             Moves::Slides(_) => (
                 [inertia.first[1], -inertia.first[0], S::default()],
                 [S::default(), S::default(), one.times(inertia.mass)],

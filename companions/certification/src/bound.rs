@@ -101,10 +101,9 @@ impl Bounder {
                 vec![None; graph.nodes.len()],
                 forms::of_adjoints(&graph, &vec![None; graph.nodes.len()]),
             ),
-            Enclosure::WrittenOut => (
-                forms::of_values(&graph, &leaves),
-                forms::of_adjoints(&graph, &leaves),
-            ),
+            Enclosure::WrittenOut => {
+                (forms::of_values(&graph, &leaves), forms::of_adjoints(&graph, &leaves))
+            }
         };
         let sectors = vec![Sector::default(); robot.joints.len()];
         let relative = |node: &Node| match *node {
@@ -162,10 +161,7 @@ impl Bounder {
         self.forward(states);
         if !self.is_finite() {
             // A quotient or a root has no bound over so large a part.
-            return Bound {
-                operations: f64::INFINITY,
-                ..Bound::default()
-            };
+            return Bound { operations: f64::INFINITY, ..Bound::default() };
         }
         self.reverse()
     }
@@ -193,11 +189,7 @@ impl Bounder {
                     let exact = Interval::point(1.0) / values[a].root();
                     let is_tried = roots::RANGE.contains(&values[a].low)
                         && roots::RANGE.contains(&values[a].high);
-                    let relative = if is_tried {
-                        self.relative[k]
-                    } else {
-                        f64::INFINITY
-                    };
+                    let relative = if is_tried { self.relative[k] } else { f64::INFINITY };
                     (exact, relative * exact.magnitude())
                 }
                 _ => {
@@ -210,24 +202,14 @@ impl Bounder {
                         Node::Mul(a, b) => values[a] * values[b],
                         _ => Interval::default(),
                     };
-                    let written_out = self.sums[k]
-                        .as_ref()
-                        .map(|form| self.evaluate(form, values));
+                    let written_out = self.sums[k].as_ref().map(|form| self.evaluate(form, values));
                     let exact = written_out.map_or(exact, |other| exact.and(other));
                     // What is zero stays zero.
-                    let error = if exact.is_zero() {
-                        0.0
-                    } else {
-                        half_ulp(exact.magnitude())
-                    };
+                    let error = if exact.is_zero() { 0.0 } else { half_ulp(exact.magnitude()) };
                     (exact, error)
                 }
             };
-            self.values[k] = if error > 0.0 {
-                exact.widened(error)
-            } else {
-                exact
-            };
+            self.values[k] = if error > 0.0 { exact.widened(error) } else { exact };
             self.errors[k] = error;
             self.slopes[k] = self.slopes_of(k);
         }
@@ -250,9 +232,7 @@ impl Bounder {
 
     /// Whether every computed number is one of f32, neither infinite nor NaN.
     pub fn is_finite(&self) -> bool {
-        self.values
-            .iter()
-            .all(|x| x.magnitude() <= f64::from(f32::MAX))
+        self.values.iter().all(|x| x.magnitude() <= f64::from(f32::MAX))
             && self.errors.iter().all(|error| error.is_finite())
     }
 
@@ -271,11 +251,8 @@ impl Bounder {
         if form.errors.is_empty() {
             return range;
         }
-        let errors: f64 = form
-            .errors
-            .iter()
-            .map(|(k, factor)| self.errors[*k] * factor.abs())
-            .sum();
+        let errors: f64 =
+            form.errors.iter().map(|(k, factor)| self.errors[*k] * factor.abs()).sum();
         range.widened(errors * (1.0 + 1e-12))
     }
 
@@ -283,9 +260,7 @@ impl Bounder {
     fn rotation(&self, rotation: &Rotation, of: &[Interval]) -> Interval {
         let (a, b) = (sum(&rotation.cosine, of), sum(&rotation.sine, of));
         let errors = self.sines.cosine * a.magnitude() + self.sines.sine * b.magnitude();
-        self.sectors[rotation.joint]
-            .rotated(a, b)
-            .widened(errors * (1.0 + 1e-12))
+        self.sectors[rotation.joint].rotated(a, b).widened(errors * (1.0 + 1e-12))
     }
 
     /// The derivatives of the output by each node, and the sum of the errors that they carry to it.

@@ -58,11 +58,8 @@ pub fn prove(bounder: &mut Bounder, whole: &[Interval], most: usize) -> Proven {
     let (mut reached, mut gains) = (0.0_f64, Gains::new(bounder.axes()));
     while queue.len() < most {
         let Some(worst) = queue.pop() else { break };
-        let state: Vec<Interval> = worst
-            .states
-            .iter()
-            .map(|x| Interval::point(outermost(*x)))
-            .collect();
+        let state: Vec<Interval> =
+            worst.states.iter().map(|x| Interval::point(outermost(*x))).collect();
         reached = reached.max(bounder.bound(&state).total());
         let Some(halves) = split(bounder, &worst, whole, &mut gains) else {
             queue.push(worst);
@@ -71,15 +68,10 @@ pub fn prove(bounder: &mut Bounder, whole: &[Interval], most: usize) -> Proven {
         queue.extend(halves);
     }
     let parts = queue.into_vec();
-    let bound = parts
-        .iter()
-        .max()
-        .map_or_else(Bound::default, |part| part.bound);
+    let bound = parts.iter().max().map_or_else(Bound::default, |part| part.bound);
     let hull =
         |a: Interval, b: &Part| Interval::new(a.low.min(b.range.low), a.high.max(b.range.high));
-    let range = parts
-        .iter()
-        .fold(Interval::new(f64::INFINITY, f64::NEG_INFINITY), hull);
+    let range = parts.iter().fold(Interval::new(f64::INFINITY, f64::NEG_INFINITY), hull);
     let mut magnitudes = vec![0.0_f64; bounder.values.len()];
     for part in &parts {
         bounder.bound(&part.states);
@@ -87,32 +79,18 @@ pub fn prove(bounder: &mut Bounder, whole: &[Interval], most: usize) -> Proven {
             *most = most.max(value.magnitude());
         }
     }
-    Proven {
-        magnitudes,
-        bound,
-        range,
-        reached,
-        parts,
-    }
+    Proven { magnitudes, bound, range, reached, parts }
 }
 
 fn bounded(bounder: &mut Bounder, states: Vec<Interval>) -> Part {
     let bound = bounder.bound(&states);
-    Part {
-        range: bounder.range(),
-        states,
-        bound,
-    }
+    Part { range: bounder.range(), states, bound }
 }
 
 /// The end of a range that is further from zero: speeds and accelerations at their limits have the
 /// largest errors.
 fn outermost(x: Interval) -> f64 {
-    if x.high.abs() >= x.low.abs() {
-        x.high
-    } else {
-        x.low
-    }
+    if x.high.abs() >= x.low.abs() { x.high } else { x.low }
 }
 
 /// What a split along each coordinate has gained so far.
@@ -130,26 +108,15 @@ const TRIED: usize = 3;
 
 impl Gains {
     fn new(axes: Vec<usize>) -> Self {
-        Self {
-            left: vec![[None; DEEPEST]; axes.len()],
-            axes,
-        }
+        Self { left: vec![[None; DEEPEST]; axes.len()], axes }
     }
 
     /// The coordinates to try, as places in `axes` with their depths; those never tried at their
     /// depth come first.
     fn candidates(&self, part: &Part, whole: &[Interval]) -> Vec<(usize, usize)> {
         let width = |x: Interval| x.high - x.low;
-        let depth = |axis: usize| {
-            (width(whole[axis]) / width(part.states[axis]))
-                .log2()
-                .round()
-        };
-        let places = self
-            .axes
-            .iter()
-            .enumerate()
-            .map(|(place, axis)| (place, depth(*axis)));
+        let depth = |axis: usize| (width(whole[axis]) / width(part.states[axis])).log2().round();
+        let places = self.axes.iter().enumerate().map(|(place, axis)| (place, depth(*axis)));
         let mut open: Vec<(usize, usize)> = places
             .filter(|(_, depth)| *depth < DEEPEST as f64)
             .map(|(place, depth)| (place, depth as usize))
@@ -195,11 +162,8 @@ fn split(
             bounded(bounder, states)
         });
         // The share of the bound that both halves leave.
-        let left = halves
-            .iter()
-            .map(|half| half.bound.total() / part.bound.total())
-            .sum::<f64>()
-            / 2.0;
+        let left =
+            halves.iter().map(|half| half.bound.total() / part.bound.total()).sum::<f64>() / 2.0;
         gains.note(candidate, left);
         if best.as_ref().is_none_or(|(least, _)| left < *least) {
             best = Some((left, halves));

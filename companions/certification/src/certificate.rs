@@ -100,12 +100,7 @@ impl Subject {
             graph = apart.graph.clone();
             factored = Some(apart);
         }
-        Ok(Self {
-            function,
-            walked,
-            graph,
-            factored,
-        })
+        Ok(Self { function, walked, graph, factored })
     }
 
     /// What a result is called, by its place among the function's.
@@ -122,10 +117,7 @@ impl Subject {
     /// Of an effort, what is spent on each result.
     fn effort(&self, effort: Effort) -> Effort {
         match self.factored {
-            Some(_) => Effort {
-                children: effort.children / SHARE,
-                ..effort
-            },
+            Some(_) => Effort { children: effort.children / SHARE, ..effort },
             None => effort,
         }
     }
@@ -160,21 +152,13 @@ impl Subject {
         let greatest = proven.iter().flatten().map(|one| one.0.range.magnitude());
         let slack = REFERENCE * greatest.fold(0.0, f64::max);
         let mut outputs = Vec::new();
-        for (output, ((offset, _), (observed, proven))) in graph
-            .outputs
-            .iter()
-            .zip(observed.into_iter().zip(proven))
-            .enumerate()
+        for (output, ((offset, _), (observed, proven))) in
+            graph.outputs.iter().zip(observed.into_iter().zip(proven)).enumerate()
         {
             let name = self.name(*offset as usize / 4, robot.joints.len());
             let (proven, by_grid, most) =
                 proven.ok_or_else(|| Error::Missing("an input that the box bounds".to_owned()))?;
-            let Proven {
-                bound,
-                range,
-                parts,
-                ..
-            } = proven;
+            let Proven { bound, range, parts, .. } = proven;
             let (mut bound, proof) = match by_grid {
                 Some(other) if other.total() < bound.total() => (other, Proof::Grid),
                 _ => (bound, Proof::Parts),
@@ -272,10 +256,8 @@ pub(crate) fn in_parallel<T: Send>(
     tasks: usize,
     run: impl Fn(usize) -> Option<T> + Sync,
 ) -> Vec<Option<T>> {
-    let (next, threads) = (
-        AtomicUsize::new(0),
-        std::thread::available_parallelism().map_or(1, usize::from),
-    );
+    let (next, threads) =
+        (AtomicUsize::new(0), std::thread::available_parallelism().map_or(1, usize::from));
     let mut results: Vec<Option<T>> = (0..tasks).map(|_| None).collect();
     std::thread::scope(|scope| {
         let work = || {
@@ -285,9 +267,8 @@ pub(crate) fn in_parallel<T: Send>(
             mine.map(|task| (task, run(task))).collect::<Vec<_>>()
         };
         let threads: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
-        for (task, result) in threads
-            .into_iter()
-            .flat_map(|thread| thread.join().unwrap_or_default())
+        for (task, result) in
+            threads.into_iter().flat_map(|thread| thread.join().unwrap_or_default())
         {
             results[task] = result;
         }

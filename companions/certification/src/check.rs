@@ -55,9 +55,7 @@ fn sealed(block: &str) -> String {
 
 /// A block without its sum.
 fn unsealed(block: &str) -> &str {
-    block
-        .rsplit_once(BEFORE_SUM)
-        .map_or(block, |(block, _)| block)
+    block.rsplit_once(BEFORE_SUM).map_or(block, |(block, _)| block)
 }
 
 const BEFORE_SUM: &str = "<!-- sum of the above: ";
@@ -70,9 +68,7 @@ const BEFORE_SUM: &str = "<!-- sum of the above: ";
 pub fn numbers(page: &str) -> Result<()> {
     for part in [Part::Certificates, Part::Forward, Part::Clusters] {
         let (name, begin, end) = markers(part);
-        let block = page
-            .split_once(&begin)
-            .and_then(|(_, rest)| rest.split_once(&end));
+        let block = page.split_once(&begin).and_then(|(_, rest)| rest.split_once(&end));
         let Some((block, _)) = block else {
             return Err(Error::Missing(format!("place for {name} on the page")));
         };
@@ -80,9 +76,7 @@ pub fn numbers(page: &str) -> Result<()> {
         let mut head: Vec<&str> = Vec::new();
         for row in rows {
             let cells: Vec<&str> = row.trim_matches('|').split('|').map(str::trim).collect();
-            if cells
-                .first()
-                .is_some_and(|cell| cell.parse::<f64>().is_err() && !cell.contains(','))
+            if cells.first().is_some_and(|cell| cell.parse::<f64>().is_err() && !cell.contains(','))
             {
                 head = cells;
                 continue;
@@ -99,9 +93,7 @@ pub fn numbers(page: &str) -> Result<()> {
             }
         }
         if block.trim() != sealed(unsealed(block)).trim() {
-            return Err(Error::Page(format!(
-                "{name}: a number was changed: its sum is another"
-            )));
+            return Err(Error::Page(format!("{name}: a number was changed: its sum is another")));
         }
     }
     Ok(())
@@ -149,10 +141,7 @@ pub fn sampled(
 ) -> Result<()> {
     let graph = Subject::of(image, function)?.graph;
     let whole = robot.whole();
-    let state: Vec<f64> = whole
-        .iter()
-        .map(|x| x.low + rng.f64() * (x.high - x.low))
-        .collect();
+    let state: Vec<f64> = whole.iter().map(|x| x.low + rng.f64() * (x.high - x.low)).collect();
     let around = around(&state, &whole, 1.0 / 64.0);
     let outputs = 0..graph.outputs.len();
     let mut bounded = outputs.filter_map(|output| {
@@ -162,17 +151,11 @@ pub fn sampled(
     });
     let skipped = rng.usize(..graph.outputs.len().min(3));
     let Some((bounder, bound)) = bounded.nth(skipped).or_else(|| bounded.next()) else {
-        return Err(Error::Missing(format!(
-            "rounded result of {}",
-            function.name()
-        )));
+        return Err(Error::Missing(format!("rounded result of {}", function.name())));
     };
     let said = |program: &str, said: &str| {
         let said = format!("{}: {said}", function.name());
-        Err(Error::Program {
-            program: program.to_owned(),
-            said,
-        })
+        Err(Error::Program { program: program.to_owned(), said })
     };
     let script = gappa::script(&bounder);
     if !script.clone().bounded(&bounder, bound).is_proven()? {
@@ -190,20 +173,14 @@ pub fn sampled(
     }
     match gappa::corrupted(&proof) {
         Some(wrong) if !gappa::is_checked_by_coq(&wrong)? => Ok(()),
-        Some(_) => said(
-            "coqc",
-            "accepts a proof in which a rounding error is too small",
-        ),
+        Some(_) => said("coqc", "accepts a proof in which a rounding error is too small"),
         None => said("gappa", "a proof without a rounded operation"),
     }
 }
 
 /// Errors of sine and cosine near those of the library's; the proof of a part holds for any such
 /// errors.
-const NOMINAL: SineErrors = SineErrors {
-    sine: 1.2e-7,
-    cosine: 1.2e-7,
-};
+const NOMINAL: SineErrors = SineErrors { sine: 1.2e-7, cosine: 1.2e-7 };
 
 /// The part of a box around a state that has this share of each range.
 pub fn around(state: &[f64], whole: &[Interval], share: f64) -> Vec<Interval> {

@@ -63,10 +63,7 @@ const MODELS: [(&str, &str); 11] = [
 
 /// What has no bound here, and why.
 const LEFT_OUT: [(&str, &str); 5] = [
-    (
-        "reduced rates",
-        "the ticks between depend on the path, not on a state",
-    ),
+    ("reduced rates", "the ticks between depend on the path, not on a state"),
     ("carried sines", "their error depends on the ticks before"),
     ("libm and micromath", "they are not the library's"),
     ("core", "its function is proven by itself"),
@@ -107,9 +104,7 @@ pub struct Spent {
 fn key(kernel: &str, model: &str) -> String {
     let axes = [("trig", kernel), ("model", model)];
     let changed = axes.iter().filter(|(_, value)| !value.is_empty());
-    let words: Vec<String> = changed
-        .map(|(axis, value)| format!("{axis}={value}"))
-        .collect();
+    let words: Vec<String> = changed.map(|(axis, value)| format!("{axis}={value}")).collect();
     match words.is_empty() {
         true => "default".to_owned(),
         false => words.join(","),
@@ -177,10 +172,7 @@ pub fn check(
     };
     match today.iter().find(|one| !is_known(one)) {
         None => Ok(()),
-        Some((what, _)) => Err(Error::Unproven {
-            robot: robot.to_owned(),
-            what: what.clone(),
-        }),
+        Some((what, _)) => Err(Error::Unproven { robot: robot.to_owned(), what: what.clone() }),
     }
 }
 
@@ -196,9 +188,7 @@ pub fn prove(program: &Program, robot: &Robot, spent: Spent) -> Result<Configura
         robot: program.robot.clone(),
         joints: robot.joints.clone(),
         hashes: hashes(&image, robot)?,
-        left_out: LEFT_OUT
-            .map(|(what, why)| (what.to_owned(), why.to_owned()))
-            .into(),
+        left_out: LEFT_OUT.map(|(what, why)| (what.to_owned(), why.to_owned())).into(),
         ..Configurations::default()
     };
     let expressions = expressions(&image)?;
@@ -219,8 +209,7 @@ pub fn prove(program: &Program, robot: &Robot, spent: Spent) -> Result<Configura
             }
             None => {
                 let why = "no grid bounds how far it is from the whole model: a joint slides, or --points are too few";
-                all.left_out
-                    .insert(format!("model={model}"), why.to_owned());
+                all.left_out.insert(format!("model={model}"), why.to_owned());
             }
         }
     }
@@ -250,10 +239,7 @@ impl<'a> Whole<'a> {
             );
             Some(bounds?.pop()?.total())
         });
-        Some(Self {
-            graph,
-            literals: literals.into_iter().collect::<Option<_>>()?,
-        })
+        Some(Self { graph, literals: literals.into_iter().collect::<Option<_>>()? })
     }
 }
 
@@ -291,20 +277,11 @@ pub fn each(
             return Some(bounds);
         };
         let place = own.outputs[output].0;
-        let same = whole
-            .graph
-            .outputs
-            .iter()
-            .position(|(offset, _)| *offset == place)?;
+        let same = whole.graph.outputs.iter().position(|(offset, _)| *offset == place)?;
         let apart = difference(&graph, &whole.graph.of_output(same));
         let apart = Grid::new(&apart, robot)?.greatest_value(spent.points, spent.fine)?;
         let literals = whole.literals[same];
-        Some(
-            bounds
-                .into_iter()
-                .map(|bound| bound + apart + literals)
-                .collect(),
-        )
+        Some(bounds.into_iter().map(|bound| bound + apart + literals).collect())
     });
     let mut most = vec![0.0_f64; errors.len()];
     for bounds in joints {
@@ -321,8 +298,5 @@ pub fn difference(a: &Graph, b: &Graph) -> Graph {
     nodes.extend(b.nodes.iter().map(|node| node.moved(|a| a + first)));
     let last = nodes.len() - 1;
     nodes.push(Node::Sub(first - 1, last));
-    Graph {
-        outputs: vec![(a.outputs[0].0, last + 1)],
-        nodes,
-    }
+    Graph { outputs: vec![(a.outputs[0].0, last + 1)], nodes }
 }

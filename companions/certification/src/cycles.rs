@@ -100,13 +100,9 @@ pub fn region(image: &Image, at: u32, callee: Option<u32>) -> Option<Bound> {
     run.flows.insert(at, inside);
     run.calls.push(at);
     let mut start = Machine::new(&mut run.names, pipes);
-    row.iter()
-        .for_each(|one| run.execute(&mut start, one, one.condition.map(|_| None)));
+    row.iter().for_each(|one| run.execute(&mut start, one, one.condition.map(|_| None)));
     let cycles = run.run(start, at, at, None).map(|end| end.cycles());
-    Some(Bound {
-        cycles,
-        branches: run.branches.into_iter().collect(),
-    })
+    Some(Bound { cycles, branches: run.branches.into_iter().collect() })
 }
 
 /// The same of a call of the function at an address, from its first instruction to its return, with
@@ -118,10 +114,7 @@ pub fn function(image: &Image, at: u32) -> Bound {
     let pipes = vec![(Pipe::clear(Reading::Chosen), 0)];
     let start = Machine::new(&mut run.names, pipes);
     let cycles = run.call(start, at).map(|end| end.cycles());
-    Bound {
-        cycles,
-        branches: run.branches.into_iter().collect(),
-    }
+    Bound { cycles, branches: run.branches.into_iter().collect() }
 }
 
 pub(crate) fn is_within((start, size): (u32, u32), at: u32) -> bool {
@@ -212,9 +205,7 @@ impl<'a> Run<'a> {
             return Err(Declined::Recursion { at });
         }
         let is_of = |parts: &[&str]| {
-            self.image
-                .names(at)
-                .any(|name| parts.iter().any(|part| name.contains(part)))
+            self.image.names(at).any(|name| parts.iter().any(|part| name.contains(part)))
         };
         if is_of(&["memcpy", "memmove"]) {
             machine.align(&mut self.names, &[0, 1]);
@@ -332,11 +323,7 @@ impl<'a> Run<'a> {
         }
         let mut ways = one.ways(self.image);
         let known = match one.decoded {
-            Some(Instruction::Branch {
-                condition,
-                link: false,
-                ..
-            }) => machine.holds(condition),
+            Some(Instruction::Branch { condition, link: false, .. }) => machine.holds(condition),
             Some(Instruction::BranchIfZero { n, if_not, .. }) => {
                 machine.is_zero(n).map(|is_zero| is_zero != if_not)
             }

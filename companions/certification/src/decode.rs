@@ -107,11 +107,7 @@ pub enum Instruction {
     /// Bits between a core register and a floating-point one.
     Transfer { core: u8, real: u8, to_core: bool },
     /// Goes on elsewhere, relative to the address plus four; `link` of a call.
-    Branch {
-        offset: i32,
-        condition: Condition,
-        link: bool,
-    },
+    Branch { offset: i32, condition: Condition, link: bool },
     /// Goes on elsewhere if a register is zero, or not.
     BranchIfZero { n: u8, offset: i32, if_not: bool },
     /// Goes on at a register's address.
@@ -119,13 +115,7 @@ pub enum Instruction {
     /// d = the word's address of the instruction plus an offset
     Address { d: u8, offset: i32 },
     /// d = n op operand, and whether flags are set; d is 16 of a comparison.
-    Integer {
-        op: Integer,
-        d: u8,
-        n: u8,
-        by: Operand,
-        flags: bool,
-    },
+    Integer { op: Integer, d: u8, n: u8, by: Operand, flags: bool },
     /// Makes the next instructions conditional: ITSTATE, A7.3.3.
     IfThen { state: u8 },
     /// d = n m + a
@@ -235,10 +225,7 @@ fn expanded(code: u32) -> u32 {
 
 fn of_core(name: &str, of: Operation) -> Option<Instruction> {
     use Instruction::{Address, Constant};
-    let (is, number) = (
-        |name| of.field(name) == Some(1),
-        |name| of.field(name).unwrap_or(0),
-    );
+    let (is, number) = (|name| of.field(name) == Some(1), |name| of.field(name).unwrap_or(0));
     let plain = of.field("x").map_or(number("i"), expanded) | number("h") << 12;
     let scaled = plain.wrapping_mul(of.field("k").unwrap_or(1));
     let constant = match of.field("u") {
@@ -251,12 +238,8 @@ fn of_core(name: &str, of: Operation) -> Option<Instruction> {
         Some(m) => Operand::Register(m as u8, shift),
         None => Operand::Constant(constant),
     };
-    let (mut d, n, m, t) = (
-        register(of, "d"),
-        register(of, "n"),
-        register(of, "m"),
-        register(of, "t"),
-    );
+    let (mut d, n, m, t) =
+        (register(of, "d"), register(of, "n"), register(of, "m"), register(of, "t"));
     let flags = is("f") || name.starts_with("compare");
     let load = name.starts_with('l');
     let mut first = n;
@@ -278,27 +261,16 @@ fn of_core(name: &str, of: Operation) -> Option<Instruction> {
         }
         d = NOWHERE;
     }
-    let integer = |op, by| Instruction::Integer {
-        op,
-        d,
-        n: first,
-        by,
-        flags,
-    };
+    let integer = |op, by| Instruction::Integer { op, d, n: first, by, flags };
     Some(match name {
         "nothing" => Instruction::Nop,
-        "if_then" => Instruction::IfThen {
-            state: number("i") as u8,
-        },
+        "if_then" => Instruction::IfThen { state: number("i") as u8 },
         "add" => integer(Integer::Add, by),
         "constant" => Constant { d, value: plain },
         "inverted" => Constant { d, value: !plain },
         "upper" => Instruction::Upper { d, value: plain },
         "move" => Instruction::Move { d, m },
-        "address" => Address {
-            d,
-            offset: constant as i32,
-        },
+        "address" => Address { d, offset: constant as i32 },
         "lsl" => integer(Integer::Multiply, Operand::Constant(1 << shift)),
         "lsr" => integer(Integer::Right, Operand::Constant(shift.into())),
         "subtract" | "compare" => integer(Integer::Sub, by),
@@ -310,19 +282,10 @@ fn of_core(name: &str, of: Operation) -> Option<Instruction> {
         "multiply" => integer(Integer::Multiply, by),
         "left" => integer(Integer::Left, by),
         "right" => integer(Integer::Right, by),
-        "not" => Instruction::Integer {
-            op: Integer::Xor,
-            d,
-            n: m,
-            by: Operand::Constant(!0),
-            flags,
-        },
-        "multiply_add" => Instruction::MultiplyAdd {
-            d,
-            n,
-            m,
-            a: register(of, "a"),
-        },
+        "not" => {
+            Instruction::Integer { op: Integer::Xor, d, n: m, by: Operand::Constant(!0), flags }
+        }
+        "multiply_add" => Instruction::MultiplyAdd { d, n, m, a: register(of, "a") },
         "leading_zeros" => Instruction::LeadingZeros { d, m },
         "table_branch" => {
             let shift = number("h") as u8;
@@ -353,11 +316,9 @@ fn of_core(name: &str, of: Operation) -> Option<Instruction> {
             })
         }
         "take_flags" => Instruction::TakeFlags,
-        "to_core" | "from_core" if t < SP => Instruction::Transfer {
-            core: t,
-            real: real(of, "n"),
-            to_core: name == "to_core",
-        },
+        "to_core" | "from_core" if t < SP => {
+            Instruction::Transfer { core: t, real: real(of, "n"), to_core: name == "to_core" }
+        }
         _ => return None,
     })
 }
@@ -368,9 +329,7 @@ fn branch(name: &str, of: Operation) -> Option<Instruction> {
     let (j, k) = (number("J"), number("K"));
     let (offset, width) = match name {
         "branch_to" => {
-            return Some(Instruction::BranchTo {
-                m: register(of, "m"),
-            });
+            return Some(Instruction::BranchTo { m: register(of, "m") });
         }
         "branch_if_zero" => {
             return Some(Instruction::BranchIfZero {
@@ -406,17 +365,11 @@ fn of_reals(name: &str, of: Operation) -> Option<Instruction> {
         "vsqrt" => Instruction::Root { d, m },
         "vmov" => Instruction::Copy { d, m },
         // Of numbers the form that signals NaNs is the same.
-        "vcmp" => Instruction::Compare {
-            d,
-            m: of.field("m").map(|_| m),
-        },
+        "vcmp" => Instruction::Compare { d, m: of.field("m").map(|_| m) },
         "vconst" => {
             let exponent = if number & 0x40 != 0 { 0x7c } else { 0x80 } | number >> 4 & 3;
             let bits = (number & 0x80) << 24 | exponent << 23 | (number & 15) << 19;
-            Instruction::Real {
-                d,
-                value: f32::from_bits(bits),
-            }
+            Instruction::Real { d, value: f32::from_bits(bits) }
         }
         "vldr" | "vstr" | "vldm" | "vstm" if number > 0 || name.ends_with('r') => {
             let double = of.field("z").unwrap_or(0);

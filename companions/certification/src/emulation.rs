@@ -32,14 +32,8 @@ impl Emulation {
     /// not as many.
     pub fn read(states: Vec<Vec<f64>>, said: &str, samples: Vec<Sample>) -> Option<Self> {
         let is_whole = !samples.is_empty() && samples.len() == said.lines().count();
-        let calls = said
-            .lines()
-            .zip(samples)
-            .map(|(line, sample)| call(line, sample));
-        is_whole.then(|| Self {
-            states,
-            calls: calls.collect(),
-        })
+        let calls = said.lines().zip(samples).map(|(line, sample)| call(line, sample));
+        is_whole.then(|| Self { states, calls: calls.collect() })
     }
 
     /// The cost of each call of a function, and the bits of its results, in the order of the
@@ -70,34 +64,22 @@ pub fn run(program: &Program, robot: &Robot) -> Result<Emulation> {
             let at = trigs + stride * (k * n as u32 + i as u32);
             let q = state[i] as f32;
             // The coordinate of a joint that slides has no angle.
-            let (s, c) = if joint.turns {
-                sines::pair(joint, q)
-            } else {
-                (0.0, 1.0)
-            };
+            let (s, c) = if joint.turns { sines::pair(joint, q) } else { (0.0, 1.0) };
             words.extend([(at + sine, s), (at + cosine, c), (at + position, q)]);
         }
     }
-    let folder = tempfile::tempdir().map_err(|source| Error::File {
-        path: "a temporary folder".into(),
-        source,
-    })?;
+    let folder = tempfile::tempdir()
+        .map_err(|source| Error::File { path: "a temporary folder".into(), source })?;
     let (elf, regions) = (folder.path().join("program"), folder.path().join("regions"));
     let written = patched(&program.elf, &words)?;
-    std::fs::write(&elf, written).map_err(|source| Error::File {
-        path: elf.clone(),
-        source,
-    })?;
+    std::fs::write(&elf, written).map_err(|source| Error::File { path: elf.clone(), source })?;
     let meter = program::meter()?;
     let mut command = Command::new(QEMU);
     command.args(OPTIONS.split_whitespace()).arg("-plugin");
     command.arg(format!("{},out={}", meter.display(), regions.display()));
     command.arg("-kernel").arg(&elf).stdin(Stdio::null());
     let said = program::capture(&mut command)?;
-    let failed = |said: String| Error::Program {
-        program: QEMU.to_owned(),
-        said,
-    };
+    let failed = |said: String| Error::Program { program: QEMU.to_owned(), said };
     let samples = std::fs::read_to_string(&regions).map_err(|e| failed(e.to_string()))?;
     let samples = cycle_meter::parse_samples(&samples).map_err(|e| failed(e.to_string()))?;
     let other = || failed("it printed another number of calls than it made".to_owned());
@@ -121,17 +103,9 @@ fn draw(robot: &Robot, states: usize) -> Vec<Vec<f64>> {
     let mut state = || {
         let joints = &robot.joints;
         let mut state: Vec<f64> = Vec::new();
-        state.extend(
-            joints
-                .iter()
-                .map(|one| number(one.position.low, one.position.high)),
-        );
+        state.extend(joints.iter().map(|one| number(one.position.low, one.position.high)));
         state.extend(joints.iter().map(|one| number(-one.speed, one.speed)));
-        state.extend(
-            joints
-                .iter()
-                .map(|one| number(-one.acceleration, one.acceleration)),
-        );
+        state.extend(joints.iter().map(|one| number(-one.acceleration, one.acceleration)));
         state
     };
     (0..states).map(|_| state()).collect()

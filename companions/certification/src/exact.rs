@@ -52,11 +52,7 @@ impl Exact {
             Model::Tree(bodies) => bodies,
             Model::FourBar => {
                 let of = |i: usize| std::array::from_fn::<f64, N, _>(|k| part(i)[k]);
-                let y = State {
-                    q: of(0),
-                    qd: of(1),
-                    qdd: of(2),
-                };
+                let y = State { q: of(0), qd: of(1), qdd: of(2) };
                 let tau = Clustered::<Core<FourBarLeg>>::rnea(&y, &RIGID_BODY);
                 let tau = tau.unwrap_or([f64::NAN; N]);
                 return places.map(|place| tau[place]).collect();
@@ -109,10 +105,7 @@ pub fn torques(bodies: &[Body], q: &[f64], qd: &[f64], qdd: &[f64]) -> Vec<f64> 
         match body.moves {
             Moves::Fixed => {}
             Moves::Turns(joint) => {
-                dw = plus(
-                    plus(dw, [0.0, 0.0, qdd[joint]]),
-                    cross(w, [0.0, 0.0, qd[joint]]),
-                );
+                dw = plus(plus(dw, [0.0, 0.0, qdd[joint]]), cross(w, [0.0, 0.0, qd[joint]]));
                 w[2] += qd[joint];
             }
             Moves::Slides(joint) => {
@@ -141,10 +134,7 @@ pub fn torques(bodies: &[Body], q: &[f64], qd: &[f64], qdd: &[f64]) -> Vec<f64> 
         if let Some(parent) = body.parent {
             let [force, moment] = [force, moment].map(|x| body.unplaced(body.unturned(x, &at)));
             let carried = plus(moment, cross(body.origin(&at), force));
-            loads[parent] = [
-                plus(loads[parent][0], force),
-                plus(loads[parent][1], carried),
-            ];
+            loads[parent] = [plus(loads[parent][0], force), plus(loads[parent][1], carried)];
         }
     }
     torques

@@ -49,10 +49,7 @@ struct Term {
 
 impl Term {
     fn negated_if(self, minus: bool) -> Self {
-        Self {
-            minus: self.minus != minus,
-            ..self
-        }
+        Self { minus: self.minus != minus, ..self }
     }
 }
 
@@ -223,11 +220,7 @@ fn solve(terms: &mut Terms, mut m: Vec<Vec<Term>>, mut x: Vec<Term>, order: Orde
             x[k] = terms.difference(x[k], share);
         }
     }
-    Solved {
-        accelerations: x,
-        pivots,
-        roundings: roundings(&turns, &subtracted, order),
-    }
+    Solved { accelerations: x, pivots, roundings: roundings(&turns, &subtracted, order) }
 }
 
 /// f + s of each entry, the most of any k.
@@ -362,12 +355,7 @@ impl Factored {
                 others.push((joint, node));
             }
         }
-        Ok(Self {
-            graph,
-            roundings: solved.roundings,
-            noise,
-            others,
-        })
+        Ok(Self { graph, roundings: solved.roundings, noise, others })
     }
 }
 
@@ -402,20 +390,13 @@ fn remaining(
     (mine, depends): (&[Term], &[bool]),
     joint: usize,
 ) -> (Term, Bias) {
-    let input = Input {
-        argument: TORQUES,
-        offset: 4 * joint as u32,
-    };
+    let input = Input { argument: TORQUES, offset: 4 * joint as u32 };
     let torque = terms.of(Key::Input(input), false);
     let own = |a: usize, b: usize| (mine[a].key == torque.key && !depends[b]).then_some(b);
-    let found = code
-        .nodes
-        .iter()
-        .enumerate()
-        .find_map(|(k, node)| match *node {
-            Node::Add(a, b) | Node::Sub(a, b) => Some((k, own(a, b).or(own(b, a))?)),
-            _ => None,
-        });
+    let found = code.nodes.iter().enumerate().find_map(|(k, node)| match *node {
+        Node::Add(a, b) | Node::Sub(a, b) => Some((k, own(a, b).or(own(b, a))?)),
+        _ => None,
+    });
     let Some((k, bias)) = found else {
         return (torque, Bias::None);
     };

@@ -49,19 +49,14 @@ impl Floor {
     /// [`Error::Floor`].
     pub fn check(&self) -> Result<()> {
         match self.least < self.floor {
-            true => Err(Error::Floor {
-                proven: self.floor,
-                found: self.least,
-            }),
+            true => Err(Error::Floor { proven: self.floor, found: self.least }),
             false => Ok(()),
         }
     }
 }
 
 /// Shares of the least value seen that are tried directly, in this order.
-const SHARES: [f64; 12] = [
-    0.02, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95,
-];
+const SHARES: [f64; 12] = [0.02, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95];
 /// Shares that joints keep when the next one is added.
 const KEPT: [f64; 2] = [0.6, 0.85];
 /// Joints of an arm whose floor is proven directly before further joints are added.
@@ -80,13 +75,10 @@ pub fn prove(bodies: &[Body], positions: &[Interval], scales: &[f64], most: usiz
     };
     // The first joints' floors are in the ratio of the scales, or of inertias at one position,
     // which keep more for the joints beyond.
-    let middle = positions
-        .iter()
-        .map(|x| Position::at(0.5 * (x.low + x.high)));
+    let middle = positions.iter().map(|x| Position::at(0.5 * (x.low + x.high)));
     let matrix = inertia_matrix(arm, positions.len(), &middle.collect::<Vec<_>>());
-    let inertias: Vec<f64> = (0..positions.len())
-        .map(|i| matrix[i][i].max(f64::MIN_POSITIVE))
-        .collect();
+    let inertias: Vec<f64> =
+        (0..positions.len()).map(|i| matrix[i][i].max(f64::MIN_POSITIVE)).collect();
     let firsts = FIRST.into_iter().filter(|first| *first < arms.len());
     // One joint has no ratio.
     let starts = firsts.flat_map(|first| [(first, scales), (first, &inertias)]);
@@ -94,21 +86,12 @@ pub fn prove(bodies: &[Body], positions: &[Interval], scales: &[f64], most: usiz
     let mut floor = 0.0_f64;
     for (first, ratio) in starts {
         let (first, rest) = arms.split_at(first);
-        let known = first
-            .last()
-            .map(|arm| directly(arm, &positions[..arm.len()], ratio, 0.0, most).floor);
-        let known = known
-            .into_iter()
-            .flat_map(|floor| ratio.iter().map(move |x| x * floor));
+        let known =
+            first.last().map(|arm| directly(arm, &positions[..arm.len()], ratio, 0.0, most).floor);
+        let known = known.into_iter().flat_map(|floor| ratio.iter().map(move |x| x * floor));
         let floors: Vec<f64> = known.take(first.len()).collect();
         for kept in KEPT {
-            floor = floor.max(by_joints(
-                rest,
-                floors.clone(),
-                positions,
-                (kept, scales),
-                most,
-            ));
+            floor = floor.max(by_joints(rest, floors.clone(), positions, (kept, scales), most));
         }
     }
     directly(arm, positions, scales, floor, most)
@@ -132,12 +115,7 @@ fn directly(
         };
         (floor, parts) = (share * least, taken);
     }
-    Floor {
-        floor,
-        least,
-        q,
-        parts,
-    }
+    Floor { floor, least, q, parts }
 }
 
 /// The floor of the last of some arms, each with a joint more than the one before, of which the
@@ -187,10 +165,7 @@ pub fn is_above(
     most: usize,
 ) -> Option<usize> {
     let depends = |part: &[Interval]| Enclosure::of(bodies, part).slopes;
-    let axes: Vec<usize> = depends(&somewhere(positions))
-        .iter()
-        .map(|slope| slope.0)
-        .collect();
+    let axes: Vec<usize> = depends(&somewhere(positions)).iter().map(|slope| slope.0).collect();
     let mut open = vec![positions.to_vec()];
     let mut parts = 0;
     while let Some(part) = open.pop() {
@@ -231,11 +206,8 @@ struct Enclosure {
 
 impl Enclosure {
     fn of(bodies: &[Body], part: &[Interval]) -> Self {
-        let at: Vec<Position<Taylor>> = part
-            .iter()
-            .enumerate()
-            .map(|(joint, range)| Position::over(joint, *range))
-            .collect();
+        let at: Vec<Position<Taylor>> =
+            part.iter().enumerate().map(|(joint, range)| Position::over(joint, *range)).collect();
         let matrix = inertia_matrix(bodies, part.len(), &at);
         let map = |of: &dyn Fn(&Taylor) -> f64| -> Matrix {
             let row = |row: &Vec<Taylor>| row.iter().map(of).collect();
@@ -268,15 +240,8 @@ impl Enclosure {
     /// narrower than others: a slope says nothing of how it changes.
     fn widest(&self, weak: &[f64], part: &[Interval]) -> Option<usize> {
         let width = |k: usize| part[k].high - part[k].low;
-        let most = self
-            .slopes
-            .iter()
-            .map(|(k, _)| width(*k))
-            .fold(0.0, f64::max);
-        let open = self
-            .slopes
-            .iter()
-            .filter(|(k, _)| width(*k) > NARROW * most);
+        let most = self.slopes.iter().map(|(k, _)| width(*k)).fold(0.0, f64::max);
+        let open = self.slopes.iter().filter(|(k, _)| width(*k) > NARROW * most);
         let sizes = open.map(|(k, slope)| (*k, self.size(slope, weak)));
         sizes.max_by(|a, b| a.1.total_cmp(&b.1)).map(|most| most.0)
     }
@@ -288,10 +253,8 @@ impl Enclosure {
         let even: Vec<f64> = self.scale.iter().map(|scale| 1.0 / scale).collect();
         let sizes = self.slopes.iter().map(|(_, slope)| self.size(slope, &even));
         let most = sizes.fold(0.0, f64::max);
-        let (large, small): (Vec<_>, Vec<_>) = self
-            .slopes
-            .iter()
-            .partition(|(_, slope)| self.size(slope, &even) > 1e-3 * most);
+        let (large, small): (Vec<_>, Vec<_>) =
+            self.slopes.iter().partition(|(_, slope)| self.size(slope, &even) > 1e-3 * most);
         let mut diagonal = vec![0.0; n];
         for i in 0..n {
             for j in 0..=i {
@@ -339,12 +302,8 @@ pub fn least_eigenvalue(bodies: &[Body], q: &[f64], scales: &[f64]) -> f64 {
         }
         not_positive(&mut shifted).is_none()
     };
-    let (mut low, mut high) = (
-        0.0,
-        (0..q.len())
-            .map(|i| matrix[i][i] / scales[i])
-            .fold(f64::MAX, f64::min),
-    );
+    let (mut low, mut high) =
+        (0.0, (0..q.len()).map(|i| matrix[i][i] / scales[i]).fold(f64::MAX, f64::min));
     for _ in 0..40 {
         let middle = 0.5 * (low + high);
         if is_above(middle) {
@@ -369,9 +328,7 @@ fn search(bodies: &[Body], positions: &[Interval], scales: &[f64]) -> (f64, Vec<
         }
     };
     for _ in 0..TRIED {
-        let q = positions
-            .iter()
-            .map(|x| x.low + rng.f64() * (x.high - x.low));
+        let q = positions.iter().map(|x| x.low + rng.f64() * (x.high - x.low));
         keep(q.collect(), &mut best);
     }
     for step in 0..TRIED {

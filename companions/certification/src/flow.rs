@@ -8,10 +8,7 @@ use crate::decode::{ALWAYS, Condition, Instruction, LR, PC, SP, decode};
 use crate::image::Image;
 
 /// The mark that closes the measured region.
-const CLOSES: Class = Class::Marker(Marker {
-    region: 0,
-    opens: false,
-});
+const CLOSES: Class = Class::Marker(Marker { region: 0, opens: false });
 
 /// An instruction: what it costs, and what it does if that is known.
 #[derive(Clone, Debug)]
@@ -88,10 +85,8 @@ impl Fetched {
     /// into the table, or branches.
     pub fn table(&self, image: &Image) -> Vec<u32> {
         if self.insn.class == Class::TableBranch && self.code[0] & 15 == 15 {
-            let (mut targets, mut end) = (
-                Vec::new(),
-                image.code_after(self.next()).unwrap_or(u32::MAX),
-            );
+            let (mut targets, mut end) =
+                (Vec::new(), image.code_after(self.next()).unwrap_or(u32::MAX));
             let bytes = if self.code[1] & 0x10 == 0 { 1 } else { 2 };
             let function = image.function(self.at);
             for at in (self.next()..).step_by(bytes) {
@@ -131,11 +126,7 @@ impl Fetched {
     fn is_entry(&self) -> bool {
         let is_jump = matches!(
             self.decoded,
-            Some(Instruction::Branch {
-                condition: ALWAYS,
-                link: false,
-                ..
-            })
+            Some(Instruction::Branch { condition: ALWAYS, link: false, .. })
         );
         is_jump && self.insn.size == 4
     }
@@ -147,9 +138,7 @@ impl Fetched {
         let mut ways = match self.decoded {
             _ if !self.insn.may_branch => vec![Way::Next],
             Some(Branch { link: true, .. }) => self.target().map(Way::Call).into_iter().collect(),
-            Some(Branch {
-                condition: ALWAYS, ..
-            }) => vec![target],
+            Some(Branch { condition: ALWAYS, .. }) => vec![target],
             Some(Branch { .. } | BranchIfZero { .. }) => vec![target, Way::Next],
             _ if self.is_return() => vec![Way::Out],
             _ => self.table(image).into_iter().map(Way::To).collect(),
@@ -216,11 +205,7 @@ fn block(image: &Image, it: &Fetched) -> Vec<(u32, Condition)> {
     let (first, mask) = (it.code[0] >> 4 & 15, it.code[0] & 15);
     let mut at = it.next();
     let conditions = (0..4 - mask.trailing_zeros()).map(|k| {
-        let last = if k == 0 {
-            first & 1
-        } else {
-            mask >> (4 - k) & 1
-        };
+        let last = if k == 0 { first & 1 } else { mask >> (4 - k) & 1 };
         let here = at;
         at += Fetched::of(image, at).map_or(2, |one| u32::from(one.insn.size));
         (here, (first & !1 | last) as Condition)
@@ -233,8 +218,7 @@ fn block(image: &Image, it: &Fetched) -> Vec<(u32, Condition)> {
 fn meets(follows: &HashMap<u32, Vec<Option<u32>>>) -> HashMap<u32, u32> {
     let mut before: HashMap<Option<u32>, Vec<u32>> = HashMap::new();
     for (at, ways) in follows {
-        ways.iter()
-            .for_each(|way| before.entry(*way).or_default().push(*at));
+        ways.iter().for_each(|way| before.entry(*way).or_default().push(*at));
     }
     let none = Vec::new();
     let sources = |at: &Option<u32>| before.get(at).unwrap_or(&none);
@@ -270,13 +254,8 @@ fn meets(follows: &HashMap<u32, Vec<Option<u32>>>) -> HashMap<u32, u32> {
     while changes {
         changes = false;
         for k in (0..exit).rev() {
-            let ways = order[k]
-                .and_then(|at| follows.get(&at))
-                .into_iter()
-                .flatten();
-            let known = ways
-                .filter_map(|way| number.get(way))
-                .filter(|n| meets[**n].is_some());
+            let ways = order[k].and_then(|at| follows.get(&at)).into_iter().flatten();
+            let known = ways.filter_map(|way| number.get(way)).filter(|n| meets[**n].is_some());
             let met = known.copied().reduce(|a, b| common(&meets, a, b));
             changes |= met != meets[k];
             meets[k] = met;

@@ -48,15 +48,7 @@ const LONGEST: usize = 8;
 /// The form of each sum of a graph that says more than the sum itself.
 pub fn of_values(graph: &Graph, leaves: &[Option<Leaf>]) -> Vec<Option<Form>> {
     let is_sum = |k: usize| matches!(graph.nodes[k], Node::Add(..) | Node::Sub(..));
-    (0..graph.nodes.len())
-        .map(|k| {
-            if is_sum(k) {
-                value(graph, leaves, k)
-            } else {
-                None
-            }
-        })
-        .collect()
+    (0..graph.nodes.len()).map(|k| if is_sum(k) { value(graph, leaves, k) } else { None }).collect()
 }
 
 fn value(graph: &Graph, leaves: &[Option<Leaf>], sum: usize) -> Option<Form> {
@@ -89,11 +81,7 @@ fn value(graph: &Graph, leaves: &[Option<Leaf>], sum: usize) -> Option<Form> {
         if let Some((is_sine, joint, other)) = turned(graph, leaves, k) {
             let turn = turns.entry(joint).or_default();
             turn.joint = joint;
-            let side = if is_sine {
-                &mut turn.sine
-            } else {
-                &mut turn.cosine
-            };
+            let side = if is_sine { &mut turn.sine } else { &mut turn.cosine };
             side.push((other, factor));
         }
     }
@@ -109,10 +97,7 @@ fn value(graph: &Graph, leaves: &[Option<Leaf>], sum: usize) -> Option<Form> {
         }
     }
     form.rotations = turns.into_values().collect();
-    form.errors = errors
-        .into_iter()
-        .filter(|(_, factor)| *factor != 0.0)
-        .collect();
+    form.errors = errors.into_iter().filter(|(_, factor)| *factor != 0.0).collect();
     Some(form)
 }
 
@@ -172,11 +157,7 @@ pub fn of_adjoints(graph: &Graph, leaves: &[Option<Leaf>]) -> Vec<Form> {
         }
     }
     let both = terms.into_iter().zip(steep);
-    both.map(|(terms, steep)| Form {
-        steep,
-        ..adjoint(terms, leaves)
-    })
-    .collect()
+    both.map(|(terms, steep)| Form { steep, ..adjoint(terms, leaves) }).collect()
 }
 
 fn adjoint(terms: BTreeMap<(Option<usize>, usize), f64>, leaves: &[Option<Leaf>]) -> Form {
@@ -190,12 +171,7 @@ fn adjoint(terms: BTreeMap<(Option<usize>, usize), f64>, leaves: &[Option<Leaf>]
     }
     let side = |sine: bool, joint: usize| {
         leaves.iter().position(|leaf| {
-            *leaf
-                == Some(if sine {
-                    Leaf::Sine(joint)
-                } else {
-                    Leaf::Cosine(joint)
-                })
+            *leaf == Some(if sine { Leaf::Sine(joint) } else { Leaf::Cosine(joint) })
         })
     };
     let joints = leaves.iter().filter_map(|leaf| match leaf {
@@ -208,11 +184,7 @@ fn adjoint(terms: BTreeMap<(Option<usize>, usize), f64>, leaves: &[Option<Leaf>]
         };
         if scaled.contains_key(&sine) && scaled.contains_key(&cosine) {
             let mut take = |value| scaled.remove(&value).unwrap_or_default();
-            form.rotations.push(Rotation {
-                joint,
-                sine: take(sine),
-                cosine: take(cosine),
-            });
+            form.rotations.push(Rotation { joint, sine: take(sine), cosine: take(cosine) });
         }
     }
     form.scaled = scaled.into_iter().collect();

@@ -122,10 +122,7 @@ impl Forward {
         let of = |i: usize, j: usize| &outputs[n + i.max(j) * (i.max(j) + 1) / 2 + i.min(j)];
         let matrix = |i: usize| (0..n).map(|j| of(i, j).bound).collect();
         let mut forward = Self {
-            bias: outputs[..n]
-                .iter()
-                .map(|output| output.bound + TINY)
-                .collect(),
+            bias: outputs[..n].iter().map(|output| output.bound + TINY).collect(),
             matrix: (0..n).map(matrix).collect(),
             roundings: factored.roundings.clone(),
             ..Self::default()
@@ -172,24 +169,17 @@ impl Forward {
             self.matrix[i][j] + gamma(self.roundings[i][j]) * (sizes[i] * sizes[j]).sqrt() + TINY
         };
         let n = sizes.len();
-        (0..n)
-            .map(|i| (0..n).map(|j| entry(i, j) * UP).collect())
-            .collect()
+        (0..n).map(|i| (0..n).map(|j| entry(i, j) * UP).collect()).collect()
     }
 
     /// |M⁻¹| (β + Φ |q̈|) for M, its lower triangle, its inverse, and computed accelerations.
     pub fn bound(&self, matrix: &Matrix, inverse: &Matrix, accelerations: &[f64]) -> Vec<f64> {
         let diagonal = (0..self.bias.len()).map(|i| matrix[i][i] + self.matrix[i][i]);
         let phi = self.backward(&self.sizes(&diagonal.collect::<Vec<_>>()));
-        let residual = phi
-            .iter()
-            .zip(&self.bias)
-            .map(|(row, bias)| bias + magnitude(row, accelerations));
+        let residual =
+            phi.iter().zip(&self.bias).map(|(row, bias)| bias + magnitude(row, accelerations));
         let residual: Vec<f64> = residual.collect();
-        inverse
-            .iter()
-            .map(|row| magnitude(row, &residual))
-            .collect()
+        inverse.iter().map(|row| magnitude(row, &residual)).collect()
     }
 
     /// Searches the greatest shares, at states of which accelerations are drawn too: torques are
@@ -205,10 +195,7 @@ impl Forward {
         effort: Effort,
     ) -> Result<()> {
         let n = robot.joints.len();
-        let mut exact = Exact {
-            bodies,
-            evaluation: Evaluation::new(code, robot),
-        };
+        let mut exact = Exact { bodies, evaluation: Evaluation::new(code, robot) };
         let shares = worst(robot, n + 1, effort, 1, |state| {
             let Some(trial) = exact.at(state) else {
                 return vec![0.0; n + 1];
@@ -217,12 +204,8 @@ impl Forward {
         });
         self.states = effort.states(n + 1);
         self.bodies = bodies.to_vec();
-        let worst = |share: &Observed| {
-            Some(Worst {
-                share: share.error,
-                ..exact.at(&share.state)?.of
-            })
-        };
+        let worst =
+            |share: &Observed| Some(Worst { share: share.error, ..exact.at(&share.state)?.of });
         self.worst = shares.iter().filter_map(worst).collect();
         for (number, share) in shares.iter().enumerate() {
             if share.error.is_nan() || share.error > 1.0 {
@@ -273,10 +256,7 @@ impl Forward {
 
 /// At least the greatest number that a node has over the box, as it is computed.
 pub fn greatest_over(graph: &Graph, node: usize, robot: &Robot, sines: SineErrors) -> f64 {
-    let graph = Graph {
-        nodes: graph.nodes.clone(),
-        outputs: vec![(0, node)],
-    };
+    let graph = Graph { nodes: graph.nodes.clone(), outputs: vec![(0, node)] };
     let Some(mut bounder) = Bounder::new(&graph, 0, robot, sines, Enclosure::Plain) else {
         return f64::INFINITY;
     };
@@ -322,11 +302,7 @@ impl Exact<'_> {
             computed,
             share: 0.0,
         };
-        Some(Trial {
-            matrix,
-            inverse,
-            of,
-        })
+        Some(Trial { matrix, inverse, of })
     }
 }
 
@@ -354,9 +330,7 @@ fn norm(of: &Matrix) -> f64 {
 /// Gauss and Jordan, in place.
 pub fn inverse(of: &Matrix) -> Option<Matrix> {
     let n = of.len();
-    let mut a: Matrix = (0..n)
-        .map(|i| (0..n).map(|j| of[i.max(j)][i.min(j)]).collect())
-        .collect();
+    let mut a: Matrix = (0..n).map(|i| (0..n).map(|j| of[i.max(j)][i.min(j)]).collect()).collect();
     for k in 0..n {
         let pivot = a[k][k];
         if pivot.is_nan() || pivot <= 0.0 {
@@ -367,10 +341,7 @@ pub fn inverse(of: &Matrix) -> Option<Matrix> {
         let row = a[k].clone();
         for (_, other) in a.iter_mut().enumerate().filter(|one| one.0 != k) {
             let factor = std::mem::take(&mut other[k]);
-            other
-                .iter_mut()
-                .zip(&row)
-                .for_each(|(x, y)| *x -= factor * y);
+            other.iter_mut().zip(&row).for_each(|(x, y)| *x -= factor * y);
         }
     }
     Some(a)

@@ -69,36 +69,23 @@ pub fn script(bounder: &Bounder) -> Script {
             script.given.push(slope);
         }
         script.given.push(range(&v, bounder.values[k]));
-        script
-            .given
-            .push(range(&format!("w{k}"), bounder.adjoints[k]));
+        script.given.push(range(&format!("w{k}"), bounder.adjoints[k]));
         if error > 0.0 {
-            script
-                .given
-                .push(range(&format!("e{k}"), Interval::new(-error, error)));
+            script.given.push(range(&format!("e{k}"), Interval::new(-error, error)));
         }
         if let Node::Literal(x) = *node {
-            script.proven.push(range(
-                &format!("{} + e{k}", exact(x.into())),
-                bounder.values[k],
-            ));
+            script.proven.push(range(&format!("{} + e{k}", exact(x.into())), bounder.values[k]));
             if error == 0.0 {
                 script.proven.pop();
             }
         }
         let Some(operation) = operation else { continue };
         if rounds {
-            script
-                .proven
-                .push(range(&format!("r({operation})"), bounder.values[k]));
+            script.proven.push(range(&format!("r({operation})"), bounder.values[k]));
             let rounding = format!("r({operation}) - ({operation})");
-            script
-                .proven
-                .push(range(&rounding, Interval::new(-error, error)));
+            script.proven.push(range(&rounding, Interval::new(-error, error)));
         } else {
-            script
-                .proven
-                .push(range(&format!("({operation})"), bounder.values[k]));
+            script.proven.push(range(&format!("({operation})"), bounder.values[k]));
         }
     }
     for k in 0..graph.nodes.len() {
@@ -108,21 +95,12 @@ pub fn script(bounder: &Bounder) -> Script {
             terms.push(weighted(&form.plain));
         }
         terms.extend(
-            form.scaled
-                .iter()
-                .map(|(value, sum)| format!("v{value} * ({})", weighted(sum))),
+            form.scaled.iter().map(|(value, sum)| format!("v{value} * ({})", weighted(sum))),
         );
-        terms.extend(
-            form.steep
-                .iter()
-                .map(|steep| slope(graph.nodes[steep.0], *steep)),
-        );
+        terms.extend(form.steep.iter().map(|steep| slope(graph.nodes[steep.0], *steep)));
         // The output's own adjoint is one, by its range.
         if !terms.is_empty() {
-            script.proven.push(range(
-                &format!("({})", terms.join(" + ")),
-                bounder.adjoints[k],
-            ));
+            script.proven.push(range(&format!("({})", terms.join(" + ")), bounder.adjoints[k]));
         }
     }
     script
@@ -157,32 +135,19 @@ impl Script {
         let errors = (0..bounder.errors.len()).filter(|k| bounder.errors[*k] > 0.0);
         let terms: Vec<String> = errors.map(|k| format!("e{k} * w{k}")).collect();
         if !terms.is_empty() {
-            self.proven.push(range(
-                &format!("({})", terms.join(" + ")),
-                Interval::new(-bound, bound),
-            ));
+            self.proven
+                .push(range(&format!("({})", terms.join(" + ")), Interval::new(-bound, bound)));
         }
         self
     }
 
     /// The text of some statements, with the ranges of what they name.
     fn text(&self, proven: &[String]) -> String {
-        let names: BTreeSet<&str> = proven
-            .iter()
-            .flat_map(|one| one.split(|c: char| !c.is_ascii_alphanumeric()))
-            .collect();
-        let named = |given: &&String| {
-            given
-                .split(' ')
-                .next()
-                .is_some_and(|name| names.contains(name))
-        };
-        let given: Vec<&str> = self
-            .given
-            .iter()
-            .filter(named)
-            .map(String::as_str)
-            .collect();
+        let names: BTreeSet<&str> =
+            proven.iter().flat_map(|one| one.split(|c: char| !c.is_ascii_alphanumeric())).collect();
+        let named =
+            |given: &&String| given.split(' ').next().is_some_and(|name| names.contains(name));
+        let given: Vec<&str> = self.given.iter().filter(named).map(String::as_str).collect();
         let arrow = if given.is_empty() { "" } else { "\n->\n" };
         format!(
             "@r = float<ieee_32, ne>;\n{{\n{}{arrow}{}\n}}\n",
@@ -234,10 +199,7 @@ fn run(options: &[&str], text: &str) -> Result<Option<String>> {
         .stderr(Stdio::null())
         .spawn()
         .map_err(failed("gappa"))?;
-    let written = gappa
-        .stdin
-        .take()
-        .map_or(Ok(()), |mut stdin| stdin.write_all(text.as_bytes()));
+    let written = gappa.stdin.take().map_or(Ok(()), |mut stdin| stdin.write_all(text.as_bytes()));
     let output = gappa.wait_with_output().map_err(failed("gappa"))?;
     // One that stops reading has refused what it read.
     let is_accepted = written.is_ok() && output.status.success();
@@ -245,10 +207,7 @@ fn run(options: &[&str], text: &str) -> Result<Option<String>> {
 }
 
 fn failed(program: &'static str) -> impl Fn(std::io::Error) -> Error {
-    move |e| Error::Program {
-        program: program.to_owned(),
-        said: e.to_string(),
-    }
+    move |e| Error::Program { program: program.to_owned(), said: e.to_string() }
 }
 
 /// Whether Coq, with Flocq's theory of floating-point numbers, accepts a proof of Gappa's.
@@ -261,9 +220,7 @@ pub fn is_checked_by_coq(proof: &str) -> Result<bool> {
     let mut coq = Command::new("coqc");
     coq.arg("part.v").current_dir(folder.path());
     let status = coq.stdout(Stdio::null()).stderr(Stdio::null()).status();
-    status
-        .map(|status| status.success())
-        .map_err(failed("coqc"))
+    status.map(|status| status.success()).map_err(failed("coqc"))
 }
 
 /// A proof for Coq in which the greatest rounding error of one operation is said to be half of what

@@ -177,10 +177,7 @@ impl Graph {
         used[node] = true;
         for at in (0..=node).rev() {
             if used[at] {
-                operands(self.nodes[at])
-                    .into_iter()
-                    .flatten()
-                    .for_each(|a| used[a] = true);
+                operands(self.nodes[at]).into_iter().flatten().for_each(|a| used[a] = true);
             }
         }
         let mut places = vec![usize::MAX; node + 1];
@@ -190,10 +187,7 @@ impl Graph {
             nodes.push(self.nodes[at].moved(|a| places[a]));
         }
         let last = nodes.len() - 1;
-        Self {
-            nodes,
-            outputs: vec![(offset, last)],
-        }
+        Self { nodes, outputs: vec![(offset, last)] }
     }
 
     /// The number of rounded operations.

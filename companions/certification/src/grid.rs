@@ -230,11 +230,7 @@ impl Builder<'_> {
         };
         for (to, is_minus) in plain {
             if uses[*to] == 1 {
-                self.adjoints[*to] = if *is_minus {
-                    negated(&adjoint)
-                } else {
-                    adjoint.clone()
-                };
+                self.adjoints[*to] = if *is_minus { negated(&adjoint) } else { adjoint.clone() };
                 continue;
             }
             let mut sum = std::mem::take(&mut self.adjoints[*to]);
@@ -254,10 +250,9 @@ impl Builder<'_> {
         let value = self.values[k].clone();
         let inverse = self.program.inverses[k].map(constant).unwrap_or_default();
         Some(match self.graph.nodes[k] {
-            Node::Mul(a, b) => [
-                Some((a, self.values[b].clone())),
-                Some((b, self.values[a].clone())),
-            ],
+            Node::Mul(a, b) => {
+                [Some((a, self.values[b].clone())), Some((b, self.values[a].clone()))]
+            }
             // 1/b and −(a/b)/b
             Node::Div(a, b) => {
                 let by_divisor = self.product(&value, &inverse, true)?;
@@ -281,11 +276,7 @@ impl Builder<'_> {
 
     fn sum(&self, of: &Polynomial) -> Vec<(u32, f64)> {
         let most = |i: u8| {
-            if i == 0 {
-                1.0
-            } else {
-                self.most[usize::from(i) - 1]
-            }
+            if i == 0 { 1.0 } else { self.most[usize::from(i) - 1] }
         };
         of.iter()
             .map(|((i, j), (place, _))| (*place, most(*i) * most(*j)))
@@ -327,9 +318,7 @@ fn parted(graph: &Graph, leaves: &[Option<Leaf>], joints: usize) -> Vec<bool> {
 }
 
 fn negated(of: &Polynomial) -> Polynomial {
-    of.iter()
-        .map(|(monomial, (place, is_minus))| (*monomial, (*place, !is_minus)))
-        .collect()
+    of.iter().map(|(monomial, (place, is_minus))| (*monomial, (*place, !is_minus))).collect()
 }
 
 fn times(m: Monomial, n: Monomial) -> Option<Monomial> {
@@ -389,11 +378,7 @@ impl Program {
         let sums = all.map(|of| builder.sum(of)).collect();
         let mut program = builder.program;
         program.sums = sums;
-        program.count(
-            graph,
-            robot,
-            &whole.iter().map(|x| x.magnitude()).collect::<Vec<_>>(),
-        );
+        program.count(graph, robot, &whole.iter().map(|x| x.magnitude()).collect::<Vec<_>>());
         Some(program)
     }
 

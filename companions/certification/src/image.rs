@@ -42,20 +42,12 @@ impl Image {
         let marks = file.symbols().filter(|one| one.name().is_ok_and(is_code));
         let mut code: Vec<u32> = marks.map(|one| one.address() as u32).collect();
         code.sort_unstable();
-        Ok(Self {
-            sections: sections.collect(),
-            symbols,
-            code,
-        })
+        Ok(Self { sections: sections.collect(), symbols, code })
     }
 
     /// An image of these bytes from an address on, for tests of code that is written by hand.
     pub fn of(address: u32, bytes: &[u8]) -> Self {
-        Self {
-            sections: vec![(address, bytes.to_vec())],
-            symbols: Vec::new(),
-            code: Vec::new(),
-        }
+        Self { sections: vec![(address, bytes.to_vec())], symbols: Vec::new(), code: Vec::new() }
     }
 
     /// The same with a function that has a name.
@@ -107,29 +99,20 @@ impl Image {
         let mut symbols = self.symbols.iter();
         let (name, ..) = symbols.find(|(_, start, size)| at.wrapping_sub(*start) < *size)?;
         let (mut parts, mut rest) = (Vec::new(), name.strip_prefix("_ZN").unwrap_or_default());
-        while let Some(end) = rest
-            .find(|c: char| !c.is_ascii_digit())
-            .filter(|end| *end > 0)
-        {
+        while let Some(end) = rest.find(|c: char| !c.is_ascii_digit()).filter(|end| *end > 0) {
             let length = rest[..end].parse().unwrap_or(usize::MAX);
             let Some((part, after)) = rest[end..].split_at_checked(length) else {
                 break;
             };
             // Of a type the name, without its path and parameters.
-            let part = part
-                .trim_start_matches("_$LT$")
-                .trim_start_matches("impl$u20$");
+            let part = part.trim_start_matches("_$LT$").trim_start_matches("impl$u20$");
             let part = part.split('$').next().unwrap_or_default();
             parts.push(part.rsplit("..").next().unwrap_or_default());
             rest = after;
         }
         parts.pop();
         let last = parts.split_off(parts.len().saturating_sub(2));
-        Some(if last.is_empty() {
-            name.clone()
-        } else {
-            last.join("::")
-        })
+        Some(if last.is_empty() { name.clone() } else { last.join("::") })
     }
 
     /// The address and the words of the variable of a name, whatever its path and hash.
@@ -142,10 +125,7 @@ impl Image {
         let (_, address, size) = found.ok_or_else(|| Error::Missing(name.to_owned()))?;
         let words = (0..size / 4).map(|i| self.word(address + 4 * i));
         let words: Option<Vec<u32>> = words.collect();
-        Ok((
-            *address,
-            words.ok_or_else(|| Error::Missing(name.to_owned()))?,
-        ))
+        Ok((*address, words.ok_or_else(|| Error::Missing(name.to_owned()))?))
     }
 
     /// SHA-256 of the functions that hold these addresses, each from its first instruction to its
@@ -154,9 +134,7 @@ impl Image {
         let mut hash = Sha256::new();
         let holds = |(_, start, size): &&(String, u32, u32)| {
             let first = visited.partition_point(|address| address < start);
-            visited
-                .get(first)
-                .is_some_and(|address| address - start < *size)
+            visited.get(first).is_some_and(|address| address - start < *size)
         };
         let mut last = None;
         for (_, start, size) in self.symbols.iter().filter(holds) {
@@ -164,9 +142,7 @@ impl Image {
                 continue; // another name of the same function
             }
             hash.update(
-                self.from(*start)
-                    .and_then(|bytes| bytes.get(..*size as usize))
-                    .unwrap_or_default(),
+                self.from(*start).and_then(|bytes| bytes.get(..*size as usize)).unwrap_or_default(),
             );
         }
         hexadecimal(hash)

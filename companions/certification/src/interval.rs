@@ -87,11 +87,7 @@ impl Interval {
             return self;
         }
         let (a, b) = (self.low * self.low, self.high * self.high);
-        let low = if self.low <= 0.0 && self.high >= 0.0 {
-            0.0
-        } else {
-            down(a.min(b)).max(0.0)
-        };
+        let low = if self.low <= 0.0 && self.high >= 0.0 { 0.0 } else { down(a.min(b)).max(0.0) };
         Self::new(low, up(a.max(b)))
     }
 }
@@ -106,10 +102,7 @@ impl Interval {
     /// √x of the numbers that have one.
     #[inline]
     pub fn root(self) -> Self {
-        Self::new(
-            down(self.low.max(0.0).sqrt()).max(0.0),
-            up(self.high.max(0.0).sqrt()),
-        )
+        Self::new(down(self.low.max(0.0).sqrt()).max(0.0), up(self.high.max(0.0).sqrt()))
     }
 }
 
@@ -162,12 +155,8 @@ impl Mul for Interval {
         if self.is_zero() || b.is_zero() {
             return Self::default();
         }
-        let [p, q, r, s] = [
-            self.low * b.low,
-            self.low * b.high,
-            self.high * b.low,
-            self.high * b.high,
-        ];
+        let [p, q, r, s] =
+            [self.low * b.low, self.low * b.high, self.high * b.low, self.high * b.high];
         Self::new(down(p.min(q).min(r.min(s))), up(p.max(q).max(r.max(s))))
     }
 }

@@ -102,10 +102,7 @@ impl Machine {
     }
 
     pub fn core(&self, register: u8) -> Word {
-        self.core
-            .get(usize::from(register))
-            .copied()
-            .unwrap_or(number(0))
+        self.core.get(usize::from(register)).copied().unwrap_or(number(0))
     }
 
     /// Whether a register is zero.
@@ -137,21 +134,13 @@ impl Machine {
     }
 
     fn keep_word(&mut self, at: Word, word: Word, bytes: u32, is_saved: bool) {
-        let kept = Kept {
-            word,
-            bytes,
-            is_saved,
-        };
+        let kept = Kept { word, bytes, is_saved };
         self.memory.insert(at, kept);
     }
 
     /// What lies in memory that is not known.
     fn unknown(&self, names: &mut Names) -> Word {
-        if self.is_exposed {
-            names.any()
-        } else {
-            names.fresh()
-        }
+        if self.is_exposed { names.any() } else { names.fresh() }
     }
 
     /// A function gets multiples of four in these registers.
@@ -197,11 +186,7 @@ impl Machine {
             Operand::Register(m, shift) | Operand::Right(m, shift) => {
                 let is_right = matches!(by, Operand::Right(..));
                 match self.core(m).number() {
-                    Some(value) => number(if is_right {
-                        value >> shift
-                    } else {
-                        value << shift
-                    }),
+                    Some(value) => number(if is_right { value >> shift } else { value << shift }),
                     None => names.of(&[self.core(m)]),
                 }
             }
@@ -241,11 +226,7 @@ impl Machine {
                     *now = names.of(&[*now, *before]);
                 }
             }
-            self.flags = if self.flags == flags {
-                flags
-            } else {
-                [None; 4]
-            };
+            self.flags = if self.flags == flags { flags } else { [None; 4] };
         }
     }
 
@@ -264,10 +245,7 @@ impl Machine {
         }
         let is_memory = matches!(insn.class, Class::Load | Class::Store | Class::Words(_));
         if is_memory {
-            let bases = all
-                .iter()
-                .zip(0..)
-                .filter(|(_, n)| insn.address >> n & 1 != 0);
+            let bases = all.iter().zip(0..).filter(|(_, n)| insn.address >> n & 1 != 0);
             let bases: Vec<Word> = bases.map(|(word, _)| *word).collect();
             let at = names.of(&bases);
             self.spoil(at, 4);
@@ -343,12 +321,7 @@ impl Machine {
         };
         if sets {
             let value = result.number();
-            self.flags = [
-                value.map(|n| n >> 31 != 0),
-                value.map(|n| n == 0),
-                None,
-                None,
-            ];
+            self.flags = [value.map(|n| n >> 31 != 0), value.map(|n| n == 0), None, None];
         }
         result
     }
@@ -364,13 +337,7 @@ impl Machine {
         use Instruction as I;
         match instruction {
             I::Nop | I::IfThen { .. } => {}
-            I::Integer {
-                op,
-                d,
-                n,
-                by,
-                flags,
-            } => {
+            I::Integer { op, d, n, by, flags } => {
                 let by = self.operand(names, by);
                 let result = self.integer(names, op, (self.core(n), by), flags);
                 self.set(d, result);
@@ -397,11 +364,9 @@ impl Machine {
             I::Several(one) => self.several((names, image), here, one, is_sure),
             I::Copy { d, m } => self.real[usize::from(d)] = self.real[usize::from(m)],
             I::Real { d, value } => self.real[usize::from(d)] = number(value.to_bits()),
-            I::Transfer {
-                core,
-                real,
-                to_core: true,
-            } => self.set(core, self.real[usize::from(real)]),
+            I::Transfer { core, real, to_core: true } => {
+                self.set(core, self.real[usize::from(real)])
+            }
             I::Transfer { core, real, .. } => self.real[usize::from(real)] = self.core(core),
             _ => return false,
         }

@@ -80,9 +80,7 @@ impl Narrow {
         };
         if self.range.low < whole.low || self.range.high > whole.high {
             let Interval { low, high } = whole;
-            return Err(refused(format!(
-                "joint {number} has the range {low} to {high}"
-            )));
+            return Err(refused(format!("joint {number} has the range {low} to {high}")));
         }
         let was_near = sines::is_near(joint);
         match self.kind {
@@ -93,9 +91,7 @@ impl Narrow {
         // The function's code is that of the description.
         if joint.turns && sines::is_near(joint) != was_near {
             let turns = "more than two turns on a side, as its description has";
-            return Err(refused(format!(
-                "the range of joint {number} needs {turns}"
-            )));
+            return Err(refused(format!("the range of joint {number} needs {turns}")));
         }
         Ok(())
     }

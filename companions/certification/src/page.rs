@@ -118,11 +118,8 @@ fn table(one: &Certificate) -> String {
         "| {what} | proven error, {unit} | worst observed | ratio | proof | of it: operations | literals | sines | range of the result |\n|---|---|---|---|---|---|---|---|---|"
     );
     for output in &one.outputs {
-        let ratio = if output.observed > 0.0 {
-            format!("{:.1}", output.ratio())
-        } else {
-            "–".to_owned()
-        };
+        let ratio =
+            if output.observed > 0.0 { format!("{:.1}", output.ratio()) } else { "–".to_owned() };
         let _ = writeln!(
             text,
             "| {} | {} | {} | {ratio} | {} | {} | {} | {} | {:.3} to {:.3} |",
@@ -164,10 +161,7 @@ fn accelerations(one: &Certificate, forward: &Forward) -> String {
     }
     let [rho, found] = [forward.floor.floor, forward.floor.least].map(|floor| 1.0 / floor);
     let positive = match (rho * forward.epsilon, forward.is_total) {
-        (share, true) => format!(
-            "ρ ε ≤ {}, so that no state of the box is refused",
-            short(share)
-        ),
+        (share, true) => format!("ρ ε ≤ {}, so that no state of the box is refused", short(share)),
         (share, false) if share < 1.0 => format!(
             "ρ ε ≤ {}, so that all pivots are positive; of some it is not proven that they exceed what the code wants of them, and a state may be refused",
             short(share)
@@ -213,11 +207,7 @@ fn ranges(one: &Certificate) -> String {
         }
     }
     let group = |(text, joints): (String, Vec<String>)| {
-        format!(
-            "joint{} {}: {text}",
-            if joints.len() > 1 { "s" } else { "" },
-            joints.join(", ")
-        )
+        format!("joint{} {}: {text}", if joints.len() > 1 { "s" } else { "" }, joints.join(", "))
     };
     groups.into_iter().map(group).collect::<Vec<_>>().join("; ")
 }

@@ -64,17 +64,9 @@ fn on_parent(body: &Body, parent: &Body) -> Body {
 
 /// A body with an inertia that is given in the frame of another one on it.
 fn with(body: &Body, other: &Body, inertia: [f64; 10]) -> Body {
-    let given = Body {
-        inertia,
-        moves: Moves::Fixed,
-        parent: None,
-        ..*other
-    };
+    let given = Body { inertia, moves: Moves::Fixed, parent: None, ..*other };
     let moved = crate::bodies::at_parent(&given);
-    Body {
-        inertia: std::array::from_fn(|i| body.inertia[i] + moved[i]),
-        ..*body
-    }
+    Body { inertia: std::array::from_fn(|i| body.inertia[i] + moved[i]), ..*body }
 }
 
 /// The arm without its last body, which keeps what is sure to hang on it.
@@ -98,18 +90,7 @@ fn hanging(body: &Body) -> [f64; 10] {
     for percent in (1..=19).rev() {
         let share = 0.05 * f64::from(percent);
         let across = share * xx.min(yy);
-        let given = [
-            share * mass,
-            0.0,
-            0.0,
-            share * hz,
-            across,
-            0.0,
-            0.0,
-            across,
-            0.0,
-            0.0,
-        ];
+        let given = [share * mass, 0.0, 0.0, share * hz, across, 0.0, 0.0, across, 0.0, 0.0];
         let left: [f64; 10] = std::array::from_fn(|i| body.inertia[i] - given[i]);
         if is_positive(&left) {
             return given;
@@ -152,18 +133,13 @@ const CLOSE: f64 = 1.03;
 pub fn coupling(bodies: &[Body], positions: &[Interval], floors: &[f64], parts: usize) -> f64 {
     let n = positions.len();
     let row = |part: &[Interval]| -> Vec<Taylor> {
-        let at: Vec<Position<Taylor>> = part
-            .iter()
-            .enumerate()
-            .map(|(joint, range)| Position::over(joint, *range))
-            .collect();
+        let at: Vec<Position<Taylor>> =
+            part.iter().enumerate().map(|(joint, range)| Position::over(joint, *range)).collect();
         let mut matrix = inertia_matrix(bodies, n, &at);
         let mut last = matrix.pop().unwrap_or_default();
         last.pop();
         let weighted = last.iter().zip(floors);
-        weighted
-            .map(|(b, floor)| b.times(1.0 / floor.sqrt()))
-            .collect()
+        weighted.map(|(b, floor)| b.times(1.0 / floor.sqrt())).collect()
     };
     let small = row(&somewhere(positions));
     let depends = |k: &usize| small.iter().any(|x| x.slopes[*k] != 0.0);
@@ -171,18 +147,13 @@ pub fn coupling(bodies: &[Body], positions: &[Interval], floors: &[f64], parts: 
     let mut found = 0.0_f64;
     let bounded = |positions: Vec<Interval>| {
         let row = row(&positions);
-        let here = row
-            .iter()
-            .map(|x| (x.centre.abs() - x.rest).max(0.0).powi(2));
+        let here = row.iter().map(|x| (x.centre.abs() - x.rest).max(0.0).powi(2));
         let here = here.sum::<f64>().sqrt();
         let squares = row.iter().map(|x| x.square());
         let sum = squares.fold(Taylor::default(), |sum, x| sum + x);
         let apart: f64 = row.iter().map(|x| x.magnitude().powi(2)).sum();
         let gain = |k: usize| sum.slopes[k].abs();
-        let axis = axes
-            .iter()
-            .copied()
-            .max_by(|a, b| gain(*a).total_cmp(&gain(*b)));
+        let axis = axes.iter().copied().max_by(|a, b| gain(*a).total_cmp(&gain(*b)));
         let part = Part {
             bound: sum.range().high.max(0.0).min(apart).sqrt() * (1.0 + 1e-9),
             axis: wide(&axes, &positions, WIDE).or(axis),

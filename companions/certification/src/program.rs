@@ -73,10 +73,8 @@ pub fn configured(robot: &str, options: &import::Options) -> Result<Program> {
 
 fn bin(robot: &str, options: &import::Options, name: &str, feature: &str) -> Result<Program> {
     let bin = name;
-    let folder = tempfile::tempdir().map_err(|source| Error::File {
-        path: "a temporary folder".into(),
-        source,
-    })?;
+    let folder = tempfile::tempdir()
+        .map_err(|source| Error::File { path: "a temporary folder".into(), source })?;
     let included = folder.path().join("included.rs");
     let (name, text) = match LIBRARY.iter().find(|(name, _)| *name == robot) {
         Some((name, text)) => ((*name).to_owned(), (*text).to_owned()),
@@ -104,11 +102,7 @@ fn bin(robot: &str, options: &import::Options, name: &str, feature: &str) -> Res
     let rustc = capture(
         Command::new(std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into())).arg("--version"),
     )?;
-    Ok(Program {
-        robot: name,
-        elf,
-        rustc: rustc.trim().to_owned(),
-    })
+    Ok(Program { robot: name, elf, rustc: rustc.trim().to_owned() })
 }
 
 /// The cycle meter as a plugin of QEMU, built.
@@ -142,11 +136,8 @@ fn of_description(
     options: &import::Options,
     beside: &Path,
 ) -> Result<(String, String)> {
-    let args = import::Args {
-        file: file.to_owned(),
-        options: options.clone(),
-        ..import::Args::default()
-    };
+    let args =
+        import::Args { file: file.to_owned(), options: options.clone(), ..import::Args::default() };
     let imported = import::import(&args, "this day")
         .map_err(|e| Error::Robot(format!("{}: {e}", file.display())))?;
     let robot = imported.robot_file();
@@ -167,24 +158,16 @@ fn of_description(
 /// # Errors
 /// [`Error::File`].
 pub fn write(path: &Path, text: &str) -> Result<()> {
-    std::fs::write(path, text).map_err(|source| Error::File {
-        path: path.to_owned(),
-        source,
-    })
+    std::fs::write(path, text).map_err(|source| Error::File { path: path.to_owned(), source })
 }
 
 /// What a command prints.
 pub(crate) fn capture(command: &mut Command) -> Result<String> {
     let program = command.get_program().to_string_lossy().into_owned();
-    let failed = |said: String| Error::Program {
-        program: program.clone(),
-        said,
-    };
+    let failed = |said: String| Error::Program { program: program.clone(), said };
     let output = command.output().map_err(|e| failed(e.to_string()))?;
     if !output.status.success() {
-        return Err(failed(
-            String::from_utf8_lossy(&output.stderr).trim().to_owned(),
-        ));
+        return Err(failed(String::from_utf8_lossy(&output.stderr).trim().to_owned()));
     }
     Ok(String::from_utf8_lossy(&output.stdout).into_owned())
 }

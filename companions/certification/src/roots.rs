@@ -28,9 +28,7 @@ pub fn relative_error(guess: Guess) -> f64 {
         };
         let numbers = 1.0_f32.to_bits()..4.0_f32.to_bits();
         // Of a NaN, nothing is proven.
-        let worst = numbers
-            .map(of)
-            .fold(0.0, |a: f64, b| if b <= a { a } else { b });
+        let worst = numbers.map(of).fold(0.0, |a: f64, b| if b <= a { a } else { b });
         let error = worst + REFERENCE;
         if let Ok(mut all) = KNOWN.lock() {
             all.insert(guess, error);

@@ -55,13 +55,7 @@ impl<'a> Evaluation<'a> {
             crate::graph::Node::Input(input) => Some((*input, robot.leaf(*input)?)),
             _ => None,
         });
-        Self {
-            graph,
-            robot,
-            leaves: inputs.collect(),
-            single: Vec::new(),
-            double: Vec::new(),
-        }
+        Self { graph, robot, leaves: inputs.collect(), single: Vec::new(), double: Vec::new() }
     }
 
     /// The outputs in f32 and in f64 at a state whose numbers are those of f32.
@@ -89,10 +83,7 @@ impl<'a> Evaluation<'a> {
         self.graph.evaluate(single, &mut self.single);
         self.graph.evaluate(double, &mut self.double);
         let (single, double) = (&self.single, &self.double);
-        self.graph
-            .outputs
-            .iter()
-            .map(|(_, node)| (single[*node], double[*node]))
+        self.graph.outputs.iter().map(|(_, node)| (single[*node], double[*node]))
     }
 }
 
@@ -100,24 +91,13 @@ impl<'a> Evaluation<'a> {
 fn on_grid(x: f64, low: f64, high: f64) -> f64 {
     let x = f64::from(x.clamp(low, high) as f32);
     // Rounding must not leave the range.
-    if x < low || x > high {
-        f64::from((x * (1.0 - 1e-7)) as f32)
-    } else {
-        x
-    }
+    if x < low || x > high { f64::from((x * (1.0 - 1e-7)) as f32) } else { x }
 }
 
 /// The ranges that states are drawn from: those of the box, but of angles the joint's own.
 fn ranges(robot: &Robot) -> Vec<(f64, f64)> {
-    let q = robot
-        .joints
-        .iter()
-        .map(|joint| (joint.position.low, joint.position.high));
-    let rest = robot
-        .whole()
-        .into_iter()
-        .skip(robot.joints.len())
-        .map(|x| (x.low, x.high));
+    let q = robot.joints.iter().map(|joint| (joint.position.low, joint.position.high));
+    let rest = robot.whole().into_iter().skip(robot.joints.len()).map(|x| (x.low, x.high));
     q.chain(rest).collect()
 }
 
@@ -137,9 +117,8 @@ pub fn against(
         let places = graph.outputs.iter().map(|(offset, _)| *offset as usize / 4);
         let exact = exact.at(state, places);
         let computed = evaluation.at(state);
-        let errors = computed
-            .zip(exact)
-            .map(|((single, _), exact)| (f64::from(single) - exact).abs());
+        let errors =
+            computed.zip(exact).map(|((single, _), exact)| (f64::from(single) - exact).abs());
         errors.collect()
     })
 }
@@ -185,10 +164,7 @@ pub fn worst(
     let best = |kept: Vec<(f64, Vec<f64>)>| kept.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
     kept.into_iter()
         .map(|kept| {
-            best(kept).map_or_else(Observed::default, |(error, state)| Observed {
-                error,
-                state,
-            })
+            best(kept).map_or_else(Observed::default, |(error, state)| Observed { error, state })
         })
         .collect()
 }

@@ -44,17 +44,11 @@ pub struct Kernel {
 
 impl Kernel {
     /// The library's own.
-    pub const NATIVE: Self = Self {
-        near: trig::sin_cos_near,
-        far: trig::sin_cos,
-    };
+    pub const NATIVE: Self = Self { near: trig::sin_cos_near, far: trig::sin_cos };
 
     /// The kernel that a type is.
     pub fn of<K: trig::Kernel<f32>>() -> Self {
-        Self {
-            near: K::sin_cos_near,
-            far: K::sin_cos,
-        }
+        Self { near: K::sin_cos_near, far: K::sin_cos }
     }
 
     /// As [`pair`], by this kernel.
@@ -74,18 +68,13 @@ pub fn enumerate(joints: &[Joint]) -> SineErrors {
 pub fn enumerate_each(joints: &[Joint], kernels: &[Kernel]) -> Vec<SineErrors> {
     let mut worst = vec![SineErrors::default(); kernels.len()];
     for near in [false, true] {
-        let mine = || {
-            joints
-                .iter()
-                .filter(|joint| joint.turns && is_near(joint) == near)
-        };
+        let mine = || joints.iter().filter(|joint| joint.turns && is_near(joint) == near);
         let of = |kernel: &Kernel| if near { kernel.near } else { kernel.far };
         let functions: Vec<Function> = kernels.iter().map(of).collect();
         let most = |end: fn(&Joint) -> f64| mine().map(end).fold(0.0_f64, f64::max) as f32;
-        for (sign, most) in [
-            (1.0, most(|joint| joint.position.high)),
-            (-1.0, most(|joint| -joint.position.low)),
-        ] {
+        for (sign, most) in
+            [(1.0, most(|joint| joint.position.high)), (-1.0, most(|joint| -joint.position.low))]
+        {
             // One beyond, if the limit was rounded down.
             let of_sign = over(TINY.to_bits()..=most.to_bits() + 1, &functions, sign);
             worst = larger_each(&worst, &of_sign);
@@ -99,10 +88,7 @@ fn larger_each(a: &[SineErrors], b: &[SineErrors]) -> Vec<SineErrors> {
 }
 
 fn larger(a: SineErrors, b: SineErrors) -> SineErrors {
-    SineErrors {
-        sine: a.sine.max(b.sine),
-        cosine: a.cosine.max(b.cosine),
-    }
+    SineErrors { sine: a.sine.max(b.sine), cosine: a.cosine.max(b.cosine) }
 }
 
 /// The errors over numbers of f32 by their bits, on all cores. The kernels are of the angle with
@@ -130,10 +116,7 @@ fn over(bits: RangeInclusive<u32>, kernels: &[Function], sign: f32) -> Vec<SineE
         });
         let parts: Vec<_> = parts.collect();
         // A thread that ended early would leave angles out; nothing is then proven.
-        let nothing = SineErrors {
-            sine: f64::INFINITY,
-            cosine: f64::INFINITY,
-        };
+        let nothing = SineErrors { sine: f64::INFINITY, cosine: f64::INFINITY };
         let joined = parts
             .into_iter()
             .map(|part| part.join().unwrap_or_else(|_| vec![nothing; kernels.len()]));
@@ -144,11 +127,7 @@ fn over(bits: RangeInclusive<u32>, kernels: &[Function], sign: f32) -> Vec<SineE
 #[inline(always)]
 fn reference(x: f32) -> (f64, f64) {
     let (wide, square) = (f64::from(x), f64::from(x) * f64::from(x));
-    if x < SMALL {
-        (wide * (1.0 - square / 6.0), 1.0 - 0.5 * square)
-    } else {
-        wide.sin_cos()
-    }
+    if x < SMALL { (wide * (1.0 - square / 6.0), 1.0 - 0.5 * square) } else { wide.sin_cos() }
 }
 
 #[inline(always)]

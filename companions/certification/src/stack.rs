@@ -26,11 +26,7 @@ type Known = [Option<i32>; 15];
 /// # Errors
 /// [`Declined`].
 pub fn stack(image: &Image, at: u32) -> Result<u64, Declined> {
-    let mut walk = Walk {
-        image,
-        known: HashMap::new(),
-        open: Vec::new(),
-    };
+    let mut walk = Walk { image, known: HashMap::new(), open: Vec::new() };
     Ok(walk.depth(at & !1)? + INTERRUPT_FRAME)
 }
 

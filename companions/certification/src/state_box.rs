@@ -70,11 +70,7 @@ impl Robot {
         let joints = rows.map(|(i, row)| {
             let [turns, lower, upper, rated] = row.map(|bits| f64::from(f32::from_bits(bits)));
             let finite = |what: &'static str, value: f64, given: Option<f64>| {
-                let value = if value.is_finite() {
-                    Some(value)
-                } else {
-                    given
-                };
+                let value = if value.is_finite() { Some(value) } else { given };
                 value.ok_or(Error::Unbounded { joint: i + 1, what })
             };
             // An angle without limits is within a turn.
@@ -90,31 +86,19 @@ impl Robot {
             })
         });
         let trig = image.variable("CERTIFIED_TRIG")?.1;
-        let trig = trig
-            .try_into()
-            .map_err(|_| Error::Missing("CERTIFIED_TRIG".into()))?;
-        Ok(Self {
-            joints: joints.collect::<Result<_>>()?,
-            trig,
-        })
+        let trig = trig.try_into().map_err(|_| Error::Missing("CERTIFIED_TRIG".into()))?;
+        Ok(Self { joints: joints.collect::<Result<_>>()?, trig })
     }
 
     /// The whole box: q, then q̇, then q̈ of each joint. Of an angle a turn stands for all.
     pub fn whole(&self) -> Vec<Interval> {
         let q = self.joints.iter().map(|joint| {
             let is_turn = joint.turns && joint.position.high - joint.position.low >= 2.0 * PI;
-            if is_turn {
-                Interval::new(-PI, PI).widened(1e-15)
-            } else {
-                joint.position
-            }
+            if is_turn { Interval::new(-PI, PI).widened(1e-15) } else { joint.position }
         });
         let symmetric = |x: f64| Interval::new(-x, x);
         let qd = self.joints.iter().map(|joint| symmetric(joint.speed));
-        let qdd = self
-            .joints
-            .iter()
-            .map(|joint| symmetric(joint.acceleration));
+        let qdd = self.joints.iter().map(|joint| symmetric(joint.acceleration));
         q.chain(qd).chain(qdd).collect()
     }
 
@@ -175,16 +159,8 @@ fn extremes(x: Interval, f: fn(f64) -> f64, top: f64) -> Interval {
         let turns = ((x.low - at) / (2.0 * PI) - 1e-9).ceil();
         at + 2.0 * PI * turns <= x.high + 1e-8
     };
-    let high = if holds(top) {
-        1.0
-    } else {
-        (a.max(b) + LIBM).min(1.0)
-    };
-    let low = if holds(top + PI) {
-        -1.0
-    } else {
-        (a.min(b) - LIBM).max(-1.0)
-    };
+    let high = if holds(top) { 1.0 } else { (a.max(b) + LIBM).min(1.0) };
+    let low = if holds(top + PI) { -1.0 } else { (a.min(b) - LIBM).max(-1.0) };
     Interval::new(low, high)
 }
 
@@ -201,22 +177,14 @@ impl Sector {
     /// The sector of these angles.
     pub fn new(angles: Interval) -> Self {
         let at = |angle: f64| (angle.cos(), angle.sin());
-        Self {
-            ends: [at(angles.low), at(angles.high)],
-            is_wide: angles.high - angles.low > 3.1,
-        }
+        Self { ends: [at(angles.low), at(angles.high)], is_wide: angles.high - angles.low > 3.1 }
     }
 
     /// a cos θ + b sin θ for every θ of the sector: linear in a and b, so that its extremes are at
     /// their ends.
     #[inline]
     pub fn rotated(&self, a: Interval, b: Interval) -> Interval {
-        let corners = [
-            (a.low, b.low),
-            (a.low, b.high),
-            (a.high, b.low),
-            (a.high, b.high),
-        ];
+        let corners = [(a.low, b.low), (a.low, b.high), (a.high, b.low), (a.high, b.high)];
         let most = |sign: f64| {
             corners
                 .map(|(a, b)| self.most(sign * a, sign * b))

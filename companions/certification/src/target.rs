@@ -113,10 +113,9 @@ impl Target {
             Ok(cycles) if self.branches.is_empty() => {
                 format!("{cycles} of every call{of}: the code has no branch on data")
             }
-            Ok(cycles) => format!(
-                "at most {cycles}{of}, with {} branches on data",
-                self.branches.len()
-            ),
+            Ok(cycles) => {
+                format!("at most {cycles}{of}, with {} branches on data", self.branches.len())
+            }
             Err(declined) => format!("none: {declined}"),
         };
         let stack = match self.stack {

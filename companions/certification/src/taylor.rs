@@ -58,10 +58,7 @@ impl Taylor {
         let (middle, half) = halves(angles);
         let (middle, half) = (middle * times, half * times);
         if half > 3.1 {
-            let any = Self {
-                rest: 1.0,
-                ..Self::default()
-            };
+            let any = Self { rest: 1.0, ..Self::default() };
             return [any, any];
         }
         let (s, c) = middle.sin_cos();
@@ -76,27 +73,13 @@ impl Taylor {
         // The host's sines, and the middle times a whole number.
         let slack = 1e-15 * (2.0 + middle.abs());
         [
-            Self::linear(
-                c * level,
-                -s * slant,
-                slope,
-                c.abs() * spread + s.abs() * bend + slack,
-            ),
-            Self::linear(
-                s * level,
-                c * slant,
-                slope,
-                s.abs() * spread + c.abs() * bend + slack,
-            ),
+            Self::linear(c * level, -s * slant, slope, c.abs() * spread + s.abs() * bend + slack),
+            Self::linear(s * level, c * slant, slope, s.abs() * spread + c.abs() * bend + slack),
         ]
     }
 
     fn linear(centre: f64, gain: f64, slope: Option<usize>, rest: f64) -> Self {
-        let mut number = Self {
-            centre,
-            rest: rest * UP,
-            ..Self::default()
-        };
+        let mut number = Self { centre, rest: rest * UP, ..Self::default() };
         match slope.and_then(|slope| number.slopes.get_mut(slope)) {
             Some(slope) => *slope = gain,
             None => number.rest = (rest + gain.abs()) * UP,
@@ -160,11 +143,7 @@ impl Neg for Taylor {
     type Output = Self;
     #[inline]
     fn neg(self) -> Self {
-        Self {
-            centre: -self.centre,
-            slopes: self.slopes.map(|slope| -slope),
-            rest: self.rest,
-        }
+        Self { centre: -self.centre, slopes: self.slopes.map(|slope| -slope), rest: self.rest }
     }
 }
 
@@ -202,10 +181,7 @@ impl Mul for Taylor {
 
 impl Scalar for Taylor {
     fn of(x: f64) -> Self {
-        Self {
-            centre: x,
-            ..Self::default()
-        }
+        Self { centre: x, ..Self::default() }
     }
     #[inline]
     fn times(mut self, factor: f64) -> Self {

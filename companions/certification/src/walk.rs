@@ -172,11 +172,7 @@ pub fn walk<const N: usize>(
 
 impl Walk<'_> {
     fn declined(&self, reason: &'static str) -> Error {
-        Error::Declined {
-            address: self.here,
-            instruction: self.code,
-            reason,
-        }
+        Error::Declined { address: self.here, instruction: self.code, reason }
     }
 
     fn push(&mut self, node: Node) -> usize {
@@ -228,11 +224,7 @@ impl Walk<'_> {
 
     fn step(&mut self) -> Result<()> {
         self.here = self.next;
-        let half = |at| {
-            self.image
-                .half(at)
-                .ok_or_else(|| self.declined("no code lies here"))
-        };
+        let half = |at| self.image.half(at).ok_or_else(|| self.declined("no code lies here"));
         let first = half(self.here)?;
         let size = cycle_meter::size(first);
         let second = if size == 4 { half(self.here + 2)? } else { 0 };
@@ -291,11 +283,7 @@ impl Walk<'_> {
                 self.set(d, within(high.leading_zeros(), low.leading_zeros()))
             }
             I::TableBranch { n, m, shift } => {
-                let table = if n == PC {
-                    self.here + 4
-                } else {
-                    self.bits(n)?
-                };
+                let table = if n == PC { self.here + 4 } else { self.bits(n)? };
                 let at = table.wrapping_add(self.bits(m)? << shift);
                 let bytes = [self.byte(at)?, self.byte(at + u32::from(shift))?];
                 let entry = match shift {
@@ -325,13 +313,7 @@ impl Walk<'_> {
                 Ok(())
             }
             I::TakeFlags => self.take_flags(),
-            I::Integer {
-                op: Integer::Sub,
-                d,
-                n,
-                by: Operand::Right(m, 1),
-                flags: false,
-            } => {
+            I::Integer { op: Integer::Sub, d, n, by: Operand::Right(m, 1), flags: false } => {
                 let (magic, halved) = (self.bits(n)?, self.core(m)?);
                 match halved {
                     Word::Real(a) => self.set(d, Word::Guess(a, magic)),
@@ -339,13 +321,7 @@ impl Walk<'_> {
                     _ => Err(self.declined("a guess of a guess")),
                 }
             }
-            I::Integer {
-                op,
-                d,
-                n,
-                by,
-                flags,
-            } => {
+            I::Integer { op, d, n, by, flags } => {
                 let ((low, high), by) = (self.range(n)?, self.operand(by)?);
                 let sum = match op {
                     Integer::Add => Some((by, false)),
@@ -373,11 +349,7 @@ impl Walk<'_> {
                 self.real[usize::from(d)] = Some(Word::Bits(value.to_bits()));
                 Ok(())
             }
-            I::Transfer {
-                core,
-                real,
-                to_core,
-            } => {
+            I::Transfer { core, real, to_core } => {
                 if to_core {
                     let word = self.real(real)?;
                     return self.set(core, word);
@@ -389,11 +361,7 @@ impl Walk<'_> {
                 self.real[usize::from(real)] = Some(word);
                 Ok(())
             }
-            I::Branch {
-                offset,
-                condition,
-                link,
-            } => {
+            I::Branch { offset, condition, link } => {
                 let to = (self.here + 4).wrapping_add_signed(offset);
                 if link && self.sines.as_ref().is_some_and(|sines| sines.address == to) {
                     return self.sine_and_cosine();

@@ -15,10 +15,7 @@ const ELSEWHERE: u32 = 1 << 30;
 /// The bit of a name of a multiple of four.
 const ALIGNED: u32 = 1 << 29;
 /// The stack pointer at the start, which is a multiple of eight, and its negative.
-pub const STACK: Word = Word {
-    name: 1 | ON_STACK,
-    offset: 0,
-};
+pub const STACK: Word = Word { name: 1 | ON_STACK, offset: 0 };
 const NEGATED: u32 = 2 | ON_STACK;
 
 pub fn number(offset: u32) -> Word {

@@ -108,11 +108,9 @@ fn what_is_not_proven_is_declined_with_its_address() {
 #[test]
 fn a_byte_stored_into_an_input_or_the_program_is_declined() {
     // strb r0, [r1, #4], or at sp - 4; vldr s0, [r1, #4]; vstr s0, [r0]; bx lr
-    for (store, inputs, is_declined) in [
-        ("0871", None, true),
-        ("0871", Some(BASE), true),
-        ("0df8040c", None, false),
-    ] {
+    for (store, inputs, is_declined) in
+        [("0871", None, true), ("0871", Some(BASE), true), ("0df8040c", None, false)]
+    {
         let code = bytes(&format!("{store}91ed010a80ed000a7047"));
         let said = walk(&Image::of(BASE, &code), BASE, [None, inputs, None, None]);
         let at_the_store =
@@ -155,11 +153,8 @@ fn bits_of_a_positive_number_are_followed_as_a_range() {
 
 #[test]
 fn a_function_that_is_asked_for_twice_is_proven_once() {
-    let of = |robot: &str| Program {
-        robot: robot.to_owned(),
-        elf: Vec::new(),
-        rustc: String::new(),
-    };
+    let of =
+        |robot: &str| Program { robot: robot.to_owned(), elf: Vec::new(), rustc: String::new() };
     let asked = [Function::Core, Function::Rnea, Function::Core];
     assert_eq!(of("ur5e").functions(&asked), asked[..2]);
     assert_eq!(of(CLUSTERED).functions(&asked), [Function::Clustered]);
@@ -174,11 +169,7 @@ fn the_expression_is_inverse_dynamics() {
         let graph = graph(hex);
         let mut evaluation = Evaluation::new(&graph, &robot);
         let bounds: Vec<f64> = (0..6)
-            .map(|output| {
-                bounder(&graph, output, &robot)
-                    .bound(&robot.whole())
-                    .total()
-            })
+            .map(|output| bounder(&graph, output, &robot).bound(&robot.whole()).total())
             .collect();
         for _ in 0..50 {
             let state: Vec<f64> = robot
@@ -187,11 +178,7 @@ fn the_expression_is_inverse_dynamics() {
                 .map(|x| f64::from((x.low + rng.f64() * (x.high - x.low)) as f32))
                 .collect();
             let part = |i: usize| std::array::from_fn(|j| state[6 * i + j]);
-            let exact = State {
-                q: part(0),
-                qd: part(1),
-                qdd: part(2),
-            };
+            let exact = State { q: part(0), qd: part(1), qdd: part(2) };
             let tau: [f64; 6] = if gravity_alone {
                 Core::<Ur5e>::rnea(&exact, &(Gravity::EARTH,))
             } else {
@@ -199,11 +186,7 @@ fn the_expression_is_inverse_dynamics() {
             };
             for (joint, (single, _)) in evaluation.at(&state).enumerate() {
                 let error = (f64::from(single) - tau[joint]).abs();
-                assert!(
-                    error <= bounds[joint],
-                    "joint {joint}: {error:e} > {:e}",
-                    bounds[joint]
-                );
+                assert!(error <= bounds[joint], "joint {joint}: {error:e} > {:e}", bounds[joint]);
             }
         }
     }
@@ -214,10 +197,8 @@ fn the_expression_is_inverse_dynamics() {
 fn observed_errors_include_those_of_the_literals() {
     let (graph, robot) = (graph(GRAVITY), robot(6));
     let exact = Exact::of(Function::Gravity, || Ok(floor::bodies(&Ur5e::MODEL))).expect("bodies");
-    let [with, without] = [
-        search::against(&exact, &graph, &robot, LITTLE, 1),
-        search(&graph, &robot, LITTLE, 1),
-    ];
+    let [with, without] =
+        [search::against(&exact, &graph, &robot, LITTLE, 1), search(&graph, &robot, LITTLE, 1)];
     // The weight on the shoulder: a tenth of its bound is of literals.
     let (with_literals, alone) = (with[1].error, without[1].error);
     assert!(with_literals > 1.1 * alone, "{with_literals:e} {alone:e}");
@@ -226,15 +207,9 @@ fn observed_errors_include_those_of_the_literals() {
     // The core in f64 says the same at the worst state.
     let state = State::at(std::array::from_fn(|k| with[1].state[k]));
     let tau: [f64; 6] = Core::<Ur5e>::rnea(&state, &(Gravity::EARTH,));
-    let computed = Evaluation::new(&graph, &robot)
-        .at(&with[1].state)
-        .nth(1)
-        .expect("the shoulder");
+    let computed = Evaluation::new(&graph, &robot).at(&with[1].state).nth(1).expect("the shoulder");
     let error = (f64::from(computed.0) - tau[1]).abs();
-    assert!(
-        (error - with_literals).abs() < 1e-12,
-        "{error:e} {with_literals:e}"
-    );
+    assert!((error - with_literals).abs() < 1e-12, "{error:e} {with_literals:e}");
     // A literal that is off by some units is found, and a bound that trusts it contradicted.
     let mut wrong = graph.clone();
     let literals = wrong.nodes.iter_mut().filter_map(|node| match node {
@@ -274,10 +249,7 @@ fn no_observed_error_is_above_the_bound_and_a_wrong_graph_has_one() {
         *node = Node::Literal(0.0);
     }
     let contradicted = |output: usize| {
-        bounder(&wrong, output, &robot)
-            .bound(&robot.whole())
-            .total()
-            < observed[output].error
+        bounder(&wrong, output, &robot).bound(&robot.whole()).total() < observed[output].error
     };
     assert!((0..5).any(contradicted));
 }
@@ -322,10 +294,7 @@ fn intervals_are_rounded_outward() {
             hull = Interval::new(hull.low.min(x), hull.high.max(x));
         }
     }
-    assert!(
-        range.high - hull.high < 1e-5 && hull.low - range.low < 1e-5,
-        "{range:?} {hull:?}"
-    );
+    assert!(range.high - hull.high < 1e-5 && hull.low - range.low < 1e-5, "{range:?} {hull:?}");
 }
 
 /// Twenty scripts with one thing wrong each, of one that is right.
@@ -360,10 +329,8 @@ fn gappa_accepts_a_part_and_rejects_corrupted_ones() {
             wrong = script(&shifted, bound);
         } else {
             let operators = [(" * ", " + "), (" + ", " * "), (" - ", " * ")];
-            let place = wrong
-                .proven
-                .iter()
-                .position(|one| one.starts_with("r(") && !one.contains(") - ("));
+            let place =
+                wrong.proven.iter().position(|one| one.starts_with("r(") && !one.contains(") - ("));
             let place = place.expect("an operation") + 2 * (number / 2);
             let text = &wrong.proven[place];
             let swapped = operators

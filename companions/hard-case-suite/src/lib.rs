@@ -103,12 +103,7 @@ pub struct Shares {
 }
 
 impl Shares {
-    const NONE: Self = Self {
-        rnea: 0.0,
-        crba: 0.0,
-        forward: 0.0,
-        aba: 0.0,
-    };
+    const NONE: Self = Self { rnea: 0.0, crba: 0.0, forward: 0.0, aba: 0.0 };
 
     /// The largest of all.
     pub fn worst(&self) -> f64 {
@@ -178,11 +173,7 @@ impl SuiteCase {
         let mut worst = Shares::NONE;
         let states = std::iter::zip(&self.states, &self.answers);
         for ((given, truth), scales) in states.zip(&self.bound.scales) {
-            let state = State {
-                q: row(&given.q),
-                qd: row(&given.qd),
-                qdd: row(&given.qdd),
-            };
+            let state = State { q: row(&given.q), qd: row(&given.qd), qdd: row(&given.qdd) };
             let (tau, underflow) = (row(&given.tau), allowed.underflow);
             let found = rnea(model, &state, &scene);
             let torques = allowed.share(&found, &truth.tau, &scales.tau, underflow.tau);
@@ -282,12 +273,7 @@ impl SuiteLink {
             .com(self.com)
             .inertia(self.inertia);
         let [roll, pitch, yaw] = angles(&self.rotation);
-        match self
-            .rotation
-            .as_flattened()
-            .iter()
-            .all(|x| x.abs() == x.trunc().abs())
-        {
+        match self.rotation.as_flattened().iter().all(|x| x.abs() == x.trunc().abs()) {
             true => body.quarter_turns([roll, pitch, yaw].map(quarters)),
             false => body.rpy([roll, pitch, yaw]),
         }

@@ -10,10 +10,7 @@ const KNOWN: (u32, f64) = (87, 4.0);
 /// The case's errors as shares of their bounds, if one exceeds it.
 fn beyond(case: &SuiteCase) -> Option<String> {
     let (mut single, double) = case.shares();
-    let shown = format!(
-        "case {}, {}: f32 {single:.2?}, f64 {double:.2?}",
-        case.case, case.name
-    );
+    let shown = format!("case {}, {}: f32 {single:.2?}, f64 {double:.2?}", case.case, case.name);
     if std::env::var_os("SUITE_SHOW").is_some() {
         println!("{shown}");
     }
@@ -36,9 +33,7 @@ fn every_case_of_the_suite_is_within_its_bound() {
 /// UR5e with something changed.
 fn changed(change: impl Fn(&mut SuiteCase)) -> SuiteCase {
     let mut cases = all().into_iter();
-    let mut case = cases
-        .find(|case| case.name == "payload-none")
-        .expect("UR5e");
+    let mut case = cases.find(|case| case.name == "payload-none").expect("UR5e");
     change(&mut case);
     case
 }
@@ -48,11 +43,7 @@ fn otherwise(digits: &mut String) {
     let significant = |c: char| ('1'..='9').contains(&c);
     let first = digits.find(significant).expect("a number");
     let at = first + 12;
-    let digit = if digits[at..].starts_with('5') {
-        "6"
-    } else {
-        "5"
-    };
+    let digit = if digits[at..].starts_with('5') { "6" } else { "5" };
     digits.replace_range(at..=at, digit);
 }
 

@@ -106,9 +106,7 @@ impl Positions<'_> {
         effects: &[Spec],
     ) -> PyResult<Option<Vec<R>>> {
         let narrow = engine && size_of::<R>() == 4;
-        let cogs = effects
-            .iter()
-            .any(|effect| matches!(effect, Spec::Cogging { .. }));
+        let cogs = effects.iter().any(|effect| matches!(effect, Spec::Cogging { .. }));
         // Almost always none is large, which one pass over all numbers finds.
         let least = R::from_f64(if narrow { NEAR } else { R::MOST_ANGLE });
         let fits = |part: &[R]| part.iter().fold(true, |all, x| all & (x.abs() <= least));
@@ -139,11 +137,7 @@ impl Positions<'_> {
                 let n = per_turn.get(position.coordinate).copied().unwrap_or(0.0);
                 let fits = |x: R| (n * x.to_f64()).abs() <= R::MOST_ANGLE || !x.is_finite();
                 if let Some((row, &x)) = column().find(|&(_, &x)| !fits(x)) {
-                    return refused(
-                        row,
-                        x,
-                        format!("Cogging takes sines of {n} times the angle"),
-                    );
+                    return refused(row, x, format!("Cogging takes sines of {n} times the angle"));
                 }
             }
             if !position.angle {

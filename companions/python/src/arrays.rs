@@ -58,10 +58,8 @@ pub fn dtype(arguments: &[Argument<'_, '_>]) -> PyResult<Dtype> {
             return Err(wrong_dtype(argument, text));
         } else if let Ok(array) = argument.given.cast::<PyUntypedArray>() {
             let dtype = array.dtype();
-            let text = format!(
-                "`{}` has the dtype {dtype}: expected float32 or float64",
-                argument.name
-            );
+            let text =
+                format!("`{}` has the dtype {dtype}: expected float32 or float64", argument.name);
             return Err(wrong_dtype(argument, text));
         } else {
             continue;
@@ -79,9 +77,7 @@ pub fn dtype(arguments: &[Argument<'_, '_>]) -> PyResult<Dtype> {
 }
 
 fn wrong_dtype(argument: &Argument<'_, '_>, text: String) -> PyErr {
-    Exception::new(argument.given.py(), "DtypeError", text)
-        .with("argument", argument.name)
-        .build()
+    Exception::new(argument.given.py(), "DtypeError", text).with("argument", argument.name).build()
 }
 
 /// The array of an argument, contiguous.
@@ -140,10 +136,7 @@ fn wrong_shape(argument: &Argument<'_, '_>, shape: &[usize], more: String) -> Py
         [width] => format!("{width} numbers on the last axis{more}"),
         own => format!("{own:?} as the last axes{more}"),
     };
-    let text = format!(
-        "`{}` has the shape {shape:?}: expected {expected}",
-        argument.name
-    );
+    let text = format!("`{}` has the shape {shape:?}: expected {expected}", argument.name);
     let py = argument.given.py();
     let shape = pyo3::types::PyTuple::new(py, shape);
     let error = Exception::new(py, "ShapeError", text).with("argument", argument.name);

@@ -65,11 +65,7 @@ impl Robot {
             let text = format!("{}: {}", error.effect, error.problem);
             refused(py, error.effect, text)
         })?;
-        let arrays: Vec<_> = request
-            .arguments
-            .iter()
-            .map(array::<R>)
-            .collect::<PyResult<_>>()?;
+        let arrays: Vec<_> = request.arguments.iter().map(array::<R>).collect::<PyResult<_>>()?;
         let engine = matches!(by, By::Engine(_));
         let shapes = arrays.iter().map(|array| array.shape());
         let leading = leading(request.arguments, shapes)?;
@@ -112,17 +108,9 @@ impl Robot {
                     Ok(Output { data, width })
                 })
                 .collect();
-            let job = Job {
-                inputs: inputs?,
-                outputs: outputs?,
-                rows,
-            };
+            let job = Job { inputs: inputs?, outputs: outputs?, rows };
             let body = |body: &BodyRef| number(body).unwrap_or(usize::MAX);
-            let setting = Setting {
-                counts: self.counts,
-                effects: request.effects,
-                body: &body,
-            };
+            let setting = Setting { counts: self.counts, effects: request.effects, body: &body };
             let models = R::of(self);
             let engine = match by {
                 By::Model(_) => None,
@@ -137,11 +125,7 @@ impl Robot {
                 (By::Engine(_), None) => unreachable!("the robot was asked for its engine"),
             };
             let work = || job.compute(rows_by);
-            if rows < ROWS_WITH_LOCK {
-                work()
-            } else {
-                py.detach(work)
-            }
+            if rows < ROWS_WITH_LOCK { work() } else { py.detach(work) }
         };
         done.map_err(|failure| of_failure(py, self, request.names, &failure, R::MOST_ANGLE))?;
         Ok(results.into_iter().map(Bound::into_any).collect())

@@ -33,13 +33,7 @@ pub struct Cost {
 #[pymethods]
 impl Cost {
     fn __repr__(&self) -> String {
-        let Self {
-            algorithm,
-            form,
-            inputs,
-            cycles,
-            ..
-        } = self;
+        let Self { algorithm, form, inputs, cycles, .. } = self;
         format!("Cost({algorithm} {form} {inputs}: {cycles} cycles)")
     }
 }
@@ -50,11 +44,7 @@ fn whole(cell: &str) -> Option<u64> {
 
 /// The cells of a row of a table.
 fn cells(line: &str) -> Vec<&str> {
-    line.trim()
-        .trim_matches('|')
-        .split('|')
-        .map(str::trim)
-        .collect()
+    line.trim().trim_matches('|').split('|').map(str::trim).collect()
 }
 
 /// The rows of a robot.
@@ -68,21 +58,8 @@ pub fn of(robot: &str) -> Vec<Cost> {
 
 /// A row: function, sin/cos, instructions, cycles, µs, flops, share of the floor, code, stack.
 fn cost(cells: &[&str]) -> Option<Cost> {
-    let &[
-        name,
-        trigonometry,
-        _,
-        _,
-        instructions,
-        _,
-        _,
-        cycles,
-        microseconds,
-        _,
-        _,
-        code,
-        stack,
-    ] = cells
+    let &[name, trigonometry, _, _, instructions, _, _, cycles, microseconds, _, _, code, stack] =
+        cells
     else {
         return None;
     };
@@ -103,18 +80,14 @@ fn cost(cells: &[&str]) -> Option<Cost> {
 /// The longest tick of a scene, cycles: measuring, reference, dynamics, safety and commands.
 pub fn tick(scene: &str) -> Option<u64> {
     let name = format!("**{scene}**");
-    SCENES
-        .lines()
-        .find_map(|line| match cells(line).as_slice() {
-            [found, cycles, ..] if *found == name => whole(cycles),
-            _ => None,
-        })
+    SCENES.lines().find_map(|line| match cells(line).as_slice() {
+        [found, cycles, ..] if *found == name => whole(cycles),
+        _ => None,
+    })
 }
 
 /// The error of a robot of which nothing is recorded.
 pub fn not_recorded(py: Python<'_>, robot: &str, what: &str) -> PyErr {
     let text = format!("{what} of `{robot}` is not recorded");
-    Exception::new(py, "NotRecorded", text)
-        .with("robot", robot)
-        .build()
+    Exception::new(py, "NotRecorded", text).with("robot", robot).build()
 }

@@ -35,9 +35,7 @@ impl PyScene {
             let text = format!("{}: a number is not finite", spec.name());
             return Err(refused(py, spec.name(), text));
         }
-        Ok(Self {
-            specs: Arc::new(vec![spec]),
-        })
+        Ok(Self { specs: Arc::new(vec![spec]) })
     }
 
     fn checked(py: Python<'_>, specs: Vec<Spec>) -> PyResult<Self> {
@@ -51,9 +49,7 @@ impl PyScene {
                 return Err(refused(py, effect, message));
             }
         }
-        Ok(Self {
-            specs: Arc::new(specs),
-        })
+        Ok(Self { specs: Arc::new(specs) })
     }
 }
 
@@ -74,11 +70,7 @@ pub fn given(argument: Option<&Bound<'_, PyAny>>) -> PyResult<Arc<Vec<Spec>>> {
     let py = argument.py();
     let several = argument.is_instance_of::<PyTuple>() || argument.is_instance_of::<PyList>();
     let mut specs = Vec::new();
-    let items = if several {
-        argument.try_iter().ok()
-    } else {
-        None
-    };
+    let items = if several { argument.try_iter().ok() } else { None };
     for item in items.into_iter().flatten() {
         match item?.cast::<PyScene>() {
             Ok(scene) => specs.extend(scene.get().specs.iter().cloned()),
@@ -272,9 +264,7 @@ robot_dynamics_kernels::effects!(functions);
 /// Adds all of them to a module.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<PyScene>()?;
-    let rigid_body = PyScene {
-        specs: RIGID_BODY.clone(),
-    };
+    let rigid_body = PyScene { specs: RIGID_BODY.clone() };
     module.add("RIGID_BODY", rigid_body)?;
     module.add_function(wrap_pyfunction!(scene, module)?)?;
     module.add_function(wrap_pyfunction!(gravity, module)?)?;

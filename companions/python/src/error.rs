@@ -17,11 +17,7 @@ pub struct Exception<'py> {
 impl<'py> Exception<'py> {
     /// Without fields.
     pub fn new(py: Python<'py>, class: &'static str, message: impl Into<String>) -> Self {
-        Self {
-            class,
-            message: message.into(),
-            fields: PyDict::new(py),
-        }
+        Self { class, message: message.into(), fields: PyDict::new(py) }
     }
 
     /// With a field more.
@@ -59,9 +55,7 @@ where
         }
         let kind = given.get_type();
         let text = format!("an argument cannot be this {kind}: {}", error.value(py));
-        Exception::new(py, "ArgumentError", text)
-            .with("given", given)
-            .build()
+        Exception::new(py, "ArgumentError", text).with("given", given).build()
     })
 }
 
@@ -97,9 +91,7 @@ pub fn of_model(py: Python<'_>, error: &NoModel, names: &[String]) -> PyErr {
                 Some(name) => format!("body `{name}`: {problem}"),
                 None => problem.to_owned(),
             };
-            Exception::new(py, "ModelError", text)
-                .with("body", name.map(String::as_str))
-                .build()
+            Exception::new(py, "ModelError", text).with("body", name.map(String::as_str)).build()
         }
     }
 }

@@ -23,9 +23,7 @@ pub fn of_failure(
     let state = failure.row;
     let of_joint = |class, joint: &str, text: &str| {
         let text = format!("joint `{joint}` {text} (state {state})");
-        Exception::new(py, class, text)
-            .with("joint", joint)
-            .with("state", state)
+        Exception::new(py, class, text).with("joint", joint).with("state", state)
     };
     let name_of = |number: &str| -> String {
         let name = number.parse().ok().and_then(|i: usize| names.get(i));
@@ -34,22 +32,15 @@ pub fn of_failure(
     let of_loop = |class, number: &str, text: &str| {
         let name = name_of(number);
         let text = format!("loop `{name}` {text} (state {state})");
-        Exception::new(py, class, text)
-            .with("loop", name)
-            .with("state", state)
+        Exception::new(py, class, text).with("loop", name).with("state", state)
     };
     match failure.problem {
         StateProblem::Loop(LoopError::Open { name, error }) => {
             let text = format!("is open by {error:.2e} of its size");
-            of_loop("LoopOpen", name, &text)
-                .with("error", error)
-                .build()
+            of_loop("LoopOpen", name, &text).with("error", error).build()
         }
         StateProblem::Loop(LoopError::UnderActuated { name, joint }) => {
-            let text = format!(
-                "moves joint `{}` with all motors held",
-                robot.joint_of(joint)
-            );
+            let text = format!("moves joint `{}` with all motors held", robot.joint_of(joint));
             let error = of_loop("UnderActuated", name, &text);
             error.with("joint", robot.joint_of(joint)).build()
         }

@@ -41,12 +41,7 @@ impl PyMode {
         #[pyo3(from_py_with = wanted)] shift: [f64; 3],
         #[pyo3(from_py_with = wanted)] turn: [f64; 3],
     ) -> Self {
-        Self(Mode {
-            momentum,
-            moments,
-            shift,
-            turn,
-        })
+        Self(Mode { momentum, moments, shift, turn })
     }
 }
 
@@ -194,10 +189,7 @@ impl PyFlexibleRobot {
         let (of, mut all) = (robot.get(), Vec::new());
         for link in &links {
             let link = link.get();
-            all.push(FlexibleLink {
-                body: of.body(link.body.bind(py))?,
-                ..link.link
-            });
+            all.push(FlexibleLink { body: of.body(link.body.bind(py))?, ..link.link });
         }
         let count: usize = all.iter().map(|link| link.count).sum();
         if count > MOST_MODES {

@@ -49,10 +49,7 @@ fn linkage(
     numbers: &[&[f64]],
     of: impl Fn() -> Linkage,
 ) -> PyResult<PyLinkage> {
-    if !numbers
-        .iter()
-        .all(|list| list.iter().all(|x| x.is_finite()))
-    {
+    if !numbers.iter().all(|list| list.iter().all(|x| x.is_finite())) {
         return Err(refused(py, name, "a number is not finite"));
     }
     match catch_unwind(AssertUnwindSafe(of)) {
@@ -151,9 +148,7 @@ fn belt(
     }
     let mut all = [0.0; MOST_COEFFICIENTS];
     all[..coefficients.len()].copy_from_slice(&coefficients);
-    linkage(py, "Belt", &[&all], || {
-        Linkage::Belt(clusters::Belt::new(all))
-    })
+    linkage(py, "Belt", &[&all], || Linkage::Belt(clusters::Belt::new(all)))
 }
 
 /// A robot with linkages: ``linkages`` has of each a name, the linkage, and the velocity
@@ -188,10 +183,7 @@ impl PyLinkages {
     /// y, of which sines and cosines alone matter. The kernels look at the angles of linkages.
     fn y<'a, 'py>(&'a self, name: &'static str, given: &'a Array<'py>) -> Argument<'a, 'py> {
         Argument {
-            positions: Some(Positions {
-                by: Use::Sines,
-                at: &self.outside,
-            }),
+            positions: Some(Positions { by: Use::Sines, at: &self.outside }),
             ..self.of_positions(name, given)
         }
     }
@@ -236,12 +228,7 @@ impl PyLinkages {
             Some(Position { column, ..*found })
         };
         let outside = linkages.outside().iter().filter_map(position).collect();
-        Ok(Self {
-            robot,
-            linkages,
-            names,
-            outside,
-        })
+        Ok(Self { robot, linkages, names, outside })
     }
 
     /// The names of the linkages.

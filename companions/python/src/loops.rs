@@ -58,12 +58,7 @@ impl PyLoopJoint {
             }
         };
         let frames = [0, 1].map(|end| [xyz[end], rpy[end]]);
-        Ok(Self {
-            name,
-            joint,
-            bodies,
-            frames,
-        })
+        Ok(Self { name, joint, bodies, frames })
     }
 
     /// Its name.
@@ -176,16 +171,10 @@ impl PyLoops {
             let named = error.name.parse().ok().and_then(|i: usize| names.get(i));
             let name = named.map_or(of.label(), String::as_str);
             let text = error.to_string();
-            let problem = text
-                .split_once("`: ")
-                .map_or(&*text, |(_, problem)| problem);
+            let problem = text.split_once("`: ").map_or(&*text, |(_, problem)| problem);
             refused(py, name, problem.to_owned())
         })?;
-        Ok(Self {
-            robot,
-            loops,
-            names,
-        })
+        Ok(Self { robot, loops, names })
     }
 
     /// The names of the loops.
@@ -218,10 +207,7 @@ impl PyLoops {
                 return Err(refused(py, self.robot.get().label(), text));
             }
         };
-        let which = Which::Assemble {
-            loops: &self.loops,
-            moving,
-        };
+        let which = Which::Assemble { loops: &self.loops, moving };
         let q = [self.q("q", q).by(Use::Numbers)];
         self.one(py, which, &[], &q, &[&[self.robot().counts.q]])
     }
@@ -246,10 +232,7 @@ impl PyLoops {
         let (loops, effects) = (&self.loops, effects_of(effects)?);
         whole(py, &effects)?;
         let given = [self.q("q", q), self.v("qd", qd), self.motors("tau", tau)];
-        let which = Which::LoopForward {
-            loops,
-            stabilisation,
-        };
+        let which = Which::LoopForward { loops, stabilisation };
         let results: &[&[usize]] = &[&[self.robot().counts.v], &[loops.rows], &[]];
         self.several(py, which, &effects, &given, results)
     }
@@ -286,12 +269,9 @@ methods! {
 
 /// Refuses scenes that machines with loops do not have.
 pub fn whole(py: Python<'_>, effects: &[Spec]) -> PyResult<()> {
-    let foreign = effects.iter().find(|effect| {
-        matches!(
-            effect,
-            Spec::LoadFriction { .. } | Spec::GyroscopicRotors { .. }
-        )
-    });
+    let foreign = effects
+        .iter()
+        .find(|effect| matches!(effect, Spec::LoadFriction { .. } | Spec::GyroscopicRotors { .. }));
     let (effect, text) = match foreign {
         Some(effect) => (effect.name(), "a machine with loops has no place for it"),
         None if !effects.contains(&Spec::Inertia) => ("Inertia", "it has to be in the scene"),

@@ -37,12 +37,7 @@ pub trait Machine {
         arguments: &[Argument<'_, 'py>],
         results: &[&[usize]],
     ) -> PyResult<Array<'py>> {
-        let request = Request {
-            effects,
-            arguments,
-            results,
-            names: self.names(),
-        };
+        let request = Request { effects, arguments, results, names: self.names() };
         let all = self.robot().compute(py, by, &request)?;
         Ok(PyTuple::new(py, all)?.into_any())
     }
@@ -56,8 +51,7 @@ pub trait Machine {
         arguments: &[Argument<'_, 'py>],
         results: &[&[usize]],
     ) -> PyResult<Array<'py>> {
-        self.several(py, by, effects, arguments, results)?
-            .get_item(0)
+        self.several(py, by, effects, arguments, results)?.get_item(0)
     }
 }
 

@@ -90,14 +90,8 @@ pub struct Read {
 }
 
 /// The keywords of `Robot.from_file`: base, tip, joints, without, lock and free_base.
-type Selected = (
-    Option<String>,
-    Option<String>,
-    Vec<String>,
-    Vec<String>,
-    Option<BTreeMap<String, f64>>,
-    bool,
-);
+type Selected =
+    (Option<String>, Option<String>, Vec<String>, Vec<String>, Option<BTreeMap<String, f64>>, bool);
 
 /// The properties of a body, its joint's among them.
 struct BodyInfo {
@@ -122,10 +116,8 @@ impl Robot {
     ) -> PyResult<Self> {
         let names: Vec<String> = bodies.iter().map(|body| body.name.clone()).collect();
         let refused = |error| of_model(py, &error, &names);
-        for ((body, kind), parent) in bodies
-            .iter_mut()
-            .zip(described.kinds())
-            .zip(described.parents())
+        for ((body, kind), parent) in
+            bodies.iter_mut().zip(described.kinds()).zip(described.parents())
         {
             (body.kind, body.parent) = (kind, parent);
         }
@@ -170,12 +162,7 @@ impl Robot {
             let motors = Motors::of(&tree, &closed, &[])?;
             notes.extend(motors.advice);
             let said = Said::of(&robot, (&selection, &selected), &tree, notes);
-            Ok(Read {
-                tree,
-                closed,
-                actuated: motors.actuated,
-                said,
-            })
+            Ok(Read { tree, closed, actuated: motors.actuated, said })
         });
         Self::of_file(py, read.map_err(|error| of_import(py, &error))?)
     }
@@ -183,10 +170,7 @@ impl Robot {
     fn of_file(py: Python<'_>, read: Read) -> PyResult<Self> {
         let tree = &read.tree;
         let bodies = tree.bodies.iter().map(|body| {
-            let [lower, upper] = body
-                .limits
-                .position
-                .unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
+            let [lower, upper] = body.limits.position.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
             let [velocity, effort] = [body.limits.velocity, body.limits.effort]
                 .map(|limit| limit.unwrap_or(f64::INFINITY));
             BodyInfo {
@@ -203,10 +187,7 @@ impl Robot {
         });
         let bodies = bodies.collect();
         let robot = Self::of(py, tree.name.clone(), None, Bodies::of(tree), bodies)?;
-        Ok(Self {
-            read: Some(read),
-            ..robot
-        })
+        Ok(Self { read: Some(read), ..robot })
     }
 
     /// The loops of the file, and the coordinates that its motors drive.
@@ -224,21 +205,17 @@ impl Robot {
     pub fn coordinates_of(&self, given: &Bound<'_, PyAny>) -> PyResult<Vec<usize>> {
         let found: Vec<usize> = match (given.extract(), given.extract::<String>()) {
             (Ok(number), _) if number < self.counts.v => vec![number],
-            (_, Ok(name)) => (0..self.counts.v)
-                .filter(|&coordinate| self.joint_of(coordinate) == name)
-                .collect(),
+            (_, Ok(name)) => {
+                (0..self.counts.v).filter(|&coordinate| self.joint_of(coordinate) == name).collect()
+            }
             _ => Vec::new(),
         };
         if !found.is_empty() {
             return Ok(found);
         }
-        let text = format!(
-            "the robot has no velocity coordinate {given}: it has {}",
-            self.counts.v
-        );
-        Err(Exception::new(given.py(), "UnknownCoordinate", text)
-            .with("coordinate", given)
-            .build())
+        let text =
+            format!("the robot has no velocity coordinate {given}: it has {}", self.counts.v);
+        Err(Exception::new(given.py(), "UnknownCoordinate", text).with("coordinate", given).build())
     }
 
     /// The number of a body.
@@ -289,17 +266,12 @@ impl Robot {
             Ok(number) => Some(BodyRef::Number(number)),
             Err(_) => given.extract().map(BodyRef::Name).ok(),
         };
-        body.and_then(|body| self.body_number(&body))
-            .ok_or_else(|| {
-                let names: Vec<&str> = self.bodies.iter().map(|body| body.name.as_str()).collect();
-                let text = format!(
-                    "the robot has no body {given}: its bodies are {}",
-                    names.join(", ")
-                );
-                Exception::new(given.py(), "UnknownBody", text)
-                    .with("body", given)
-                    .build()
-            })
+        body.and_then(|body| self.body_number(&body)).ok_or_else(|| {
+            let names: Vec<&str> = self.bodies.iter().map(|body| body.name.as_str()).collect();
+            let text =
+                format!("the robot has no body {given}: its bodies are {}", names.join(", "));
+            Exception::new(given.py(), "UnknownBody", text).with("body", given).build()
+        })
     }
 
     /// What computes inverse dynamics in a form.
@@ -343,9 +315,7 @@ impl Robot {
     /// A value for each velocity coordinate.
     fn per_coordinate(&self, of: impl Fn(&BodyInfo) -> f64) -> Vec<f64> {
         let bodies = self.bodies.iter();
-        bodies
-            .flat_map(|body| std::iter::repeat_n(of(body), body.kind.coordinates().1))
-            .collect()
+        bodies.flat_map(|body| std::iter::repeat_n(of(body), body.kind.coordinates().1)).collect()
     }
 }
 
@@ -354,13 +324,7 @@ pub fn argument<'a, 'py>(
     given: &'a Bound<'py, PyAny>,
     width: usize,
 ) -> Argument<'a, 'py> {
-    Argument {
-        name,
-        given,
-        axes: [1, width],
-        matrix: false,
-        positions: None,
-    }
+    Argument { name, given, axes: [1, width], matrix: false, positions: None }
 }
 
 impl Machine for Robot {
@@ -378,10 +342,7 @@ impl Robot {
         given: &'a Array<'py>,
     ) -> Argument<'a, 'py> {
         Argument {
-            positions: Some(Positions {
-                by: Use::Sines,
-                at: &self.positions,
-            }),
+            positions: Some(Positions { by: Use::Sines, at: &self.positions }),
             ..argument(name, given, self.counts.q)
         }
     }
@@ -389,10 +350,7 @@ impl Robot {
     /// A step from a configuration.
     fn step<'a, 'py>(&'a self, name: &'static str, given: &'a Array<'py>) -> Argument<'a, 'py> {
         Argument {
-            positions: Some(Positions {
-                by: Use::Step,
-                at: &self.rates,
-            }),
+            positions: Some(Positions { by: Use::Step, at: &self.rates }),
             ..self.v(name, given)
         }
     }
@@ -404,11 +362,7 @@ impl Robot {
 
     /// A square matrix of the velocity coordinates.
     fn matrix<'a, 'py>(&self, name: &'static str, given: &'a Array<'py>) -> Argument<'a, 'py> {
-        Argument {
-            axes: [self.counts.v; 2],
-            matrix: true,
-            ..argument(name, given, 0)
-        }
+        Argument { axes: [self.counts.v; 2], matrix: true, ..argument(name, given, 0) }
     }
 }
 
@@ -422,25 +376,19 @@ impl Robot {
         let Some((found, known)) = library::find(&name) else {
             let names = library::ROBOTS.map(|(name, _)| name).join(", ");
             let text = format!("there is no robot `{name}`: {names}");
-            return Err(Exception::new(py, "UnknownRobot", text)
-                .with("name", name)
-                .build());
+            return Err(Exception::new(py, "UnknownRobot", text).with("name", name).build());
         };
-        let bodies = known
-            .names
-            .iter()
-            .zip(&known.limits)
-            .map(|(name, limits)| BodyInfo {
-                name: name.clone(),
-                joint: name.clone(),
-                kind: JointKind::Fixed,
-                parent: None,
-                limits: [limits.lower, limits.upper, limits.velocity, limits.torque],
-                damping: 0.0,
-                friction: 0.0,
-                armature: 0.0,
-                spring: [0.0; 2],
-            });
+        let bodies = known.names.iter().zip(&known.limits).map(|(name, limits)| BodyInfo {
+            name: name.clone(),
+            joint: name.clone(),
+            kind: JointKind::Fixed,
+            parent: None,
+            limits: [limits.lower, limits.upper, limits.velocity, limits.torque],
+            damping: 0.0,
+            friction: 0.0,
+            armature: 0.0,
+            spring: [0.0; 2],
+        });
         let bodies = bodies.collect();
         Self::of(py, found.to_owned(), Some(found), known.bodies, bodies)
     }
@@ -494,10 +442,7 @@ impl Robot {
 
     fn __repr__(&self) -> String {
         let Counts { bodies, q, v } = self.counts;
-        format!(
-            "Robot({:?}, {bodies} bodies, nq = {q}, nv = {v})",
-            self.name
-        )
+        format!("Robot({:?}, {bodies} bodies, nq = {q}, nv = {v})", self.name)
     }
 
     /// Its name.
@@ -534,9 +479,7 @@ impl Robot {
     #[getter]
     fn joint_kinds(&self) -> Vec<String> {
         let kinds = self.bodies.iter().map(|body| body.kind);
-        kinds
-            .map(|kind| format!("{kind:?}").to_lowercase())
-            .collect()
+        kinds.map(|kind| format!("{kind:?}").to_lowercase()).collect()
     }
     /// The parent of each body by its number, or None for the base.
     #[getter]
@@ -554,11 +497,7 @@ impl Robot {
     fn costs(&self, py: Python<'_>) -> PyResult<Vec<Cost>> {
         let found = self.library.map(costs::of).unwrap_or_default();
         if found.is_empty() {
-            return Err(costs::not_recorded(
-                py,
-                &self.name,
-                "the cost of algorithms",
-            ));
+            return Err(costs::not_recorded(py, &self.name, "the cost of algorithms"));
         }
         Ok(found)
     }

@@ -65,11 +65,7 @@ fn of<T: Robot<B, N, N>, const B: usize, const N: usize>(
 pub fn by(robot: &str, key: &str, motion: &Motion) -> Option<Vec<f64>> {
     fn state<const N: usize>(motion: &Motion) -> State<f32, N, N> {
         let row = |xs: &[f64]| std::array::from_fn(|i| xs.get(i).map_or(0.0, |&x| x as f32));
-        State {
-            q: row(&motion.q),
-            qd: row(&motion.qd),
-            qdd: row(&motion.qdd),
-        }
+        State { q: row(&motion.q), qd: row(&motion.qd), qdd: row(&motion.qdd) }
     }
     match robot {
         "ur5e" => of::<Ur5e, 6, 6>(key, &state(motion)),

@@ -98,10 +98,5 @@ fn sized<const N: usize>(tree: &Tree) -> Result<Box<dyn Machine>, String> {
     let all = [&friction.viscous, &friction.coulomb, &friction.armature];
     let given = all.into_iter().flatten().any(|x: &f64| *x != 0.0);
     let names = tree.bodies.iter().map(|body| body.joint.clone()).collect();
-    Ok(Sized::filled(
-        model,
-        names,
-        fillers,
-        given.then_some(friction),
-    ))
+    Ok(Sized::filled(model, names, fillers, given.then_some(friction)))
 }

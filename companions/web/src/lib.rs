@@ -50,9 +50,7 @@ pub extern "C" fn reserve(length: usize) -> *mut u8 {
 #[unsafe(no_mangle)]
 pub extern "C" fn call() -> usize {
     EXCHANGE.with_borrow_mut(|exchange| {
-        let Exchange {
-            request, session, ..
-        } = exchange;
+        let Exchange { request, session, .. } = exchange;
         let answered = request::answer(session, request);
         exchange.answer = answered;
         exchange.answer.len()

@@ -81,9 +81,8 @@ pub struct On {
 
 impl On {
     /// The names of the effects, in the order of [`Computed::parts`].
-    pub const NAMES: [&str; 7] = [
-        "gravity", "inertia", "coriolis", "payload", "viscous", "coulomb", "armature",
-    ];
+    pub const NAMES: [&str; 7] =
+        ["gravity", "inertia", "coriolis", "payload", "viscous", "coulomb", "armature"];
 
     /// The effect of this number alone; the load is measured by the difference that it makes.
     fn alone(&self, number: usize) -> Self {
@@ -158,13 +157,7 @@ impl<const B: usize, const Q: usize, const V: usize> Sized<B, Q, V> {
         fillers: usize,
         friction: Option<Friction>,
     ) -> Box<Self> {
-        Box::new(Self {
-            rounded: model.to_f32(),
-            exact: model,
-            names,
-            fillers,
-            friction,
-        })
+        Box::new(Self { rounded: model.to_f32(), exact: model, names, fillers, friction })
     }
 
     /// The bodies whose joints have a slider, with the places of their coordinates.
@@ -261,21 +254,15 @@ impl<const B: usize, const Q: usize, const V: usize> Sized<B, Q, V> {
 struct OneJoint;
 
 impl Robot<1, 1, 1> for OneJoint {
-    const MODEL: ArmModel<f64, 1> = Model::new(
-        "joint",
-        [Body::new("joint", BASE, Joint::revolute([0.0, 0.0, 1.0]))],
-    );
+    const MODEL: ArmModel<f64, 1> =
+        Model::new("joint", [Body::new("joint", BASE, Joint::revolute([0.0, 0.0, 1.0]))]);
 }
 
 type OfJoint<R> = (Viscous<R, 1>, Coulomb<R, 1>, Armature<R, 1>);
 
 #[inline(never)]
 fn friction_alone<R: Real>([qd, qdd]: [R; 2], effects: &OfJoint<R>) -> R {
-    let state = State {
-        q: [R::ZERO],
-        qd: [qd],
-        qdd: [qdd],
-    };
+    let state = State { q: [R::ZERO], qd: [qd], qdd: [qdd] };
     let [tau] = rnea(model::<R, OneJoint, 1, 1, 1>(), &state, effects);
     tau
 }
@@ -341,18 +328,9 @@ where
             std::array::from_fn(|i| if i < 3 { p[i] } else { axes[i - 3] })
         });
         let double = self.torques(&self.exact, &state, on);
-        let without = self.torques(
-            &self.exact,
-            &state,
-            &On {
-                payload: 0.0,
-                ..*on
-            },
-        );
+        let without = self.torques(&self.exact, &state, &On { payload: 0.0, ..*on });
         let parts = (0..On::NAMES.len()).map(|number| match number {
-            3 => self.of_joints(&std::array::from_fn::<f64, V, _>(|i| {
-                double[i] - without[i]
-            })),
+            3 => self.of_joints(&std::array::from_fn::<f64, V, _>(|i| double[i] - without[i])),
             _ => self.of_joints(&self.torques(&self.exact, &state, &on.alone(number))),
         });
         Computed {

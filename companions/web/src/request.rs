@@ -86,9 +86,7 @@ fn value(of: impl Serialize) -> Answer {
 
 impl Session {
     fn machine(&self) -> Result<&dyn Machine, String> {
-        self.machine
-            .as_deref()
-            .ok_or("no robot is selected".to_owned())
+        self.machine.as_deref().ok_or("no robot is selected".to_owned())
     }
 
     fn scene(&mut self) -> Result<&mut Box<dyn Disturbed>, String> {

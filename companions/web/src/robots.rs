@@ -53,11 +53,7 @@ fn panda() -> Box<dyn Machine> {
 fn so101() -> Box<dyn Machine> {
     use so101_teach::{ARMATURE, COMPENSATION, VISCOUS};
     let (_, _, coulomb, _) = COMPENSATION;
-    made::<So101, 6, 6, 6>(of_scene(
-        Viscous([VISCOUS; 6]),
-        coulomb,
-        Armature([ARMATURE; 6]),
-    ))
+    made::<So101, 6, 6, 6>(of_scene(Viscous([VISCOUS; 6]), coulomb, Armature([ARMATURE; 6])))
 }
 
 fn scara() -> Box<dyn Machine> {

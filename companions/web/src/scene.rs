@@ -99,11 +99,8 @@ pub fn of(robot: &str) -> Result<Box<dyn Disturbed>, String> {
 }
 
 /// The keys of the robots that have a scene here, with the scenes' names.
-pub const SCENES: [(&str, &str); 3] = [
-    ("ur5e", PickAndPlace::NAME),
-    ("panda", Carry::NAME),
-    ("scara", Serve::NAME),
-];
+pub const SCENES: [(&str, &str); 3] =
+    [("ur5e", PickAndPlace::NAME), ("panda", Carry::NAME), ("scara", Serve::NAME)];
 
 /// A brake that says whether it holds.
 #[derive(Clone, Debug, Default)]
@@ -164,10 +161,7 @@ macro_rules! law {
 
             fn feedforward(
                 $reference: &State<f32, N, N>,
-                Input {
-                    environment: $environment,
-                    ..
-                }: &Input<'_, S::Environment>,
+                Input { environment: $environment, .. }: &Input<'_, S::Environment>,
             ) -> [f32; N] {
                 $feedforward
             }
@@ -284,15 +278,10 @@ where
         }
         let now = self.within();
         let environment = self.environment(now);
-        let input = Input {
-            environment: &environment,
-            poison,
-        };
+        let input = Input { environment: &environment, poison };
         let telemetry = match by.feedforward {
             true => self.control.tick::<Whole<S>, _, _>(&self.reference, &input),
-            false => self
-                .control
-                .tick::<PdAlone<S>, _, _>(&self.reference, &input),
+            false => self.control.tick::<PdAlone<S>, _, _>(&self.reference, &input),
         };
         self.clock = telemetry.tick;
         // The reference is that of this tick: it is compared with where the arm is now.
@@ -408,8 +397,6 @@ where
 
     fn reset(&mut self) -> Result<(), String> {
         self.fault = None;
-        self.control
-            .reset(&self.reference)
-            .map_err(|error| error.to_string())
+        self.control.reset(&self.reference).map_err(|error| error.to_string())
     }
 }

@@ -15,9 +15,7 @@ const IDS: [u8; 6] = [1, 2, 3, 4, 5, 6];
 /// # Errors
 /// As [`Packet::sync_read`].
 pub fn request() -> Result<Vec<u8>, FeetechError> {
-    Ok(Packet::sync_read(&IDS, PRESENT_POSITION, 2)?
-        .bytes()
-        .to_vec())
+    Ok(Packet::sync_read(&IDS, PRESENT_POSITION, 2)?.bytes().to_vec())
 }
 
 /// Bytes that were received, as a port without more of them.

@@ -11,9 +11,7 @@ pub fn files(folder: &Path, extension: &str) -> Vec<PathBuf> {
     let mut found = Vec::new();
     for entry in folder.read_dir().expect("a folder") {
         let path = entry.expect("an entry").path();
-        let is_hidden = path
-            .file_name()
-            .is_some_and(|name| name.as_encoded_bytes()[0] == b'.');
+        let is_hidden = path.file_name().is_some_and(|name| name.as_encoded_bytes()[0] == b'.');
         if path.is_dir() && !is_hidden && !path.ends_with("target") {
             found.append(&mut files(&path, extension));
         } else if path.extension().is_some_and(|found| found == extension) {
@@ -36,19 +34,14 @@ pub fn prose(page: &str) -> String {
 
 /// The text between each occurrence of `begin` and the next `end`.
 pub fn between<'a>(text: &'a str, begin: &'a str, end: char) -> impl Iterator<Item = &'a str> {
-    text.split(begin)
-        .skip(1)
-        .filter_map(move |rest| Some(rest.split_once(end)?.0))
+    text.split(begin).skip(1).filter_map(move |rest| Some(rest.split_once(end)?.0))
 }
 
 /// The anchor of a heading.
 fn slug(heading: &str) -> String {
     let kept = |c: char| c.is_alphanumeric() || "-_ ".contains(c);
     let text = heading.trim_start_matches('#').trim().to_lowercase();
-    text.chars()
-        .filter(|&c| kept(c))
-        .collect::<String>()
-        .replace(' ', "-")
+    text.chars().filter(|&c| kept(c)).collect::<String>().replace(' ', "-")
 }
 
 /// The links of all pages, with their pages.
@@ -56,10 +49,7 @@ fn links() -> Vec<(PathBuf, String)> {
     // The templates of generated pages are not pages: their links are relative to `docs`.
     let is_template = |page: &PathBuf| page.starts_with(root().join("xtask"));
     let mut all = Vec::new();
-    for page in files(&root(), "md")
-        .into_iter()
-        .filter(|page| !is_template(page))
-    {
+    for page in files(&root(), "md").into_iter().filter(|page| !is_template(page)) {
         let text = prose(&read_to_string(&page).expect("a page"));
         all.extend(between(&text, "](", ')').map(|link| (page.clone(), link.to_owned())));
     }
@@ -105,18 +95,9 @@ fn every_page_is_listed_and_its_code_compiled() {
     let list = read_to_string(pages.join("src/SUMMARY.md")).expect("the list");
     let compiled = read_to_string(pages.join("lib.rs")).expect("the library");
     for page in files(&pages.join("src"), "md") {
-        let name = page
-            .file_name()
-            .and_then(|name| name.to_str())
-            .expect("a name");
-        assert!(
-            name == "SUMMARY.md" || list.contains(&format!("({name})")),
-            "{name}"
-        );
+        let name = page.file_name().and_then(|name| name.to_str()).expect("a name");
+        assert!(name == "SUMMARY.md" || list.contains(&format!("({name})")), "{name}");
         let has_code = read_to_string(&page).expect("a page").contains("```rust\n");
-        assert!(
-            !has_code || compiled.contains(&format!("\"{name}\"")),
-            "{name}"
-        );
+        assert!(!has_code || compiled.contains(&format!("\"{name}\"")), "{name}");
     }
 }

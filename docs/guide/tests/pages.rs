@@ -7,24 +7,11 @@ const PAGE: &str = include_str!("../src/firmware.md");
 fn shown(program: &str) -> String {
     let (_, rest) = program.split_once("// page: begin\n").expect("a begin");
     let (part, _) = rest.split_once("// page: end").expect("an end");
-    let lines: Vec<&str> = part
-        .lines()
-        .filter(|line| !line.contains("cfg(target_arch"))
-        .collect();
+    let lines: Vec<&str> = part.lines().filter(|line| !line.contains("cfg(target_arch")).collect();
     let indented = |line: &&str| line.len() - line.trim_start().len();
-    let margin = lines
-        .iter()
-        .filter(|line| !line.trim().is_empty())
-        .map(indented)
-        .min();
+    let margin = lines.iter().filter(|line| !line.trim().is_empty()).map(indented).min();
     let cut = |line: &&str| line.get(margin.unwrap_or(0)..).unwrap_or("").to_owned();
-    lines
-        .iter()
-        .map(cut)
-        .collect::<Vec<_>>()
-        .join("\n")
-        .trim_end()
-        .to_owned()
+    lines.iter().map(cut).collect::<Vec<_>>().join("\n").trim_end().to_owned()
 }
 
 /// Words without layout, documentation and lints.
@@ -44,9 +31,7 @@ fn the_tables_of_transitions_are_those_of_the_enumeration() {
     let page = include_str!("../src/faults.md");
     let copy =
         include_str!("../../../motion-control/src/safety/supervisor/tests/transitions/table.md");
-    let (_, rest) = page
-        .split_once("<!-- transitions:begin -->")
-        .expect("a begin");
+    let (_, rest) = page.split_once("<!-- transitions:begin -->").expect("a begin");
     let (tables, _) = rest.split_once("<!-- transitions:end -->").expect("an end");
     assert_eq!(tables.trim(), copy.trim());
 }
@@ -81,9 +66,7 @@ fn the_page_shows_the_board_that_is_compiled() {
 fn the_page_shows_the_controller_of_the_programs() {
     let library = include_str!("../../../firmware-demo/boards/guide/src/lib.rs");
     let (_, controller) = library.split_once("const TICK").expect("the constants");
-    let (controller, _) = controller
-        .split_once("/// Stands for encoders")
-        .expect("the board");
+    let (controller, _) = controller.split_once("/// Stands for encoders").expect("the board");
     let expected = words(controller);
     assert!(words(PAGE).contains(&expected));
     assert!(!words(PAGE).contains(&expected.replace("25.0", "26.0")));
@@ -105,9 +88,7 @@ fn the_readme_is_short() {
 
 /// The dependencies of a template's manifest from the registry: name, version and features.
 fn dependencies(manifest: &str) -> Vec<[String; 3]> {
-    let (_, rest) = manifest
-        .split_once("[dependencies]\n")
-        .expect("dependencies");
+    let (_, rest) = manifest.split_once("[dependencies]\n").expect("dependencies");
     let lines = rest.lines().take_while(|line| !line.is_empty());
     let lines = lines.filter(|line| !line.starts_with('#'));
     let registry = lines.filter(|line| !line.contains("{{library}}") && !line.contains(" = {{"));
@@ -120,11 +101,7 @@ fn dependencies(manifest: &str) -> Vec<[String; 3]> {
             true => "without its default ones: ",
             false => "",
         };
-        [
-            name,
-            (*version).to_owned(),
-            format!("{alone}{}", features.join(", ")),
-        ]
+        [name, (*version).to_owned(), format!("{alone}{}", features.join(", "))]
     });
     parts.collect()
 }
@@ -150,20 +127,13 @@ fn the_page_has_the_dependencies_of_the_templates() {
             table += &format!("| `{name}` | {version} | {features} |\n");
         }
     }
-    assert!(
-        table.contains("| `embassy-rp` | 0.") && table.contains("that of the chip"),
-        "{table}"
-    );
+    assert!(table.contains("| `embassy-rp` | 0.") && table.contains("that of the chip"), "{table}");
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src/porting.md");
     let page = std::fs::read_to_string(&path).expect("the page");
     let line = "do not edit -->\n";
-    let (before, rest) = page
-        .split_once("<!-- dependencies:begin -->")
-        .expect("a begin");
+    let (before, rest) = page.split_once("<!-- dependencies:begin -->").expect("a begin");
     let (note, rest) = rest.split_once(line).expect("a note");
-    let (_, after) = rest
-        .split_once("<!-- dependencies:end -->")
-        .expect("an end");
+    let (_, after) = rest.split_once("<!-- dependencies:end -->").expect("an end");
     let current = format!(
         "{before}<!-- dependencies:begin -->{note}{line}{table}\n<!-- dependencies:end -->{after}"
     );

@@ -98,14 +98,7 @@ fn what_cannot_be_read_is_found() {
     let dark = "prefers-color-scheme: dark";
     assert_eq!(
         faults(&drawn(dark, [1000, 65])),
-        [
-            "1000 px high",
-            "cut off: a legend cut off",
-            "another on one"
-        ]
+        ["1000 px high", "cut off: a legend cut off", "another on one"]
     );
-    assert_eq!(
-        faults(&drawn("print", [900, 80])),
-        ["no dark scheme", "cut off: a legend cut off"]
-    );
+    assert_eq!(faults(&drawn("print", [900, 80])), ["no dark scheme", "cut off: a legend cut off"]);
 }

@@ -34,16 +34,10 @@ const CRATES: [(&str, &str); 4] = [
 
 /// The names of items, `Type::member` and variants in what `cargo doc` writes.
 static NAMES: LazyLock<BTreeSet<String>> = LazyLock::new(|| {
-    let target = Path::new(env!("CARGO_TARGET_TMPDIR"))
-        .parent()
-        .expect("the target's directory");
+    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).parent().expect("the target's directory");
     let mut cargo = Command::new(env!("CARGO"));
     cargo.args(["doc", "--quiet", "--no-deps"]);
-    cargo.args(
-        CRATES
-            .iter()
-            .flat_map(|(package, _)| ["--package", package]),
-    );
+    cargo.args(CRATES.iter().flat_map(|(package, _)| ["--package", package]));
     cargo.arg("--target-dir");
     assert!(cargo.arg(target).status().expect("cargo").success());
     let mut names = BTreeSet::new();
@@ -51,12 +45,7 @@ static NAMES: LazyLock<BTreeSet<String>> = LazyLock::new(|| {
         let folder = target.join("doc").join(library);
         let all = read_to_string(folder.join("all.html")).expect("the list of all items");
         for page in between(&all, "href=\"", '"') {
-            let file: Vec<&str> = page
-                .rsplit('/')
-                .next()
-                .expect("a name")
-                .split('.')
-                .collect();
+            let file: Vec<&str> = page.rsplit('/').next().expect("a name").split('.').collect();
             let &[_, item, "html"] = file.as_slice() else {
                 continue;
             };
@@ -101,11 +90,8 @@ fn items(code: &str) -> Vec<&str> {
 static PROJECT_IN_C: LazyLock<String> = LazyLock::new(|| {
     let template = root().join("tools/robot-import/template/c");
     let named = ["rs", "liquid", "h", "c", "cmake", "toml"];
-    let all = named
-        .iter()
-        .flat_map(|extension| files(&template, extension));
-    all.map(|file| file.display().to_string() + &read_to_string(&file).expect("text"))
-        .collect()
+    let all = named.iter().flat_map(|extension| files(&template, extension));
+    all.map(|file| file.display().to_string() + &read_to_string(&file).expect("text")).collect()
 });
 
 /// Whether a new project in C for a robot `MyArm` with a joint `elbow` and a body `forearm` names
@@ -146,8 +132,5 @@ fn every_file_and_item_that_the_guide_names_exists() {
     assert!(!is_of_project_in_c("MY_ARM_MOST_PLACES"));
     let wrong = "`Gravity::VENUS` and `algorithms::Lost<R>` in `lost.rs`, `Gains` in `rnea.rs`, \
         `cargo -E x.rs`";
-    assert_eq!(
-        unknown(wrong, &sources),
-        ["Gravity::VENUS", "Lost", "lost.rs"]
-    );
+    assert_eq!(unknown(wrong, &sources), ["Gravity::VENUS", "Lost", "lost.rs"]);
 }

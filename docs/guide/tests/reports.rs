@@ -12,10 +12,7 @@ fn lacks(name: &str, page: &str) -> Vec<String> {
     let plain: Vec<&str> = plain.collect();
     let page = plain.join("\n");
     let paragraphs = page.split("\n\n").map(str::trim);
-    let first = paragraphs
-        .filter(|text| !text.is_empty())
-        .nth(1)
-        .unwrap_or_default();
+    let first = paragraphs.filter(|text| !text.is_empty()).nth(1).unwrap_or_default();
     let overview = page.split("\n## Reference").next().unwrap_or_default();
     let words = |text: &str| {
         let prose = text.lines().filter(|line| !line.contains(" | "));
@@ -23,18 +20,9 @@ fn lacks(name: &str, page: &str) -> Vec<String> {
     };
     let is_long = LONG.contains(&name);
     let checks = [
-        (
-            first.starts_with("**") && first.contains("?**"),
-            "no question in its first paragraph",
-        ),
-        (
-            !is_long || overview.len() < page.len(),
-            "no part `Reference`",
-        ),
-        (
-            !is_long || words(overview) <= 600,
-            "more than 600 words before its reference",
-        ),
+        (first.starts_with("**") && first.contains("?**"), "no question in its first paragraph"),
+        (!is_long || overview.len() < page.len(), "no part `Reference`"),
+        (!is_long || words(overview) <= 600, "more than 600 words before its reference"),
     ];
     let wrong = checks.into_iter().filter(|(holds, _)| !holds);
     wrong.map(|(_, what)| format!("{name}: {what}")).collect()

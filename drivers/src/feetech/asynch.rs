@@ -218,10 +218,7 @@ mod tests {
             ..Script::default()
         };
         let reverse = JointMapping::new(3.0, Direction::Reverse, 2.0).unwrap();
-        let range = JointRange::Within {
-            lower: -1.0,
-            upper: 1.0,
-        };
+        let range = JointRange::Within { lower: -1.0, upper: 1.0 };
         let reverse = reverse.with_range(range, 0.01).unwrap();
         Servos::new(port, [1, 2], [reverse; 2]).unwrap()
     }

@@ -66,17 +66,13 @@ impl fmt::Display for FeetechError {
             Self::Noise => out.write_str("the servo bus receives no packets but noise"),
             Self::Echo => out.write_str("two devices sent on the servo bus at the same time"),
             Self::Unexpected { id, found } => {
-                write!(
-                    out,
-                    "servo {found} replied instead of {id}, or not as it should"
-                )
+                write!(out, "servo {found} replied instead of {id}, or not as it should")
             }
             Self::Servo { id, status } => write!(out, "servo {id} reports errors {status:#04x}"),
             Self::Id(id) => write!(out, "{id} is not the identity of one servo"),
-            Self::Goal { joint } => write!(
-                out,
-                "the goal of joint {joint} is beyond the counts of its servo"
-            ),
+            Self::Goal { joint } => {
+                write!(out, "the goal of joint {joint} is beyond the counts of its servo")
+            }
             Self::LostTurn { joint } => {
                 write!(out, "the servo of joint {joint} can have lost a turn")
             }

@@ -81,14 +81,8 @@ impl Packet {
         data: impl IntoIterator<Item = (u8, [u8; L])>,
     ) -> Result<Self, FeetechError> {
         let length = u8::try_from(L).map_err(|_| FeetechError::TooLong)?;
-        let each = data
-            .into_iter()
-            .flat_map(|(id, bytes)| [id].into_iter().chain(bytes));
-        Self::new(
-            BROADCAST,
-            Instruction::SyncWrite,
-            [address, length].into_iter().chain(each),
-        )
+        let each = data.into_iter().flat_map(|(id, bytes)| [id].into_iter().chain(bytes));
+        Self::new(BROADCAST, Instruction::SyncWrite, [address, length].into_iter().chain(each))
     }
 
     fn new(
@@ -96,10 +90,7 @@ impl Packet {
         instruction: Instruction,
         parameters: impl IntoIterator<Item = u8>,
     ) -> Result<Self, FeetechError> {
-        let mut packet = Self {
-            bytes: [0; LONGEST],
-            length: 0,
-        };
+        let mut packet = Self { bytes: [0; LONGEST], length: 0 };
         for byte in [HEADER, HEADER, id, 0, instruction as u8] {
             packet.push(byte)?;
         }
@@ -126,19 +117,12 @@ impl Packet {
 }
 
 fn check_reply(length: u8) -> Result<(), FeetechError> {
-    if usize::from(length) <= MOST_PARAMETERS {
-        Ok(())
-    } else {
-        Err(FeetechError::TooLong)
-    }
+    if usize::from(length) <= MOST_PARAMETERS { Ok(()) } else { Err(FeetechError::TooLong) }
 }
 
 /// The complement of the sum of all bytes after the header.
 fn checksum(bytes: &[u8]) -> u8 {
-    !bytes
-        .iter()
-        .skip(2)
-        .fold(0, |sum: u8, byte| sum.wrapping_add(*byte))
+    !bytes.iter().skip(2).fold(0, |sum: u8, byte| sum.wrapping_add(*byte))
 }
 
 /// A status packet: `FF FF id length status parameters checksum`.
@@ -198,12 +182,7 @@ enum Start {
 impl Parser {
     /// A parser that has received nothing.
     pub const fn new() -> Self {
-        Self {
-            bytes: [0; LONGEST_REPLY],
-            length: 0,
-            skipped: 0,
-            has_wrong_checksum: false,
-        }
+        Self { bytes: [0; LONGEST_REPLY], length: 0, skipped: 0, has_wrong_checksum: false }
     }
 
     /// Takes a byte; the packet that it completes.

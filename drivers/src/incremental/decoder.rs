@@ -54,14 +54,7 @@ impl QuadratureDecoder {
 
     /// A decoder at count 0 with the present levels of A, B and Z.
     pub const fn at(a: bool, b: bool, z: bool) -> Self {
-        Self {
-            phase: phase(a, b),
-            z,
-            count: 0,
-            index: None,
-            invalid: 0,
-            is_lost: false,
-        }
+        Self { phase: phase(a, b), z, count: 0, index: None, invalid: 0, is_lost: false }
     }
 
     /// Takes the levels of A, B and Z. Cost: about 20 instructions.
@@ -84,9 +77,7 @@ impl QuadratureDecoder {
         if step == 2 {
             self.invalid = self.invalid.saturating_add(1);
             self.is_lost = true;
-            return Err(InvalidTransition {
-                total: self.invalid,
-            });
+            return Err(InvalidTransition { total: self.invalid });
         }
         Ok(())
     }
@@ -112,9 +103,7 @@ impl QuadratureCounter for QuadratureDecoder {
 
     fn count(&mut self) -> Result<u16, InvalidTransition> {
         if core::mem::take(&mut self.is_lost) {
-            return Err(InvalidTransition {
-                total: self.invalid,
-            });
+            return Err(InvalidTransition { total: self.invalid });
         }
         Ok(self.count)
     }

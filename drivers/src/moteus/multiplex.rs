@@ -47,10 +47,9 @@ impl Registers {
                 let first = rest.varuint()?;
                 (0..count).try_for_each(|place| self.take(first.wrapping_add(place), kind, rest))
             }
-            0x30 | 0x31 => Err(CanError::Register {
-                register: rest.varuint()?,
-                code: rest.varuint()?,
-            }),
+            0x30 | 0x31 => {
+                Err(CanError::Register { register: rest.varuint()?, code: rest.varuint()? })
+            }
             other => Err(CanError::Unknown(other)),
         }
     }

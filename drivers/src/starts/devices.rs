@@ -90,10 +90,7 @@ pub(super) struct Bus {
 
 impl Bus {
     pub fn at(count: u16) -> Self {
-        Self {
-            count: self::count(count),
-            ..Self::default()
-        }
+        Self { count: self::count(count), ..Self::default() }
     }
 }
 

@@ -48,69 +48,36 @@ fn drivers(mapping: EncoderMapping) -> Vec<(i64, Count, Encoder)> {
         all.push((counts, raw.clone(), make(raw)));
     };
     let spi = |raw| As5047p::new(Magnet(raw), mapping);
+    add(16_384, &|raw| encoder(spi(raw), As5047p::read, As5047p::place_near));
     add(16_384, &|raw| {
-        encoder(spi(raw), As5047p::read, As5047p::place_near)
-    });
-    add(16_384, &|raw| {
-        encoder(
-            spi(raw),
-            |encoder| ready(encoder.read_async()),
-            As5047p::place_near,
-        )
+        encoder(spi(raw), |encoder| ready(encoder.read_async()), As5047p::place_near)
     });
     let i2c = |raw| As5600::new(Magnet(raw), mapping);
+    add(4096, &|raw| encoder(i2c(raw), As5600::read, As5600::place_near));
+    add(4096, &|raw| encoder(i2c(raw), As5600::read_angle, As5600::place_near));
+    add(4096, &|raw| encoder(i2c(raw), |encoder| ready(encoder.read_async()), As5600::place_near));
     add(4096, &|raw| {
-        encoder(i2c(raw), As5600::read, As5600::place_near)
-    });
-    add(4096, &|raw| {
-        encoder(i2c(raw), As5600::read_angle, As5600::place_near)
-    });
-    add(4096, &|raw| {
-        encoder(
-            i2c(raw),
-            |encoder| ready(encoder.read_async()),
-            As5600::place_near,
-        )
-    });
-    add(4096, &|raw| {
-        encoder(
-            i2c(raw),
-            |encoder| ready(encoder.read_angle_async()),
-            As5600::place_near,
-        )
+        encoder(i2c(raw), |encoder| ready(encoder.read_angle_async()), As5600::place_near)
     });
     let servos = |count| {
-        let bus = Bus {
-            count,
-            ..Bus::default()
-        };
+        let bus = Bus { count, ..Bus::default() };
         Servos::new(bus, [1], [mapping]).unwrap()
     };
     add(4096, &|raw| {
         let read = |servos: &mut Servos<_, 1>| servos.positions().map(|[position]| position);
-        encoder(servos(raw), read, |servos, position| {
-            servos.place_near(0, position)
-        })
+        encoder(servos(raw), read, |servos, position| servos.place_near(0, position))
     });
     add(4096, &|raw| {
         let read =
             |servos: &mut Servos<_, 1>| ready(servos.positions_async()).map(|[position]| position);
-        encoder(servos(raw), read, |servos, position| {
-            servos.place_near(0, position)
-        })
+        encoder(servos(raw), read, |servos, position| servos.place_near(0, position))
     });
     all
 }
 
 /// A joint whose encoder is at its motor, and its position.
 fn motor(range: JointRange) -> Start {
-    Start {
-        zero: 2.4,
-        direction: Direction::Reverse,
-        ratio: 100.0,
-        range,
-        truth: 0.5,
-    }
+    Start { zero: 2.4, direction: Direction::Reverse, ratio: 100.0, range, truth: 0.5 }
 }
 
 fn mapping(start: &Start) -> EncoderMapping {
@@ -142,10 +109,7 @@ fn after_half_a_turn_without_a_reading_the_position_is_unknown() {
                 encoder(Do::Read)
             };
             let is = |found: Result<f32, Fault>, q| {
-                assert!(
-                    start.accepts(found.unwrap(), q, counts as f64),
-                    "{counts}: {found:?} {q}"
-                );
+                assert!(start.accepts(found.unwrap(), q, counts as f64), "{counts}: {found:?} {q}");
             };
             is(at(&mut encoder, 0.5), 0.5);
             // As far as it can have come in the allowed gap, in either direction.
@@ -170,15 +134,9 @@ fn after_half_a_turn_without_a_reading_the_position_is_unknown() {
 
 #[test]
 fn a_joint_within_its_range_is_known_after_any_gap() {
-    let range = JointRange::Within {
-        lower: -1.2,
-        upper: 1.2,
-    };
+    let range = JointRange::Within { lower: -1.2, upper: 1.2 };
     for (ratio, range) in [(1.0, range), (1.0, JointRange::Continuous)] {
-        let start = Start {
-            ratio,
-            ..motor(range)
-        };
+        let start = Start { ratio, ..motor(range) };
         for way in WAYS {
             for (counts, raw, mut encoder) in drivers(mapping(&start)) {
                 for q in [0.5, -1.2, 1.2, -1.19, 0.0] {
@@ -201,10 +159,7 @@ fn a_servo_behind_one_that_is_silent_has_a_gap_too() {
     let mut servos = Servos::new(bus, [1, 2, 3], [mapping(&start); 3]).unwrap();
     for _ in 0..100 {
         assert_eq!(servos.positions(), Err(FeetechError::NoReply { id: 2 }));
-        assert_eq!(
-            ready(servos.positions_async()),
-            Err(FeetechError::NoReply { id: 2 })
-        );
+        assert_eq!(ready(servos.positions_async()), Err(FeetechError::NoReply { id: 2 }));
     }
     here.set(GONE);
     for _ in 0..=ALLOWED {
@@ -212,10 +167,7 @@ fn a_servo_behind_one_that_is_silent_has_a_gap_too() {
     }
     here.set(start.count(0.5, 4096));
     assert_eq!(servos.positions(), Err(FeetechError::LostTurn { joint: 0 }));
-    assert_eq!(
-        servos.set_positions(&[0.5; 3]),
-        Err(FeetechError::Goal { joint: 0 })
-    );
+    assert_eq!(servos.set_positions(&[0.5; 3]), Err(FeetechError::Goal { joint: 0 }));
 }
 
 /// An incremental encoder of 400,000 counts per turn, whose counter wraps in a sixth of a turn, at
@@ -227,11 +179,7 @@ fn incremental(range: JointRange) -> (Count, Rc<Cell<Option<u16>>>, Encoder) {
     let mapping = JointMapping::IDENTITY.with_range(range, 0.05).unwrap();
     let resolution = Resolution::new(400_000).unwrap();
     let joint = IncrementalEncoder::new(timer, resolution, mapping).unwrap();
-    let all = encoder(
-        joint,
-        IncrementalEncoder::read,
-        IncrementalEncoder::place_near,
-    );
+    let all = encoder(joint, IncrementalEncoder::read, IncrementalEncoder::place_near);
     (raw, index, all)
 }
 
@@ -239,14 +187,10 @@ fn incremental(range: JointRange) -> (Count, Rc<Cell<Option<u16>>>, Encoder) {
 fn a_counter_that_can_have_wrapped_needs_its_index_or_its_place() {
     // 2¹⁵ counts are 0.515 rad: ten ticks of 0.05 rad fit, eleven do not.
     let unknown = Err(Fault::Encoder { joint: 0 });
-    let within = JointRange::Within {
-        lower: -1.0,
-        upper: 1.0,
-    };
-    for (range, after) in [
-        (within, unknown),
-        (JointRange::Near(0.1), Err(Fault::LostTurn { joint: 0 })),
-    ] {
+    let within = JointRange::Within { lower: -1.0, upper: 1.0 };
+    for (range, after) in
+        [(within, unknown), (JointRange::Near(0.1), Err(Fault::LostTurn { joint: 0 }))]
+    {
         let (raw, index, mut encoder) = incremental(range);
         assert_eq!(encoder(Do::Read), unknown);
         index.set(Some(65_000));

@@ -53,10 +53,8 @@ fn status(arm: &mut Watching<'_>) -> Status {
 }
 
 /// A motion of 1 mrad in each tick of 1 ms, through where the encoders are.
-const MOVING: Motion<fn(u32) -> State<f32, 2, 2>> = Motion(|tick| State {
-    qd: [1.0, -1.0],
-    ..State::at([0.25 + 1e-3 * tick as f32; 2])
-});
+const MOVING: Motion<fn(u32) -> State<f32, 2, 2>> =
+    Motion(|tick| State { qd: [1.0, -1.0], ..State::at([0.25 + 1e-3 * tick as f32; 2]) });
 
 #[test]
 fn a_brake_that_fails_stops_the_arm_in_the_next_tick() {
@@ -70,10 +68,7 @@ fn a_brake_that_fails_stops_the_arm_in_the_next_tick() {
     assert_eq!((after.mode, after.fault), (Mode::Stopped, fault));
     // One that fails while it is set is a fault as well, and a failed drive is the reason if both
     // fail.
-    for (drive, fault) in [
-        (None, Fault::Brake),
-        (Some(Broken::Wire), Fault::Drive { joint: 0 }),
-    ] {
+    for (drive, fault) in [(None, Fault::Brake), (Some(Broken::Wire), Fault::Drive { joint: 0 })] {
         arm.reset(&at_rest()).unwrap();
         wires.drives[0].error.set(drive);
         status(&mut arm);

@@ -75,9 +75,6 @@ fn impossible_body<R: Real>(link: &Link<R>) -> Option<Advice> {
     let axis = link.to_joint_frame.transpose() * R::Vec3::new(x, y, z);
     Some(Advice::ImpossibleInertia {
         body: link.name,
-        found: ImpossibleInertia {
-            axis: axis.array().map(R::to_f64),
-            ..found
-        },
+        found: ImpossibleInertia { axis: axis.array().map(R::to_f64), ..found },
     })
 }

@@ -38,10 +38,7 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize> Model<R, B, Q, V> 
     /// ```
     pub fn advice_on<E: Effect<R, B, V>>(&self, scene: &E) -> impl Iterator<Item = Advice> {
         let names = self.coordinate_names();
-        let joint = move |number: usize| AdvisedJoint {
-            number,
-            body: names.get(number).copied(),
-        };
+        let joint = move |number: usize| AdvisedJoint { number, body: names.get(number).copied() };
         let of_joints = (0..V).flat_map(move |k| of_joint(scene, joint(k)));
         let of_bodies = self.links.iter().enumerate().filter_map(|(i, link)| {
             let mut load = SpatialInertia::ZERO;
@@ -49,10 +46,7 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize> Model<R, B, Q, V> 
                 call_hook!(E::ADDED_INERTIA.add, scene, i, &mut load);
             }
             let mass = load.mass.to_f64();
-            (mass < 0.0).then_some(Advice::NegativePayload {
-                body: link.name,
-                mass,
-            })
+            (mass < 0.0).then_some(Advice::NegativePayload { body: link.name, mass })
         });
         of_joints.chain(of_bodies)
     }
@@ -76,11 +70,7 @@ where
     let driving = driving.filter_map(|speed| {
         let torque = friction::<R, E, B, V>(scene, joint.number, speed)?;
         let drives = torque * speed < 0.0;
-        drives.then_some(Advice::DrivingFriction {
-            joint,
-            speed,
-            torque,
-        })
+        drives.then_some(Advice::DrivingFriction { joint, speed, torque })
     });
     let first = driving.into_iter().next();
     [first, negative, missing].into_iter().flatten()
@@ -110,14 +100,8 @@ where
     };
     let rest = torque(0.0);
     let rounding = 4.0 * R::EPSILON.to_f64();
-    let shares = [
-        (torque(speed) - rest, rest.abs()),
-        (gear(LOAD), LOAD),
-        (gear(-LOAD), LOAD),
-    ];
-    let mut stated = shares
-        .into_iter()
-        .filter(|(torque, of)| torque.abs() > rounding * of);
+    let shares = [(torque(speed) - rest, rest.abs()), (gear(LOAD), LOAD), (gear(-LOAD), LOAD)];
+    let mut stated = shares.into_iter().filter(|(torque, of)| torque.abs() > rounding * of);
     stated
         .clone()
         .find(|(torque, _)| torque * speed < 0.0)

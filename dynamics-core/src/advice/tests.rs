@@ -137,12 +137,8 @@ const Y: [f64; 3] = [0.0, 1.0, 0.0];
 
 /// Two rods whose joints bend by at most these angles, rad, with these limits of torque, N·m.
 fn two_rods(bends: f64, torques: [f64; 2]) -> ArmModel<f64, 2> {
-    let limits = |bends: f64, torque| JointLimits {
-        lower: -bends,
-        upper: bends,
-        velocity: 3.0,
-        torque,
-    };
+    let limits =
+        |bends: f64, torque| JointLimits { lower: -bends, upper: bends, velocity: 3.0, torque };
     let rod = |name, parent, torque, bends| {
         let body = Body::new(name, parent, Joint::revolute(Y)).mass(2.0);
         body.com([0.0, 0.0, -0.25]).limits(limits(bends, torque))
@@ -156,14 +152,7 @@ fn gravity_advice_states_the_closed_form_torque() {
     // Stretched out horizontally: 2 g · 0.25 + 2 g · 0.75.
     let whole = 9.81 * 2.0 * (0.25 + 0.75);
     let advice: Vec<Advice> = two_rods(2.0, [19.0, 9.0]).advice().collect();
-    let [
-        Advice::GravityBeyondTorque {
-            joint,
-            needed,
-            limit,
-        },
-    ] = advice[..]
-    else {
+    let [Advice::GravityBeyondTorque { joint, needed, limit }] = advice[..] else {
         panic!("{advice:?}");
     };
     assert_eq!((joint.number, joint.body, limit), (0, Some("upper"), 19.0));
@@ -178,10 +167,7 @@ fn gravity_advice_states_the_closed_form_torque() {
         panic!("{:?}", found(bent * 0.999));
     };
     assert!((needed - bent).abs() < 1e-9, "{needed} {bent}");
-    let text = two_rods(2.0, [19.0, 9.0])
-        .advice()
-        .next()
-        .map(|advice| advice.to_string());
+    let text = two_rods(2.0, [19.0, 9.0]).advice().next().map(|advice| advice.to_string());
     assert_eq!(
         text.as_deref(),
         Some(
@@ -197,30 +183,14 @@ fn advice_names_the_least_excessive_torque_limit() {
     let weight = 9.81 * 2.0 * 0.25;
     let far = two_rods(2.0, [65.0 * 4.0 * weight, 70.0 * weight]);
     let advice: Vec<Advice> = far.advice().collect();
-    let [
-        Advice::TorqueLimitsFarAbove {
-            joint,
-            limit,
-            needed,
-        },
-    ] = advice[..]
-    else {
+    let [Advice::TorqueLimitsFarAbove { joint, limit, needed }] = advice[..] else {
         panic!("{advice:?}");
     };
     assert_eq!(joint.number, 0);
     assert!((limit / needed - 65.0).abs() < 1e-9);
-    assert!(
-        advice[0].to_string().contains("is 65 times the 19.6"),
-        "{}",
-        advice[0]
-    );
+    assert!(advice[0].to_string().contains("is 65 times the 19.6"), "{}", advice[0]);
     // One joint whose limit is near its need shows that the limits mean something.
-    assert_eq!(
-        two_rods(2.0, [65.0 * 4.0 * weight, 5.0 * weight])
-            .advice()
-            .next(),
-        None
-    );
+    assert_eq!(two_rods(2.0, [65.0 * 4.0 * weight, 5.0 * weight]).advice().next(), None);
 }
 
 /// The robot with one body changed, if that has mass, for each body.
@@ -245,9 +215,7 @@ fn about<const B: usize, const Q: usize, const V: usize>(
 ) -> String {
     let named = std::format!("body `{body}`: ");
     let mut found = model.advice().map(|advice| advice.to_string());
-    found
-        .find(|text| text.starts_with(&named))
-        .unwrap_or_default()
+    found.find(|text| text.starts_with(&named)).unwrap_or_default()
 }
 
 struct OneWrong {
@@ -267,10 +235,7 @@ impl Ask for OneWrong {
                 turned(link, about_com * unit);
             }) {
                 let words = about(&changed, name);
-                assert!(
-                    words.contains("looks like kg·mm² or g·mm²"),
-                    "{name}: {words}"
-                );
+                assert!(words.contains("looks like kg·mm² or g·mm²"), "{name}: {words}");
             }
         }
         // A moment that exceeds the sum of the others by a bit, and one that is negative.
@@ -291,10 +256,7 @@ impl Ask for OneWrong {
             turned(link, about_com * -1.0);
         }) {
             let words = about(&changed, name);
-            assert!(
-                words.contains("none is negative: no body has it"),
-                "{name}: {words}"
-            );
+            assert!(words.contains("none is negative: no body has it"), "{name}: {words}");
         }
         let own = |link: &mut Link<f64>| link.inertia.rotational += shift(link);
         for (name, changed) in one_body(model, own) {
@@ -306,10 +268,7 @@ impl Ask for OneWrong {
 
 #[test]
 fn one_wrong_body_is_named_with_its_number() {
-    let mut ask = OneWrong {
-        about_joint: 0,
-        of: 0,
-    };
+    let mut ask = OneWrong { about_joint: 0, of: 0 };
     each_robot(&mut ask);
     // The others' inertias about their joints are such as bodies of their length may have.
     assert_eq!((ask.about_joint, ask.of), (45, 143));
@@ -322,23 +281,13 @@ fn a_uniform_rod_about_its_end_is_named() {
         let inertia = [about, 0.0, 0.0, about, 0.0, 2e-4];
         let body = Body::new(name, parent, Joint::revolute(Y)).mass(2.0);
         let at = if parent == BASE { 0.0 } else { -0.5 };
-        body.com([0.0, 0.0, -0.25])
-            .inertia(inertia)
-            .xyz([0.0, 0.0, at])
+        body.com([0.0, 0.0, -0.25]).inertia(inertia).xyz([0.0, 0.0, at])
     };
     let [right, wrong] = [2.0 * 0.25 / 12.0, 2.0 * 0.25 / 3.0];
     let of = |all: [f64; 3]| {
-        let arm: ArmModel<f64, 3> = Model::new(
-            "rods",
-            [
-                rod("a", BASE, all[0]),
-                rod("b", 0, all[1]),
-                rod("c", 1, all[2]),
-            ],
-        );
-        arm.advice()
-            .map(|advice| advice.to_string())
-            .collect::<Vec<_>>()
+        let arm: ArmModel<f64, 3> =
+            Model::new("rods", [rod("a", BASE, all[0]), rod("b", 0, all[1]), rod("c", 1, all[2])]);
+        arm.advice().map(|advice| advice.to_string()).collect::<Vec<_>>()
     };
     assert_eq!(of([right; 3]), Vec::<String>::new());
     for i in 0..3 {
@@ -368,11 +317,7 @@ impl Ask for OneJoint {
                 continue;
             }
             let mut changed = *model;
-            changed.links[i].limits = JointLimits {
-                lower: -170.0,
-                upper: 170.0,
-                ..limits
-            };
+            changed.links[i].limits = JointLimits { lower: -170.0, upper: 170.0, ..limits };
             let single = ("PositionInDegrees".to_string(), Some(name));
             assert_eq!(first(&changed), Some(single), "{name}");
             let mut changed = *model;
@@ -381,9 +326,7 @@ impl Ask for OneJoint {
             changed.links[i].limits.velocity *= 57.0;
             let single = ("SpeedInDegrees".to_string(), Some(name));
             let others = model.links.iter().filter(|other| other.name != name);
-            let fastest = others
-                .map(|other| other.limits.velocity)
-                .fold(3.0, f64::max);
+            let fastest = others.map(|other| other.limits.velocity).fold(3.0, f64::max);
             if changed.links[i].limits.velocity > 20.0 * fastest {
                 assert_eq!(first(&changed), Some(single), "{name}");
             }
@@ -411,10 +354,7 @@ fn a_wheel_about_its_centre_gets_no_advice() {
 
 /// The kinds of advice on a scene of the UR5e.
 fn on<E: crate::effects::Effect<f64, 6, 6>>(scene: &E) -> Vec<String> {
-    Ur5e::MODEL
-        .advice_on(scene)
-        .map(|advice| kind(&advice))
-        .collect()
+    Ur5e::MODEL.advice_on(scene).map(|advice| kind(&advice)).collect()
 }
 
 #[test]
@@ -424,25 +364,10 @@ fn impossible_values_of_a_scene_are_named() {
         |value: f64, other: f64| core::array::from_fn(|i| if i == 2 { value } else { other });
     let none: [&str; 0] = [];
     let dry = |torque| Coulomb { torque, width: w };
-    let peak = |excess| Stribeck {
-        excess,
-        stribeck_speed: Width::new(0.1),
-        width: w,
-    };
-    let one_way = |forward, backward| AsymmetricCoulomb {
-        forward,
-        backward,
-        width: w,
-    };
-    let gears = |driving, backdriving| LoadFriction {
-        driving,
-        backdriving,
-        width: w,
-    };
-    let spring = Spring {
-        stiffness: [500.0; 6],
-        rest: [0.7; 6],
-    };
+    let peak = |excess| Stribeck { excess, stribeck_speed: Width::new(0.1), width: w };
+    let one_way = |forward, backward| AsymmetricCoulomb { forward, backward, width: w };
+    let gears = |driving, backdriving| LoadFriction { driving, backdriving, width: w };
+    let spring = Spring { stiffness: [500.0; 6], rest: [0.7; 6] };
     let right = (
         RIGID_BODY,
         Viscous([0.3; 6]),
@@ -463,24 +388,15 @@ fn impossible_values_of_a_scene_are_named() {
     assert_eq!(on(&one_way(at_2(-1.0, 0.5), [1.0; 6])), ["DrivingFriction"]);
     assert_eq!(on(&one_way([1.0; 6], at_2(-1.0, 0.5))), ["DrivingFriction"]);
     let rotors = Armature([0.5; 6]);
-    for wrong in [
-        gears(at_2(-0.1, 0.3), [0.2; 6]),
-        gears([0.3; 6], at_2(-0.1, 0.2)),
-    ] {
+    for wrong in [gears(at_2(-0.1, 0.3), [0.2; 6]), gears([0.3; 6], at_2(-0.1, 0.2))] {
         assert_eq!(on(&(wrong, rotors)), ["DrivingFriction"]);
     }
     assert_eq!(on(&Armature(at_2(-0.1, 0.5))), ["NegativeArmature"]);
     assert_eq!(on(&gears([0.3; 6], [0.2; 6])), ["NoRotorInertia"; 6]);
-    let load = BodyInertia {
-        mass: -1.0,
-        ..BodyInertia::default()
-    };
+    let load = BodyInertia { mass: -1.0, ..BodyInertia::default() };
     let words: Vec<String> = Ur5e::MODEL
         .advice_on(&(Gravity::EARTH, Payload::<f64, 5>::from_inertia(load)))
         .map(|advice| advice.to_string())
         .collect();
-    assert_eq!(
-        words,
-        ["body `wrist_3`: its payload has a mass of -1 kg, and none is negative"]
-    );
+    assert_eq!(words, ["body `wrist_3`: its payload has a mass of -1 kg, and none is negative"]);
 }

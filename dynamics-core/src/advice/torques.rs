@@ -41,11 +41,7 @@ pub(super) fn of<R: Real, const B: usize, const Q: usize, const V: usize>(
         let times = limit / needed;
         if least.is_none_or(|(before, _)| times < before) {
             let joint = joint(link);
-            let advice = Advice::TorqueLimitsFarAbove {
-                joint,
-                limit,
-                needed,
-            };
+            let advice = Advice::TorqueLimitsFarAbove { joint, limit, needed };
             least = Some((times, advice));
         }
     }
@@ -66,10 +62,7 @@ pub(super) fn of<R: Real, const B: usize, const Q: usize, const V: usize>(
 }
 
 fn joint<R: Real>(link: &Link<R>) -> AdvisedJoint {
-    AdvisedJoint {
-        number: link.idx_v,
-        body: Some(link.name),
-    }
+    AdvisedJoint { number: link.idx_v, body: Some(link.name) }
 }
 
 /// The weight of all that each body's joint moves at its greatest lever, N·m, or N of a slide.
@@ -79,11 +72,7 @@ fn stretched<R: Real, const B: usize, const Q: usize, const V: usize>(
     let length = |v: R::Vec3| {
         let [x, y, z] = v.array().map(R::to_f64);
         let squared = x * x + y * y + z * z;
-        if squared > 0.0 {
-            Real::sqrt(squared)
-        } else {
-            0.0
-        }
+        if squared > 0.0 { Real::sqrt(squared) } else { 0.0 }
     };
     let (mut masses, mut levers) = ([0.0; B], [0.0; B]);
     for (i, link) in model.links.iter().enumerate().rev() {
@@ -109,9 +98,8 @@ fn stretched<R: Real, const B: usize, const Q: usize, const V: usize>(
         }
     }
     let mut needs = [0.0; B];
-    for (need, (link, (mass, lever))) in needs
-        .iter_mut()
-        .zip(model.links.iter().zip(masses.into_iter().zip(levers)))
+    for (need, (link, (mass, lever))) in
+        needs.iter_mut().zip(model.links.iter().zip(masses.into_iter().zip(levers)))
     {
         *need = match link.joint.kind {
             JointKind::Prismatic => G * mass,
@@ -178,11 +166,9 @@ impl<R: Real, const B: usize> Levers<R, B> {
             torque: R::ZERO,
         };
         for (i, link) in model.links.iter().enumerate().rev() {
-            let (Some(mass), Some(moment), Some(turned)) = (
-                all.masses.get_mut(i),
-                all.moments.get_mut(i),
-                all.turned.get_mut(i),
-            ) else {
+            let (Some(mass), Some(moment), Some(turned)) =
+                (all.masses.get_mut(i), all.moments.get_mut(i), all.turned.get_mut(i))
+            else {
                 continue;
             };
             *mass += link.inertia.mass;
@@ -308,11 +294,7 @@ impl<R: Real> Range<R> {
         } else {
             [R::from_f64(-half), R::from_f64(half)]
         };
-        Some(Self {
-            lower,
-            upper,
-            slides,
-        })
+        Some(Self { lower, upper, slides })
     }
 
     fn at(&self, share: f64) -> R {
@@ -382,12 +364,7 @@ mod tests {
 
     /// Hinges and slides on two branches, about turned axes.
     fn branched() -> ArmModel<f64, 5> {
-        let limits = |lower, upper| JointLimits {
-            lower,
-            upper,
-            velocity: 1.0,
-            torque: 1.0,
-        };
+        let limits = |lower, upper| JointLimits { lower, upper, velocity: 1.0, torque: 1.0 };
         let body = |parent, joint| {
             Body::new("body", parent, joint)
                 .xyz([0.1, -0.2, 0.3])
@@ -420,11 +397,7 @@ mod tests {
                 ];
                 assert!((own - expected).abs() < 1e-12, "{own} {expected}");
                 let (found, climbed) = (worst(model, link), climbed(model, link));
-                assert!(
-                    found > climbed * 0.999 - 1e-9,
-                    "{}: {found} {climbed}",
-                    link.idx_v
-                );
+                assert!(found > climbed * 0.999 - 1e-9, "{}: {found} {climbed}", link.idx_v);
             }
         }
         all(&Ur5e::MODEL);

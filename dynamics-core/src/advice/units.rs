@@ -71,10 +71,7 @@ pub(super) fn of<R: Real, const B: usize, const Q: usize, const V: usize>(
     ];
     let bodies = gyrations(model, reach).filter(move |_| !millimetres);
     let whole = whole.into_iter().flatten();
-    whole
-        .chain(bodies)
-        .chain(about_joints(model))
-        .chain(limits.into_iter().flatten())
+    whole.chain(bodies).chain(about_joints(model)).chain(limits.into_iter().flatten())
 }
 
 /// Whether a limit is one, and not a number that stands for none: infinite, zero, or a power of
@@ -101,11 +98,7 @@ impl Size {
     fn of<R: Real, const B: usize, const Q: usize, const V: usize>(
         model: &Model<R, B, Q, V>,
     ) -> Self {
-        let mut size = Self {
-            mass: 0.0,
-            reach: 0.0,
-            solid: 0.0,
-        };
+        let mut size = Self { mass: 0.0, reach: 0.0, solid: 0.0 };
         let (mut distance, mut moves) = ([0.0; B], [false; B]);
         for (i, link) in model.links.iter().enumerate() {
             let mut from_first = 0.0;
@@ -155,42 +148,23 @@ impl Massive {
     fn of<R: Real>(link: &Link<R>) -> Self {
         let mass = link.inertia.mass.to_f64();
         if mass <= 0.0 {
-            return Self {
-                mass: 0.0,
-                com: 0.0,
-                gyration: 0.0,
-            };
+            return Self { mass: 0.0, com: 0.0, gyration: 0.0 };
         }
         let com = length::<R>(link.inertia.first_moment) / mass;
         let [[x, ..], [_, y, _], [.., z]] = moments(link);
         let squared = 0.5 * (x + y + z) / mass - com * com;
-        Self {
-            mass,
-            com,
-            gyration: if squared > 0.0 {
-                Real::sqrt(squared)
-            } else {
-                0.0
-            },
-        }
+        Self { mass, com, gyration: if squared > 0.0 { Real::sqrt(squared) } else { 0.0 } }
     }
 }
 
 fn moments<R: Real>(link: &Link<R>) -> [[f64; 3]; 3] {
-    link.inertia
-        .rotational
-        .cols()
-        .map(|column| column.array().map(R::to_f64))
+    link.inertia.rotational.cols().map(|column| column.array().map(R::to_f64))
 }
 
 fn length<R: Real>(v: R::Vec3) -> f64 {
     let [x, y, z] = v.array().map(R::to_f64);
     let squared = x * x + y * y + z * z;
-    if squared > 0.0 {
-        Real::sqrt(squared)
-    } else {
-        0.0
-    }
+    if squared > 0.0 { Real::sqrt(squared) } else { 0.0 }
 }
 
 /// The largest radius of gyration, if most are beyond all reach; else each that is.
@@ -200,9 +174,7 @@ fn gyrations<R: Real, const B: usize, const Q: usize, const V: usize>(
 ) -> impl Iterator<Item = Advice> {
     let (mut beyond, mut bodies, mut largest, mut body) = (0, 0, 0.0, "");
     for link in &model.links {
-        let Massive {
-            mass, gyration: k, ..
-        } = Massive::of(link);
+        let Massive { mass, gyration: k, .. } = Massive::of(link);
         if k > 0.0 {
             bodies += 1;
             beyond += usize::from(k > GYRATION * reach && is_airy(mass, k));
@@ -212,11 +184,7 @@ fn gyrations<R: Real, const B: usize, const Q: usize, const V: usize>(
         }
     }
     let most = reach > 0.0 && 2 * beyond > bodies;
-    let all = most.then_some(Advice::InertiasInMillimetres {
-        body,
-        gyration: largest,
-        reach,
-    });
+    let all = most.then_some(Advice::InertiasInMillimetres { body, gyration: largest, reach });
     let each = model.links.iter().filter_map(move |link| {
         let Massive { mass, gyration, .. } = Massive::of(link);
         let beyond = gyration > ONE_GYRATION * reach && is_airy(mass, gyration);
@@ -256,11 +224,7 @@ impl AboutJoint {
             return None;
         }
         let mut about_com = moments(link);
-        let com = link
-            .inertia
-            .first_moment
-            .array()
-            .map(|h| h.to_f64() / size.mass);
+        let com = link.inertia.first_moment.array().map(|h| h.to_f64() / size.mass);
         let shift = size.mass * size.com * size.com;
         // m (d² 1 − d dᵀ), taken off once for the description's inertia and once more for one about
         // the joint.
@@ -371,21 +335,9 @@ pub fn positions_in_degrees(
     let placed = |x: f64| if is_stated(x) { x } else { 0.0 };
     let farther = limits.map(|(joint, ends)| {
         let [lower, upper] = ends.map(placed);
-        (
-            joint,
-            if lower.abs() > upper.abs() {
-                lower
-            } else {
-                upper
-            },
-        )
+        (joint, if lower.abs() > upper.abs() { lower } else { upper })
     });
-    let Greatest {
-        joint,
-        limit,
-        most_beyond,
-        ..
-    } = Greatest::of(farther, TURNS)?;
+    let Greatest { joint, limit, most_beyond, .. } = Greatest::of(farther, TURNS)?;
     Some(if most_beyond {
         Advice::PositionsInDegrees { joint, limit }
     } else {
@@ -444,11 +396,6 @@ impl Greatest {
             }
         }
         let (joint, limit) = greatest.filter(|_| beyond > 0)?;
-        Some(Self {
-            joint,
-            limit,
-            next,
-            most_beyond: 2 * beyond > stated,
-        })
+        Some(Self { joint, limit, next, most_beyond: 2 * beyond > stated })
     }
 }

@@ -61,11 +61,7 @@ impl Display for Advice {
             | Self::NegativeArmature { .. }
             | Self::NegativePayload { .. }
             | Self::NoRotorInertia { .. } => self.write_scene(out),
-            Self::TorqueLimitsFarAbove {
-                joint,
-                limit,
-                needed,
-            } => {
+            Self::TorqueLimitsFarAbove { joint, limit, needed } => {
                 let times = Short(limit / needed);
                 let (limit, needed) = (Short(limit), Short(needed));
                 write!(
@@ -76,11 +72,7 @@ impl Display for Advice {
                      those of the motors and gears"
                 )
             }
-            Self::GravityBeyondTorque {
-                joint,
-                needed,
-                limit,
-            } => {
+            Self::GravityBeyondTorque { joint, needed, limit } => {
                 let (needed, limit) = (Short(needed), Short(limit));
                 write!(
                     out,
@@ -113,11 +105,7 @@ impl Advice {
                 Short(reach),
                 Short(mass)
             ),
-            Self::InertiasInMillimetres {
-                body,
-                gyration,
-                reach,
-            } => write!(
+            Self::InertiasInMillimetres { body, gyration, reach } => write!(
                 out,
                 "body `{body}`: its inertia is that of a mass {} m from the centre, and most \
                  bodies' are beyond ten times the robot's reach of {} m: inertias are in kg·m², \
@@ -125,11 +113,7 @@ impl Advice {
                 Short(gyration),
                 Short(reach)
             ),
-            Self::InertiasAboutJoints {
-                body,
-                inertia,
-                shift,
-            } => write!(
+            Self::InertiasAboutJoints { body, inertia, shift } => write!(
                 out,
                 "body `{body}`: of its inertia of {} kg·m² the distance of the centre of mass from \
                  the joint would be {}, and so of all bodies whose centre is far: inertias are \
@@ -137,11 +121,7 @@ impl Advice {
                 Short(inertia),
                 Short(shift)
             ),
-            Self::InertiaInMillimetres {
-                body,
-                gyration,
-                reach,
-            } => write!(
+            Self::InertiaInMillimetres { body, gyration, reach } => write!(
                 out,
                 "body `{body}`: its inertia is that of a mass {} m from the centre, and the \
                  robot's reach is {} m: inertias are in kg·m², this one looks like kg·mm² or \
@@ -149,11 +129,7 @@ impl Advice {
                 Short(gyration),
                 Short(reach)
             ),
-            Self::InertiaAboutJoint {
-                body,
-                inertia,
-                shift,
-            } => write!(
+            Self::InertiaAboutJoint { body, inertia, shift } => write!(
                 out,
                 "body `{body}`: its inertia of {} kg·m² is more than masses between its joints \
                  have, and without the {} of the distance of its centre of mass from the joint it \
@@ -204,11 +180,7 @@ impl Advice {
 
     fn write_scene(&self, out: &mut Formatter<'_>) -> Result {
         match *self {
-            Self::DrivingFriction {
-                joint,
-                speed,
-                torque,
-            } => write!(
+            Self::DrivingFriction { joint, speed, torque } => write!(
                 out,
                 "{joint}: at {} rad/s or m/s the friction of the scene is {} N·m or N: it drives \
                  the joint in place of braking it; no coefficient of friction is negative",
@@ -258,32 +230,21 @@ impl Advice {
                 Short(distance),
                 Short(distance * 180.0 / PI)
             ),
-            Self::BeyondNyquist {
-                of,
-                frequency,
-                nyquist,
-            } => write!(
+            Self::BeyondNyquist { of, frequency, nyquist } => write!(
                 out,
                 "{of} of {} rad/s is above half the frequency of the ticks, {} rad/s: it cannot \
                  act; lower it, or shorten the tick",
                 Short(frequency),
                 Short(nyquist)
             ),
-            Self::BeyondObserver {
-                of,
-                frequency,
-                bandwidth,
-            } => write!(
+            Self::BeyondObserver { of, frequency, bandwidth } => write!(
                 out,
                 "{of} of {} rad/s is not below the observer's bandwidth of {} rad/s: the velocity \
                  lags behind the feedback; a tenth of the bandwidth is usual",
                 Short(frequency),
                 Short(bandwidth)
             ),
-            Self::BeyondDrive {
-                frequency,
-                bandwidth,
-            } => write!(
+            Self::BeyondDrive { frequency, bandwidth } => write!(
                 out,
                 "the natural frequency of {} rad/s is not below the drive's bandwidth of {} rad/s: \
                  the torque lags behind the feedback, which oscillates; a fifth of the bandwidth \
@@ -291,12 +252,7 @@ impl Advice {
                 Short(frequency),
                 Short(bandwidth)
             ),
-            Self::CoarseEncoder {
-                joint,
-                resolution,
-                step,
-                speed,
-            } => write!(
+            Self::CoarseEncoder { joint, resolution, step, speed } => write!(
                 out,
                 "{joint}: a step of {} rad or m of the encoder changes the estimated velocity by \
                  {} a second, and its greatest speed is {}: the damping becomes noise; lower the \

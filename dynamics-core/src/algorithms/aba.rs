@@ -51,25 +51,8 @@ where
     let mut bodies = Vec::new();
     outward_velocities(robot, trig, state, effects, v_0, &mut bodies);
     let mut factors = Vec::new();
-    inward_inertias(
-        robot,
-        &mut bodies,
-        trig,
-        state,
-        effects,
-        &given,
-        &mut factors,
-    )?;
-    Ok(outward_accelerations(
-        robot,
-        &bodies,
-        trig,
-        state,
-        effects,
-        &given,
-        a_0,
-        &mut factors,
-    ))
+    inward_inertias(robot, &mut bodies, trig, state, effects, &given, &mut factors)?;
+    Ok(outward_accelerations(robot, &bodies, trig, state, effects, &given, a_0, &mut factors))
 }
 
 /// Pass 1: vᵢ, cᵢ = v × S q̇ + S̊ q̇, and, of each body alone, Iᴬ = I and pᴬ = v ×* I v − fˣ.
@@ -114,14 +97,7 @@ fn outward_velocities<'a, R: Real, D, E, const B: usize, const Q: usize, const V
         }
         v.push(v_i);
         let (ia, magnitude) = (inertia.into(), Magnitude::from(&inertia));
-        let _ = bodies.push(Body {
-            link,
-            x,
-            c,
-            ia,
-            magnitude,
-            pa,
-        });
+        let _ = bodies.push(Body { link, x, c, ia, magnitude, pa });
     }
 }
 
@@ -222,10 +198,7 @@ where
                 Prescribed::Torque(tau) => (tau, (u - a_i.dot(u_a)) * d_inv),
                 Prescribed::Acceleration(qdd) => {
                     let load = a_i.dot(u_a) + s.dot(u_a) * qdd + u;
-                    (
-                        prescribed_torque(effects, &link, state, joint, s, load, qdd),
-                        qdd,
-                    )
+                    (prescribed_torque(effects, &link, state, joint, s, load, qdd), qdd)
                 }
             };
             a_i = s.add_scaled_to(a_i, qdd);

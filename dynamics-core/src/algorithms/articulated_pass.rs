@@ -38,12 +38,7 @@ where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    const {
-        assert!(
-            !E::GYROSCOPIC_ROTORS,
-            "no rotors that spin as bodies here; name `Armature`"
-        )
-    };
+    const { assert!(!E::GYROSCOPIC_ROTORS, "no rotors that spin as bodies here; name `Armature`") };
     let mut bodies: Vec<(ArticulatedInertia<R>, Magnitude<R>), B> = Vec::new();
     let mut x = Vec::new();
     for (i, link) in robot.links().enumerate() {
@@ -69,11 +64,7 @@ where
             let armature_share = (d - bodies) * d_inv;
             ia = ia.minus_outer(u_a, d_inv);
             if let Some(factor) = factors.get_mut(joint) {
-                *factor = JointFactor {
-                    u_a,
-                    d_inv,
-                    armature_share,
-                };
+                *factor = JointFactor { u_a, d_inv, armature_share };
             }
         }
         if let Some((parent, parent_magnitude)) = inner.get_mut(link.parent) {

@@ -59,12 +59,7 @@ where
     const { Scene::<R, E, B, V>::OF_CORE };
     let trig = state.configuration().trig_of(robot);
     let (trig, state) = (trig.borrow(), state.state());
-    const {
-        assert!(
-            E::ACCELERATIONS,
-            "forward dynamics needs `Inertia` in the scene"
-        )
-    };
+    const { assert!(E::ACCELERATIONS, "forward dynamics needs `Inertia` in the scene") };
     let bias = rnea(robot, trig.with(state), &Bias(effects));
     let mut rest = all_transmitted(robot, state, effects, tau);
     for (rest, bias) in rest.iter_mut().zip(bias) {

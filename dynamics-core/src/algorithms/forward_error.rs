@@ -45,11 +45,7 @@ impl<R: Real, const V: usize> EstimatedAcceleration<R, V> {
             })
         };
         let (error, size) = (largest(&self.error), largest(&self.qdd));
-        if error == R::ZERO {
-            error
-        } else {
-            error / size
-        }
+        if error == R::ZERO { error } else { error / size }
     }
 }
 
@@ -100,12 +96,7 @@ where
 {
     let trig = state.configuration().trig_of(robot);
     let (trig, state) = (trig.borrow(), state.state());
-    const {
-        assert!(
-            E::ACCELERATIONS,
-            "forward dynamics needs `Inertia` in the scene"
-        )
-    };
+    const { assert!(E::ACCELERATIONS, "forward dynamics needs `Inertia` in the scene") };
     let bias = rnea(robot, trig.with(state), &Bias(effects));
     let mut rest = all_transmitted(robot, state, effects, tau);
     let mut terms = rest.map(R::abs);

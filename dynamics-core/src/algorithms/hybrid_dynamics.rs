@@ -53,12 +53,7 @@ where
     E: Effect<R, B, V>,
 {
     const { Scene::<R, E, B, V>::OF_CORE };
-    const {
-        assert!(
-            E::ACCELERATIONS,
-            "forward dynamics needs `Inertia` in the scene"
-        )
-    };
+    const { assert!(E::ACCELERATIONS, "forward dynamics needs `Inertia` in the scene") };
     let trig = state.configuration().trig_of(robot);
     let (trig, state) = (trig.borrow(), state.state());
     aba(robot, trig, state, effects, |joint| entry(given, joint))

@@ -30,10 +30,7 @@ pub struct JointResult<R, const V: usize> {
 }
 
 impl<R: Real, const V: usize> JointResult<R, V> {
-    pub(super) const ZERO: Self = Self {
-        tau: [R::ZERO; V],
-        qdd: [R::ZERO; V],
-    };
+    pub(super) const ZERO: Self = Self { tau: [R::ZERO; V], qdd: [R::ZERO; V] };
 
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn set(&mut self, joint: usize, tau: R, qdd: R) {

@@ -108,10 +108,7 @@ impl<R: Real> PivotCheck<R> {
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn of(magnitude: Magnitude<R>) -> Self {
         let inherited = [R::ZERO; MOST];
-        Self {
-            magnitude,
-            inherited,
-        }
+        Self { magnitude, inherited }
     }
 
     /// Whether `d`, the pivot of coordinate `k` of the joint, which is coordinate `joint` of the

@@ -76,11 +76,7 @@ where
         let Some(link) = robot.link(inner.len()) else {
             break;
         };
-        let f_i = if D::CHAIN {
-            body.f + f_child
-        } else {
-            *passed.onto(&body.f)
-        };
+        let f_i = if D::CHAIN { body.f + f_child } else { *passed.onto(&body.f) };
         link.project(turns, f_i, &mut tau); // (8)
         joint_torques(effects, &link, state, &mut tau);
         if E::GYROSCOPIC_ROTORS
@@ -162,11 +158,7 @@ where
         return Force::ZERO;
     }
     let inertia = body_inertia(effects, i, link);
-    if E::VELOCITY_PRODUCTS {
-        inertia.force(a_i, v_i)
-    } else {
-        inertia * a_i
-    }
+    if E::VELOCITY_PRODUCTS { inertia.force(a_i, v_i) } else { inertia * a_i }
 }
 
 /// fˣ, the wrench of the environment on body `i`; zero if no effect has one. Featherstone & Orin

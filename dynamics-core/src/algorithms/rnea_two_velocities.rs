@@ -125,11 +125,7 @@ where
         f -= external_force(effects, i, &link, &x, &mut poses, v);
         let mut rotor = R::ZERO;
         if E::GYROSCOPIC_ROTORS {
-            let (axis, k, half) = (
-                rotor_force(effects, &link).ang,
-                link.idx_v(),
-                R::from_f64(0.5),
-            );
+            let (axis, k, half) = (rotor_force(effects, &link).ang, link.idx_v(), R::from_f64(0.5));
             let mut couple = R::Vec3::ZERO;
             rotor = a_parent.ang.dot(axis);
             if E::ACCELERATIONS {
@@ -146,11 +142,7 @@ where
         }
         velocities.push((v, w));
         accelerations.push(a);
-        let _ = bodies.push(Body {
-            rot: x.rot,
-            f,
-            rotor,
-        });
+        let _ = bodies.push(Body { rot: x.rot, f, rotor });
     }
 
     let mut tau = [R::ZERO; V];

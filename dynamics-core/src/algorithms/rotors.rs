@@ -24,11 +24,7 @@ where
     E: Effect<R, B, V>,
 {
     let rate = |used, rates| {
-        if used {
-            entry(rates, link.idx_v())
-        } else {
-            R::ZERO
-        }
+        if used { entry(rates, link.idx_v()) } else { R::ZERO }
     };
     let qd = rate(E::VELOCITY_PRODUCTS, &state.qd);
     let qdd = rate(E::ACCELERATIONS, &state.qdd);
@@ -47,9 +43,5 @@ pub(crate) fn with_rotor<R: Real, E, const B: usize, const V: usize>(
 where
     E: Effect<R, B, V>,
 {
-    if E::GYROSCOPIC_ROTORS {
-        u_a + rotor_force(effects, link)
-    } else {
-        u_a
-    }
+    if E::GYROSCOPIC_ROTORS { u_a + rotor_force(effects, link) } else { u_a }
 }

@@ -45,23 +45,14 @@ pub(crate) fn per_body<A: Copy, D, R: Real, const B: usize, const Q: usize, cons
 where
     D: RobotModel<R, B, Q, V>,
 {
-    PerBody {
-        base,
-        last: base,
-        all: Vec::new(),
-        topology: PhantomData,
-    }
+    PerBody { base, last: base, all: Vec::new(), topology: PhantomData }
 }
 
 impl<A: Copy, T: Topology, const B: usize> PerBody<A, T, B> {
     /// That of the parent of `link`.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn parent<R: Real>(&self, link: &LinkView<'_, R>) -> A {
-        if T::CHAIN {
-            self.last
-        } else {
-            *self.all.get(link.parent).unwrap_or(&self.base)
-        }
+        if T::CHAIN { self.last } else { *self.all.get(link.parent).unwrap_or(&self.base) }
     }
 
     /// Adds that of the next body.
@@ -182,13 +173,7 @@ mod tests {
     /// children.
     fn sums(mut add: impl FnMut(usize, &mut [f64; 29])) -> [u64; 29] {
         // The last body has −0, which a sum with zero would not leave.
-        let mut of = core::array::from_fn(|i| {
-            if i == 28 {
-                -0.0
-            } else {
-                (i as f64 - 9.3) * 0.7
-            }
-        });
+        let mut of = core::array::from_fn(|i| if i == 28 { -0.0 } else { (i as f64 - 9.3) * 0.7 });
         (0..29).rev().for_each(|i| add(i, &mut of));
         of.map(f64::to_bits)
     }
@@ -221,23 +206,13 @@ mod tests {
     /// last place of f32: are they the same?
     fn have_same_bits<R: Real>(a1: &Model<R, 16, 12, 12>, other: u64) -> [bool; 3] {
         let of = |step: f64| core::array::from_fn(|i| R::from_f64(i as f64 * step - 1.3));
-        let state = State {
-            q: of(0.31),
-            qd: of(0.47),
-            qdd: of(0.83),
-        };
+        let state = State { q: of(0.31), qd: of(0.47), qdd: of(0.83) };
         let mut y = state;
         y.q[4] = R::from_f64(f64::from_bits(y.q[4].to_f64().to_bits() + (other << 29)));
         let bits = |row: [R; 12]| row.map(|x| x.to_f64().to_bits());
         let tau = rnea(a1, &state, &RIGID_BODY);
-        let m = [
-            crba(a1, &state.q, &RIGID_BODY),
-            Core::<A1>::crba(&y.q, &RIGID_BODY),
-        ];
-        let qdd = [
-            aba(a1, &state, &tau, &RIGID_BODY),
-            Core::<A1>::aba(&y, &tau, &RIGID_BODY),
-        ];
+        let m = [crba(a1, &state.q, &RIGID_BODY), Core::<A1>::crba(&y.q, &RIGID_BODY)];
+        let qdd = [aba(a1, &state, &tau, &RIGID_BODY), Core::<A1>::aba(&y, &tau, &RIGID_BODY)];
         let [m, of_robot] = m.map(|m| m.rows.map(bits));
         [
             bits(tau) == bits(Core::<A1>::rnea(&y, &RIGID_BODY)),

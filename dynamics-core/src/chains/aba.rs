@@ -91,11 +91,7 @@ where
             continue;
         };
         let inertia = body_inertia(effects, i, &link);
-        let Beyond {
-            mut ia,
-            mut pa,
-            mut magnitude,
-        } = beyond;
+        let Beyond { mut ia, mut pa, mut magnitude } = beyond;
         ia += inertia;
         pa += body.pa;
         magnitude += Magnitude::from(&inertia);

@@ -67,11 +67,8 @@ where
     for (i, link) in links {
         let x = link.xform(turns);
         let parent = AccelerationField::new(v.ang, a);
-        let v_parent = if E::BODY_VELOCITY {
-            x * v
-        } else {
-            Motion::new(x.rot * v.ang, R::Vec3::ZERO)
-        };
+        let v_parent =
+            if E::BODY_VELOCITY { x * v } else { Motion::new(x.rot * v.ang, R::Vec3::ZERO) };
         v = link.plus_motion(v_parent, turns, &state.qd); // (3)
         let a_parent = parent.moved(&x);
         a = a_parent; // (4)

@@ -163,10 +163,7 @@ where
         E: Effect<R, B, V>,
     {
         const {
-            assert!(
-                E::ACCELERATIONS,
-                "forward dynamics needs `Inertia` in the scene"
-            );
+            assert!(E::ACCELERATIONS, "forward dynamics needs `Inertia` in the scene");
             assert!(
                 !E::GYROSCOPIC_ROTORS,
                 "no rotors that spin as bodies here; make them bodies of the tree"

@@ -83,8 +83,6 @@ impl Group {
         inner: &'b mut [Body<'a, R>],
         link: &LinkView<'_, R>,
     ) -> Option<&'b mut Body<'a, R>> {
-        (link.parent >= self.root)
-            .then(|| inner.get_mut(link.parent))
-            .flatten()
+        (link.parent >= self.root).then(|| inner.get_mut(link.parent)).flatten()
     }
 }

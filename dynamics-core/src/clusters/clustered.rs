@@ -148,10 +148,7 @@ where
                 turns.coordinates[k].q = R::ZERO;
             }
         });
-        let at_zero = State {
-            q: [R::ZERO; Q],
-            ..*state
-        };
+        let at_zero = State { q: [R::ZERO; Q], ..*state };
         let mut tau = Engine::<T>::run(&turns, &turns, &at_zero, &OfBodies(effects));
         for_each_joint!(J, {
             if Index::<J, V>::IS_BELOW {
@@ -270,11 +267,7 @@ where
     A::Robot: ClusteredRobot<B, Q, V, P, Y>,
 {
     let layout = TreeLayout::<A::Robot, B, Q, V, P, Y>::LAYOUT;
-    let mut tree = State {
-        q: [R::ZERO; Q],
-        qd: [R::ZERO; V],
-        qdd: [R::ZERO; V],
-    };
+    let mut tree = State { q: [R::ZERO; Q], qd: [R::ZERO; V], qdd: [R::ZERO; V] };
     // Not by loops alone, which might not be unrolled: the tree's state would stay in memory, and
     // with it numbers that no effect reads.
     for_each_joint!(J, {
@@ -301,15 +294,7 @@ where
     let set = const { <A::Robot as ClusteredRobot<B, Q, V, P, Y>>::CLUSTERS };
     let motions = set.evaluate::<R, A::Kernel, A::Robot, B, Q, V, P, Y>(
         y,
-        &mut TreeState {
-            turns: &mut turns,
-            state: &mut tree,
-        },
+        &mut TreeState { turns: &mut turns, state: &mut tree },
     )?;
-    Ok(TreeMotion {
-        trig: JointTrig { coordinates: turns },
-        tree,
-        motions,
-        one: [R::ONE],
-    })
+    Ok(TreeMotion { trig: JointTrig { coordinates: turns }, tree, motions, one: [R::ONE] })
 }

@@ -28,12 +28,7 @@ pub struct Driven<C, const M: usize, const N: usize> {
 impl<C, const M: usize, const N: usize> Driven<C, M, N> {
     /// A cluster with the motors at its independent coordinates. Errors and statuses have its name.
     pub const fn new(name: &'static str, cluster: C) -> Self {
-        Self {
-            name,
-            cluster,
-            actuated: None,
-            per: [1.0 / DEAD_POINT; N],
-        }
+        Self { name, cluster, actuated: None, per: [1.0 / DEAD_POINT; N] }
     }
 
     /// The same with the motors at these rows of q, of which
@@ -45,10 +40,7 @@ impl<C, const M: usize, const N: usize> Driven<C, M, N> {
     pub const fn actuated(mut self, rows: [usize; N]) -> Self {
         let mut k = 0;
         while k < N {
-            assert!(
-                rows[k] < M,
-                "a cluster is actuated at a row that it does not have"
-            );
+            assert!(rows[k] < M, "a cluster is actuated at a row that it does not have");
             let mut l = 0;
             while l < k {
                 assert!(rows[k] != rows[l], "a cluster is actuated twice at one row");
@@ -94,10 +86,7 @@ impl<C, const M: usize, const N: usize> Driven<C, M, N> {
 impl<C, const M: usize, const N: usize> Driven<C, M, N> {
     #[cold]
     pub(super) fn error(&self, problem: ClusterProblem) -> ClusterError {
-        ClusterError {
-            cluster: self.name,
-            problem,
-        }
+        ClusterError { cluster: self.name, problem }
     }
 }
 

@@ -80,16 +80,8 @@ impl<T, K> Clustered<Engine<T, K>> {
         E: Effect<R, B, V>,
     {
         no_load_friction::<R, E, B, V>();
-        const {
-            assert!(
-                E::ACCELERATIONS,
-                "forward dynamics needs `Inertia` in the scene"
-            )
-        };
-        let coasting = State {
-            qdd: [R::ZERO; Y],
-            ..*y
-        };
+        const { assert!(E::ACCELERATIONS, "forward dynamics needs `Inertia` in the scene") };
+        let coasting = State { qdd: [R::ZERO; Y], ..*y };
         let mut motion = evaluate::<R, Engine<T, K>, B, Q, V, P, Y>(&coasting)?;
         if !E::VELOCITY_PRODUCTS {
             // Ġ ẏ is a product of velocities.

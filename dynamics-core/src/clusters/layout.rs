@@ -90,18 +90,12 @@ impl<const Q: usize, const V: usize> Layout<Q, V> {
             coordinates.len() == m,
             "a cluster's list of coordinates does not have its M entries"
         );
-        assert!(
-            n <= INDEPENDENT,
-            "a cluster has up to 6 independent coordinates"
-        );
+        assert!(n <= INDEPENDENT, "a cluster has up to 6 independent coordinates");
         self.count[c] = n;
         let mut k = 0;
         while k < m {
             let v = coordinates[k];
-            assert!(
-                v < V,
-                "a cluster drives a coordinate that the robot does not have"
-            );
+            assert!(v < V, "a cluster drives a coordinate that the robot does not have");
             assert!(
                 self.cluster[v] == NONE,
                 "a coordinate is driven twice, by one cluster or by two"
@@ -185,10 +179,7 @@ impl<const Q: usize, const V: usize> Layout<Q, V> {
 /// Whether a joint's velocities are the derivatives of its positions.
 const fn is_scalar(kind: JointKind) -> bool {
     use JointKind::*;
-    matches!(
-        kind,
-        Revolute | Continuous | Prismatic | Helical | Cylindrical | Universal
-    )
+    matches!(kind, Revolute | Continuous | Prismatic | Helical | Cylindrical | Universal)
 }
 
 /// Whether a joint has limits within ±4π, as the engine takes them for its sines.
@@ -208,10 +199,7 @@ pub(super) const fn independent<const N: usize>(list: &[Option<usize>], j: usize
         return None;
     }
     if let Some(k) = list[j] {
-        assert!(
-            k < N,
-            "`Cluster::INDEPENDENT` names a coordinate that the cluster does not have"
-        );
+        assert!(k < N, "`Cluster::INDEPENDENT` names a coordinate that the cluster does not have");
     }
     list[j]
 }

@@ -33,11 +33,7 @@ pub(super) fn solve<R: Real, const N: usize>(
     } else {
         damped(g, tau, per).map_or((exact, false), |damped| (damped, true))
     };
-    if all_finite(&solution.0) {
-        Ok(solution)
-    } else {
-        Err(ClusterProblem::NotFinite)
-    }
+    if all_finite(&solution.0) { Ok(solution) } else { Err(ClusterProblem::NotFinite) }
 }
 
 /// x with A x = b, by elimination with row pivots, and whether ς is more than one for certain.

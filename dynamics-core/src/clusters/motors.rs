@@ -83,10 +83,7 @@ where
     /// torque is not finite.
     #[cfg_attr(optimised, inline(always))]
     pub fn to_motors(&self, tau: &[R; Y]) -> Result<MotorTorques<R, Y>, ClusterError> {
-        let mut out = MotorTorques {
-            tau: *tau,
-            singular: None,
-        };
+        let mut out = MotorTorques { tau: *tau, singular: None };
         let clusters = const { T::CLUSTERS };
         clusters.motors::<R, T, B, Q, V, P, Y>(&self.motions, &mut out)?;
         Ok(out)

@@ -81,12 +81,7 @@ where
                 force: Force::ZERO,
             });
         }
-        Self {
-            motion,
-            effects,
-            bodies,
-            factors: [Factor::default(); Y],
-        }
+        Self { motion, effects, bodies, factors: [Factor::default(); Y] }
     }
 
     /// The cluster of a body, or [`NONE`].
@@ -115,13 +110,7 @@ where
         }
         let coordinates = self.bodies.get(i)?.link.coordinates();
         let (count, first) = (coordinates.len(), entry(&layout.free, coordinates.start));
-        Some(Group {
-            root: i,
-            end: i + 1,
-            cluster,
-            first,
-            count,
-        })
+        Some(Group { root: i, end: i + 1, cluster, first, count })
     }
 
     /// Whether body `i` is of the group.
@@ -204,9 +193,7 @@ where
             for (k, v) in body.link.coordinates().enumerate() {
                 let (first, g, _) = motion.row(v);
                 let of_group = ydd.get(first..).unwrap_or(&[]).iter();
-                let qdd = of_group
-                    .zip(g)
-                    .fold(R::ZERO, |sum, (&ydd, &g)| sum + g * ydd);
+                let qdd = of_group.zip(g).fold(R::ZERO, |sum, (&ydd, &g)| sum + g * ydd);
                 let s = body.link.subspace(&motion.trig.coordinates, k);
                 body.accel = s.add_scaled_to(body.accel, qdd);
             }

@@ -22,12 +22,8 @@ impl<T, const B: usize, const Q: usize, const V: usize, const P: usize, const Y:
 where
     T: ClusteredRobot<B, Q, V, P, Y>,
 {
-    pub(super) const LAYOUT: &'static Layout<Q, V> = &Layout::of(
-        &T::MODEL,
-        T::COORDINATES,
-        <T::Clusters as Set>::SIZES,
-        [P, Y],
-    );
+    pub(super) const LAYOUT: &'static Layout<Q, V> =
+        &Layout::of(&T::MODEL, T::COORDINATES, <T::Clusters as Set>::SIZES, [P, Y]);
 }
 
 /// The J-th velocity coordinate of the tree, and its J-th position.
@@ -90,10 +86,8 @@ where
     /// The velocity coordinate of the tree; beyond the last row, [`NONE`].
     pub(super) const VELOCITY: usize = at(T::COORDINATES[I], J);
     /// The position that belongs to it; beyond the last row, [`NONE`].
-    pub(super) const POSITION: usize = at(
-        &TreeLayout::<T, B, Q, V, P, Y>::LAYOUT.position,
-        Self::VELOCITY,
-    );
+    pub(super) const POSITION: usize =
+        at(&TreeLayout::<T, B, Q, V, P, Y>::LAYOUT.position, Self::VELOCITY);
 }
 
 /// Row J of a cluster.

@@ -60,11 +60,7 @@ pub struct NearSingular {
 
 impl fmt::Display for NearSingular {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self {
-            cluster,
-            transmission,
-            damped,
-        } = self;
+        let Self { cluster, transmission, damped } = self;
         if *damped {
             return write!(
                 out,
@@ -89,11 +85,7 @@ impl<R: Real, const Y: usize> ClusteredTorque<R, Y> {
     /// # Errors
     /// [`NearSingular`] names the cluster.
     pub fn regular(&self, most: R) -> Result<[R; Y], NearSingular> {
-        let Conditioning {
-            cluster,
-            transmission,
-            singular,
-        } = self.conditioning;
+        let Conditioning { cluster, transmission, singular } = self.conditioning;
         // False of a NaN, too.
         if singular.is_none() && transmission <= most {
             return Ok(self.tau);
@@ -199,10 +191,6 @@ where
                 }
             }
         }
-        Conditioning {
-            cluster: T::CLUSTERS.name(fastest),
-            transmission,
-            singular: self.singular(),
-        }
+        Conditioning { cluster: T::CLUSTERS.name(fastest), transmission, singular: self.singular() }
     }
 }

@@ -115,9 +115,8 @@ where
     /// The name of the first cluster that is at a singularity, where G is damped.
     pub fn singular(&self) -> Option<&'static str> {
         let clusters = 0..<T::Clusters as Set>::SIZES.len();
-        let found = clusters
-            .into_iter()
-            .find(|&c| <T::Clusters as Set>::singular(&self.motions, c));
+        let found =
+            clusters.into_iter().find(|&c| <T::Clusters as Set>::singular(&self.motions, c));
         found.map(|c| T::CLUSTERS.name(c))
     }
 
@@ -165,9 +164,7 @@ where
                 }
             }
         }
-        MassMatrix {
-            rows: columns.map(|column| self.torque(&column)),
-        }
+        MassMatrix { rows: columns.map(|column| self.torque(&column)) }
     }
 
     /// J G: the Jacobian of a body with respect to ẏ, by columns, of that of the tree.
@@ -191,11 +188,7 @@ where
     /// Torques or accelerations at y, all of which are finite.
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn finite(of_y: [R; Y]) -> Result<[R; Y], ClusterError> {
-        if all_finite(&of_y) {
-            Ok(of_y)
-        } else {
-            Err(Self::not_finite(&of_y))
-        }
+        if all_finite(&of_y) { Ok(of_y) } else { Err(Self::not_finite(&of_y)) }
     }
 
     /// Names the first cluster of which a torque or an acceleration is not finite, or the robot.

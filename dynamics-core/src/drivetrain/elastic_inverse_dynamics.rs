@@ -146,11 +146,8 @@ where
 }
 
 impl<R: Real, const V: usize> ElasticCommand<R, V> {
-    pub(super) const ZERO: Self = Self {
-        torque: [R::ZERO; V],
-        position: [R::ZERO; V],
-        velocity: [R::ZERO; V],
-    };
+    pub(super) const ZERO: Self =
+        Self { torque: [R::ZERO; V], position: [R::ZERO; V], velocity: [R::ZERO; V] };
 
     /// The motor of joint i at q, whose spring transmits τ with these derivatives: θ = q + τ/k, τ_m
     /// = J θ̈ + b θ̇ + τ.
@@ -217,10 +214,7 @@ where
     E: Effect<R, B, V>,
 {
     const { scene_taken::<R, E, B, V>() };
-    let (state, turns) = (
-        &reference.state,
-        JointTrig::new(robot, &reference.state.q).coordinates,
-    );
+    let (state, turns) = (&reference.state, JointTrig::new(robot, &reference.state.q).coordinates);
     let rates = [&state.qd, &state.qdd, &reference.jerk, &reference.snap];
     // A base that accelerates by −g for ever is gravity.
     let (v_0, a_0) = base_motion(effects);
@@ -228,10 +222,7 @@ where
     let mut all: Vec<MotionDerivatives<R>, B> = Vec::new();
     let mut links: Vec<Link<'_, R>, B> = Vec::new();
     for (i, link) in robot.links().enumerate() {
-        let (x, w) = (
-            link.xform(&turns),
-            rates.map(|rate| link.motion(&turns, rate)),
-        );
+        let (x, w) = (link.xform(&turns), rates.map(|rate| link.motion(&turns, rate)));
         let carried = transformed(&x, &w, all.get(link.parent).unwrap_or(&base));
         let v = [0, 1, 2, 3].map(|n| carried[n] + w[n]);
         let f = forces(&body_inertia(effects, i, &link), &v);
@@ -280,10 +271,7 @@ fn transformed<R: Real>(
     let two = R::from_f64(2.0);
     let [a0, b0, c0, d0] = m.map(|m| *x * m);
     let [a1, b1, c1] = [b0 - w0.cross(a0), c0 - w0.cross(b0), d0 - w0.cross(c0)];
-    let [a2, b2] = [
-        b1 - w0.cross(a1) - w1.cross(a0),
-        c1 - w0.cross(b1) - w1.cross(b0),
-    ];
+    let [a2, b2] = [b1 - w0.cross(a1) - w1.cross(a0), c1 - w0.cross(b1) - w1.cross(b0)];
     let a3 = b2 - w0.cross(a2) - w1.cross(a1) * two - w2.cross(a0);
     [a0, a1, a2, a3]
 }

@@ -85,10 +85,7 @@ where
         *qd += h * qdd;
     }
     links.q = integrate(robot, &links.q, &links.qd.map(|qd| h * qd));
-    for (i, (angle, rate)) in (motors.position.iter_mut())
-        .zip(&mut motors.velocity)
-        .enumerate()
-    {
+    for (i, (angle, rate)) in (motors.position.iter_mut()).zip(&mut motors.velocity).enumerate() {
         *rate = entry(&drive, i) + entry(&gain, i) * entry(&links.qd, i);
         *angle += h * *rate;
     }

@@ -65,11 +65,7 @@ impl<R: Real, const M: usize, const V: usize> Transmission<R, M, V> {
 
     /// The joints' state of the motors'.
     pub fn state(&self, u: &State<R, M, M>) -> State<R, V, V> {
-        State {
-            q: self.position(&u.q),
-            qd: self.rate(&u.qd),
-            qdd: self.rate(&u.qdd),
-        }
+        State { q: self.position(&u.q), qd: self.rate(&u.qd), qdd: self.rate(&u.qdd) }
     }
 
     /// Gᵀ M G: the inertia reflected to the motors, without their own.
@@ -78,9 +74,7 @@ impl<R: Real, const M: usize, const V: usize> Transmission<R, M, V> {
             let column = self.matrix.map(|row| row[j]);
             core::array::from_fn(|i| (0..V).fold(R::ZERO, |sum, k| sum + m.get(i, k) * column[k]))
         });
-        MassMatrix {
-            rows: columns.map(|column| self.torque(&column)),
-        }
+        MassMatrix { rows: columns.map(|column| self.torque(&column)) }
     }
 }
 

@@ -103,10 +103,7 @@ pub(crate) const fn are_of<R: Real, E, const B: usize, const V: usize>(robot: &s
 where
     E: Effect<R, B, V>,
 {
-    assert!(
-        E::BASE_PARAMETERS <= 1,
-        "the scene has several sets of base parameters"
-    );
+    assert!(E::BASE_PARAMETERS <= 1, "the scene has several sets of base parameters");
     let (of, robot) = (E::BASE_PARAMETERS_OF.as_bytes(), robot.as_bytes());
     let mut same = of.len() == robot.len();
     let mut i = 0;
@@ -114,10 +111,7 @@ where
         same = of[i] == robot[i];
         i += 1;
     }
-    assert!(
-        same || E::BASE_PARAMETERS == 0,
-        "the base parameters are those of another robot"
-    );
+    assert!(same || E::BASE_PARAMETERS == 0, "the base parameters are those of another robot");
 }
 
 /// Links that bend do not carry rotors that spin as bodies.

@@ -142,30 +142,17 @@ pub struct Field<E, R: Real> {
 
 impl<E, R: Real> Field<E, R> {
     /// No field.
-    pub const NONE: Self = Self {
-        add: None,
-        is_some: false,
-        axes: [false; 3],
-        gravities: 0,
-    };
+    pub const NONE: Self = Self { add: None, is_some: false, axes: [false; 3], gravities: 0 };
 
     /// A field of gravity, which adds to the acceleration g of free fall, in base coordinates,
     /// m/s². A scene of several does not compile.
     pub const fn gravity(add: fn(&E, &mut R::Vec3)) -> Self {
-        Self {
-            add: Some(add),
-            is_some: true,
-            axes: [true; 3],
-            gravities: 1,
-        }
+        Self { add: Some(add), is_some: true, axes: [true; 3], gravities: 1 }
     }
 
     /// A field that acts beside gravity.
     pub const fn beside_gravity(add: fn(&E, &mut R::Vec3)) -> Self {
-        Self {
-            gravities: 0,
-            ..Self::gravity(add)
-        }
+        Self { gravities: 0, ..Self::gravity(add) }
     }
 
     /// The same field, of which only these base components may differ from zero; others are
@@ -173,10 +160,7 @@ impl<E, R: Real> Field<E, R> {
     #[must_use]
     pub const fn along(self, axes: [bool; 3]) -> Self {
         let [x, y, z] = self.axes;
-        Self {
-            axes: [x & axes[0], y & axes[1], z & axes[2]],
-            ..self
-        }
+        Self { axes: [x & axes[0], y & axes[1], z & axes[2]], ..self }
     }
 
     #[doc(hidden)]
@@ -191,14 +175,7 @@ impl<E, R: Real> Field<E, R> {
 
     #[doc(hidden)]
     pub const fn through(self, on: bool, add: fn(&E, &mut R::Vec3)) -> Self {
-        if on & self.is_some {
-            Self {
-                add: Some(add),
-                ..self
-            }
-        } else {
-            Self::NONE
-        }
+        if on & self.is_some { Self { add: Some(add), ..self } } else { Self::NONE }
     }
 }
 
@@ -212,35 +189,22 @@ pub struct Base<E, R: Real> {
 
 impl<E, R: Real> Base<E, R> {
     /// A base that no effect moves.
-    pub const NONE: Self = Self {
-        add: None,
-        is_some: false,
-    };
+    pub const NONE: Self = Self { add: None, is_some: false };
 
     /// Adds to the spatial velocity v₀ and acceleration a₀ of the base, at its origin and in its
     /// coordinates.
     pub const fn moving(add: fn(&E, &mut Motion<R>, &mut Motion<R>)) -> Self {
-        Self {
-            add: Some(add),
-            is_some: true,
-        }
+        Self { add: Some(add), is_some: true }
     }
 
     #[doc(hidden)]
     pub const fn with<F>(self, inner: &Base<F, R>) -> Self {
-        Self {
-            is_some: self.is_some | inner.is_some,
-            ..self
-        }
+        Self { is_some: self.is_some | inner.is_some, ..self }
     }
 
     #[doc(hidden)]
     pub const fn through(self, on: bool, add: fn(&E, &mut Motion<R>, &mut Motion<R>)) -> Self {
-        if on & self.is_some {
-            Self::moving(add)
-        } else {
-            Self::NONE
-        }
+        if on & self.is_some { Self::moving(add) } else { Self::NONE }
     }
 }
 
@@ -257,22 +221,12 @@ pub struct Inertia<E, R: Real, const B: usize> {
 
 impl<E, R: Real, const B: usize> Inertia<E, R, B> {
     /// None.
-    pub const NONE: Self = Self {
-        add: None,
-        is_some: false,
-        bodies: [false; B],
-        no_body: None,
-    };
+    pub const NONE: Self = Self { add: None, is_some: false, bodies: [false; B], no_body: None };
 
     /// Adds to the inertia of the bodies that are marked, about the origin of a body's frame and in
     /// its coordinates; for others the hook is not called.
     pub const fn on(bodies: [bool; B], add: fn(&E, usize, &mut SpatialInertia<R>)) -> Self {
-        Self {
-            add: Some(add),
-            is_some: true,
-            bodies,
-            no_body: None,
-        }
+        Self { add: Some(add), is_some: true, bodies, no_body: None }
     }
 
     /// Adds to the inertia of one body; a scene in which the robot does not have it does not
@@ -305,14 +259,7 @@ impl<E, R: Real, const B: usize> Inertia<E, R, B> {
 
     #[doc(hidden)]
     pub const fn through(self, on: bool, add: fn(&E, usize, &mut SpatialInertia<R>)) -> Self {
-        if on & self.is_some {
-            Self {
-                add: Some(add),
-                ..self
-            }
-        } else {
-            Self::NONE
-        }
+        if on & self.is_some { Self { add: Some(add), ..self } } else { Self::NONE }
     }
 }
 
@@ -326,36 +273,23 @@ pub struct Rotor<E, R> {
 
 impl<E, R> Rotor<E, R> {
     /// No rotor that spins as a body.
-    pub const NONE: Self = Self {
-        add: None,
-        is_some: false,
-    };
+    pub const NONE: Self = Self { add: None, is_some: false };
 
     /// Adds to ρ I, the coupling of the rotor that spins on the parent link of a joint with what
     /// carries it, kg·m² or kg·m; [`inertia`](super::Effect::inertia) has its ρ² I. See
     /// [`GyroscopicRotors`](super::GyroscopicRotors).
     pub const fn coupling(add: fn(&E, usize, &mut R)) -> Self {
-        Self {
-            add: Some(add),
-            is_some: true,
-        }
+        Self { add: Some(add), is_some: true }
     }
 
     #[doc(hidden)]
     pub const fn with<F>(self, inner: &Rotor<F, R>) -> Self {
-        Self {
-            is_some: self.is_some | inner.is_some,
-            ..self
-        }
+        Self { is_some: self.is_some | inner.is_some, ..self }
     }
 
     #[doc(hidden)]
     pub const fn through(self, on: bool, add: fn(&E, usize, &mut R)) -> Self {
-        if on & self.is_some {
-            Self::coupling(add)
-        } else {
-            Self::NONE
-        }
+        if on & self.is_some { Self::coupling(add) } else { Self::NONE }
     }
 }
 

@@ -68,11 +68,7 @@ pub struct BodyState<R: Real> {
 
 impl<R: Real> BodyState<R> {
     /// In place and at rest, on a base that no effect moves.
-    pub const REST: Self = Self {
-        pose: Xform::IDENTITY,
-        velocity: Motion::ZERO,
-        base: None,
-    };
+    pub const REST: Self = Self { pose: Xform::IDENTITY, velocity: Motion::ZERO, base: None };
 }
 
 /// Derivatives of a motor's torque with respect to its joint's state.

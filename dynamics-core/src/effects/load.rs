@@ -100,10 +100,7 @@ where
 {
     // x + (−0.0) is x for every x, so that no addition is left in the machine code.
     let none = R::from_f64(-0.0);
-    let mut factors = LoadFactors {
-        magnitude: none,
-        torque: none,
-    };
+    let mut factors = LoadFactors { magnitude: none, torque: none };
     call_hook!(E::LOAD_FRICTION.factors, effects, joint, at, &mut factors);
     factors
 }

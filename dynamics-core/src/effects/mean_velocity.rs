@@ -16,10 +16,7 @@ pub(crate) struct AtMeanVelocity<'a, E, R, const V: usize> {
 impl<'a, E, R, const V: usize> AtMeanVelocity<'a, E, R, V> {
     /// The effects of a step that starts at these velocities.
     pub(crate) fn new(effects: &'a E, start: [R; V]) -> Self {
-        Self {
-            bodies: Bodies(effects),
-            joints: JointsAtStart { effects, start },
-        }
+        Self { bodies: Bodies(effects), joints: JointsAtStart { effects, start } }
     }
 }
 

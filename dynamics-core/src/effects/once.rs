@@ -47,10 +47,7 @@ impl Once {
     pub const NONE: Self = Self { named: 0, twice: 0 };
 
     pub(crate) const fn of(kind: Kind) -> Self {
-        Self {
-            named: 1 << kind as u32,
-            twice: 0,
-        }
+        Self { named: 1 << kind as u32, twice: 0 }
     }
 
     /// Those of a forwarder.

@@ -73,11 +73,7 @@ where
     const { Scene::<R, E, B, V>::OF_CORE };
     let (none, single) = const { (loads::<R, E, B, V>() == 0, loads::<R, E, B, V>() == 1) };
     // The number of a single load is a constant, with which the hook's own comparison is folded.
-    let body = if single {
-        const { only_load::<R, E, B, V>() }
-    } else {
-        i
-    };
+    let body = if single { const { only_load::<R, E, B, V>() } } else { i };
     if none || body != i || !(single || is_loaded::<R, E, B, V>(i)) {
         return link.inertia;
     }
@@ -113,19 +109,12 @@ where
     E: Effect<R, B, V>,
 {
     let (frame, mut fx) = (&link.to_joint_frame, Force::ZERO);
-    let mut at = BodyState {
-        pose: Xform::IDENTITY,
-        velocity: Motion::ZERO,
-        base: None,
-    };
+    let mut at = BodyState { pose: Xform::IDENTITY, velocity: Motion::ZERO, base: None };
     if E::BASE_MOTION && E::BODY_VELOCITY {
         at.base = Some(base_given(effects).0);
     }
     if E::BODY_POSE {
-        at.pose = Xform {
-            rot: frame.transpose() * pose.rot,
-            pos: pose.pos,
-        };
+        at.pose = Xform { rot: frame.transpose() * pose.rot, pos: pose.pos };
     }
     if E::BODY_VELOCITY {
         at.velocity = Motion::new(frame.transpose_mul(v.ang), frame.transpose_mul(v.lin));
@@ -141,10 +130,7 @@ pub(crate) fn joint_state<R: Real, const Q: usize, const V: usize>(
     state: &State<R, Q, V>,
     k: usize,
 ) -> JointState<R> {
-    JointState {
-        q: link.position(&state.q, k),
-        qd: entry(&state.qd, k),
-    }
+    JointState { q: link.position(&state.q, k), qd: entry(&state.qd, k) }
 }
 
 /// Adds to the torques of one joint's coordinates those of the effects, inertia times q̈ included.

@@ -26,9 +26,7 @@ impl<R: Real> Width<R> {
     /// The width of a speed or depth.
     #[cfg_attr(optimised, inline(always))]
     pub fn new(width: R) -> Self {
-        Self {
-            inverse: R::ONE / width.abs(),
-        }
+        Self { inverse: R::ONE / width.abs() }
     }
 
     /// The speed or depth, to a rounding.
@@ -46,17 +44,13 @@ impl<R: Real> Width<R> {
 impl Width<f32> {
     /// The width of a speed or depth that the compiler knows.
     pub const fn f32(width: f32) -> Self {
-        Self {
-            inverse: 1.0 / width.abs(),
-        }
+        Self { inverse: 1.0 / width.abs() }
     }
 }
 
 impl Width<f64> {
     /// The width of a speed or depth that the compiler knows.
     pub const fn f64(width: f64) -> Self {
-        Self {
-            inverse: 1.0 / width.abs(),
-        }
+        Self { inverse: 1.0 / width.abs() }
     }
 }

@@ -139,17 +139,11 @@ where
         let length_inv = Folded::constant(Tree::LENGTH_INV);
         let mut ia = Articulated::of(&Inertia::NONE);
         if let Some(inertia) = const {
-            only_if(
-                CompiledJoint::<Tree, I>::LAST == I,
-                Call::inertia::<I> as fn(_, _) -> _,
-            )
+            only_if(CompiledJoint::<Tree, I>::LAST == I, Call::inertia::<I> as fn(_, _) -> _)
         } {
             ia = Articulated::of(&inertia(self.call, false));
         }
-        let mut push = Wrench {
-            f: Vec3::ZERO,
-            n: Vec3::ZERO,
-        };
+        let mut push = Wrench { f: Vec3::ZERO, n: Vec3::ZERO };
         for_each_joint!(
             J,
             JointPair::<Tree, I, J>::IS_PARENT,
@@ -157,10 +151,7 @@ where
             {
                 let (inertia, wrench) = inward(self);
                 ia = ia + inertia;
-                push = Wrench {
-                    f: push.f + wrench.f,
-                    n: push.n + wrench.n,
-                };
+                push = Wrench { f: push.f + wrench.f, n: push.n + wrench.n };
             }
         );
         let own = ia.wrench_of(joint, length_inv);
@@ -177,15 +168,9 @@ where
         self.x[I] = rest.get();
 
         let gain = rest * Folded::runtime(d_inv);
-        push = Wrench {
-            f: push.f + f.scale(gain),
-            n: push.n + n.scale(gain),
-        };
+        push = Wrench { f: push.f + f.scale(gain), n: push.n + n.scale(gain) };
         let at = self.call.displacement::<I>();
-        (
-            ia.minus_joint(n, f, Folded::runtime(d_inv)).to_parent(&at),
-            push.to_parent(&at),
-        )
+        (ia.minus_joint(n, f, Folded::runtime(d_inv)).to_parent(&at), push.to_parent(&at))
     }
 
     /// The outward pass: the acceleration of joint I, from its parent's α and a.

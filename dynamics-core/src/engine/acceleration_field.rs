@@ -58,10 +58,7 @@ pub(crate) struct Wrench<R> {
 }
 
 impl<R: Real> Wrench<R> {
-    pub(crate) const ZERO: Self = Self {
-        f: Vec3::ZERO,
-        n: Vec3::ZERO,
-    };
+    pub(crate) const ZERO: Self = Self { f: Vec3::ZERO, n: Vec3::ZERO };
 
     /// The component along a joint's coordinate at the origin: N·m about its axis, or N along it.
     #[cfg_attr(optimised, inline(always))]
@@ -90,10 +87,7 @@ impl<R: Real> Wrench<R> {
     where
         Tree: Compiled,
     {
-        Self {
-            f: at.leave(self.f),
-            n: at.leave(self.n),
-        }
+        Self { f: at.leave(self.f), n: at.leave(self.n) }
     }
 
     /// The same in the frame of joint I's parent and about its origin, from the joint's frame.
@@ -106,10 +100,7 @@ impl<R: Real> Wrench<R> {
         Tree: Compiled,
     {
         let f = rotate_to_parent::<R, Tree, I>(self.f);
-        Self {
-            f,
-            n: rotate_to_parent::<R, Tree, I>(self.n) + offset_cross(f, at),
-        }
+        Self { f, n: rotate_to_parent::<R, Tree, I>(self.n) + offset_cross(f, at) }
     }
 }
 
@@ -117,57 +108,39 @@ impl<R: Real> Add for Wrench<R> {
     type Output = Self;
     #[cfg_attr(optimised, inline(always))]
     fn add(self, o: Self) -> Self {
-        Self {
-            f: self.f + o.f,
-            n: self.n + o.n,
-        }
+        Self { f: self.f + o.f, n: self.n + o.n }
     }
 }
 
 impl<R: Real> Inertia<R> {
     /// No body.
-    pub(crate) const NONE: Self = Self {
-        mass: Folded::ZERO,
-        moment: Vec3::ZERO,
-        second: Sym3::ZERO,
-    };
+    pub(crate) const NONE: Self =
+        Self { mass: Folded::ZERO, moment: Vec3::ZERO, second: Sym3::ZERO };
 
     /// The wrench of a unit acceleration along a joint's coordinate.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn wrench_of(&self, joint: &Joint, length_inv: Folded<R>) -> Wrench<R> {
         let (zero, [hx, hy, hz], s) = (Folded::ZERO, self.moment.0, &self.second);
         if joint.prismatic {
-            let (m, x, y, z) = (
-                self.mass * length_inv,
-                hx * length_inv,
-                hy * length_inv,
-                hz * length_inv,
-            );
+            let (m, x, y, z) =
+                (self.mass * length_inv, hx * length_inv, hy * length_inv, hz * length_inv);
             let (f, n) = match joint.axis {
                 0 => ([m, zero, zero], [zero, z, -y]),
                 1 => ([zero, m, zero], [-z, zero, x]),
                 _ => ([zero, zero, m], [y, -x, zero]),
             };
-            return Wrench {
-                f: Vec3(f),
-                n: Vec3(n),
-            };
+            return Wrench { f: Vec3(f), n: Vec3(n) };
         }
         let (f, n) = match joint.axis {
             0 => ([zero, -hz, hy], [s.yy + s.zz, -s.xy, -s.xz]),
             1 => ([hz, zero, -hx], [-s.xy, s.xx + s.zz, -s.yz]),
             _ => ([-hy, hx, zero], [-s.xz, -s.yz, s.xx + s.yy]),
         };
-        let turn = Wrench {
-            f: Vec3(f),
-            n: Vec3(n),
-        };
+        let turn = Wrench { f: Vec3(f), n: Vec3(n) };
         if matches!(joint.motion, JointMotion::Screw) {
             let pitch = Folded::constant(joint.pitch);
-            let slide = Wrench {
-                f: along_z(self.mass * pitch),
-                n: Vec3([hy, -hx, zero]).scale(pitch),
-            };
+            let slide =
+                Wrench { f: along_z(self.mass * pitch), n: Vec3([hy, -hx, zero]).scale(pitch) };
             return turn + slide;
         }
         turn
@@ -186,36 +159,24 @@ impl<R: Real> Inertia<R> {
     /// The inertia left to a body in M.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn in_matrix(joint: &Joint) -> Self {
-        Self {
-            second: Sym3::of(&Mat3::constant(&joint.matrix_second)),
-            ..Self::of(joint)
-        }
+        Self { second: Sym3::of(&Mat3::constant(&joint.matrix_second)), ..Self::of(joint) }
     }
 
     /// The inertia left to a body on a base that may move.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn second_moment_only(joint: &Joint) -> Self {
-        Self {
-            second: Sym3::of(&Mat3::constant(&joint.second_moment_only)),
-            ..Self::of(joint)
-        }
+        Self { second: Sym3::of(&Mat3::constant(&joint.second_moment_only)), ..Self::of(joint) }
     }
 
     /// The inertia that loaded base parameters leave to a body, which coordinate `by` moves; what
     /// is zero of every robot is a known zero.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn loaded(body: &RegroupedInertia<R>, by: &Joint, base_moves: bool) -> Self {
-        let ([x, y, z], [xx, xy, xz, yy, yz]) = (
-            body.moment.map(Folded::runtime),
-            body.second.map(Folded::runtime),
-        );
+        let ([x, y, z], [xx, xy, xz, yy, yz]) =
+            (body.moment.map(Folded::runtime), body.second.map(Folded::runtime));
         let (zero, mut second) = (Folded::ZERO, Sym3::ZERO);
         if by.prismatic {
-            return Self {
-                mass: Folded::runtime(body.mass),
-                moment: Vec3([x, y, z]),
-                second,
-            };
+            return Self { mass: Folded::runtime(body.mass), moment: Vec3([x, y, z]), second };
         }
         use JointMotion::*;
         if matches!(by.motion, Turn | Screw | Planar) && by.parent == BASE && !base_moves {
@@ -225,11 +186,7 @@ impl<R: Real> Inertia<R> {
             (second.xx, second.yy) = (xx, yy);
             (second.xy, second.xz, second.yz) = (xy, xz, yz);
         }
-        let mut left = Self {
-            mass: zero,
-            moment: Vec3([x, y, zero]),
-            second,
-        };
+        let mut left = Self { mass: zero, moment: Vec3([x, y, zero]), second };
         if matches!(by.motion, Screw | Planar | Free) {
             left.mass = Folded::runtime(body.mass);
         }
@@ -445,10 +402,7 @@ impl<R: Real> AccelerationField<R> {
             + Vec3([y.0[2] * syy, z.0[0] * szz, x.0[1] * sxx])
             - Vec3([x.0[1] * sxz, y.0[2] * sxy, z.0[0] * syz])
             - Vec3([z.0[1] * szz, x.0[2] * sxx, y.0[0] * syy]);
-        Wrench {
-            f: self.a.scale(mass) + self.u.mul(h),
-            n: h.cross(self.a) + n,
-        }
+        Wrench { f: self.a.scale(mass) + self.u.mul(h), n: h.cross(self.a) + n }
     }
 }
 
@@ -493,11 +447,7 @@ pub(crate) fn enter<R: Real, const TURNED: bool>(
     v: Vec3<R>,
 ) -> Vec3<R> {
     let v = rot.transpose_mul(v);
-    if TURNED {
-        v.turn_back(Folded::runtime(turn.sin), Folded::runtime(turn.cos))
-    } else {
-        v
-    }
+    if TURNED { v.turn_back(Folded::runtime(turn.sin), Folded::runtime(turn.cos)) } else { v }
 }
 
 /// A vector along the joint's axis.

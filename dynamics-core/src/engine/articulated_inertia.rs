@@ -39,17 +39,8 @@ impl<R: Real> Articulated<R> {
                 yz: -s.yz,
                 zz: s.xx + s.yy,
             },
-            coupling: Mat3([
-                Vec3([zero, z, -y]),
-                Vec3([-z, zero, x]),
-                Vec3([y, -x, zero]),
-            ]),
-            lin: Sym3 {
-                xx: m,
-                yy: m,
-                zz: m,
-                ..Sym3::ZERO
-            },
+            coupling: Mat3([Vec3([zero, z, -y]), Vec3([-z, zero, x]), Vec3([y, -x, zero])]),
+            lin: Sym3 { xx: m, yy: m, zz: m, ..Sym3::ZERO },
         }
     }
 
@@ -63,10 +54,8 @@ impl<R: Real> Articulated<R> {
                 n: column(self.coupling.0, axis).scale(length_inv),
             };
         }
-        let turn = Wrench {
-            f: column(self.coupling.rows(), axis),
-            n: column(self.ang.columns(), axis),
-        };
+        let turn =
+            Wrench { f: column(self.coupling.rows(), axis), n: column(self.ang.columns(), axis) };
         if matches!(joint.motion, JointMotion::Screw) {
             let pitch = Folded::constant(joint.pitch);
             let slide = Wrench {
@@ -115,11 +104,7 @@ impl<R: Real> Articulated<R> {
             yz: lz.0[1] + ry.0[2],
             zz: lz.0[2] + rz.0[2],
         };
-        Self {
-            ang: rotate_symmetric_to_parent::<R, Tree, I>(turned.ang) + shift,
-            coupling,
-            lin,
-        }
+        Self { ang: rotate_symmetric_to_parent::<R, Tree, I>(turned.ang) + shift, coupling, lin }
     }
 }
 
@@ -136,10 +121,6 @@ impl<R: Real> Add for Articulated<R> {
     type Output = Self;
     #[cfg_attr(optimised, inline(always))]
     fn add(self, o: Self) -> Self {
-        Self {
-            ang: self.ang + o.ang,
-            coupling: self.coupling + o.coupling,
-            lin: self.lin + o.lin,
-        }
+        Self { ang: self.ang + o.ang, coupling: self.coupling + o.coupling, lin: self.lin + o.lin }
     }
 }

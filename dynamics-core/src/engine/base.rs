@@ -46,12 +46,7 @@ where
         }
         if Effects::BASE_MOTION {
             let (mut velocity, mut acceleration) = (Motion::ZERO, Motion::ZERO);
-            call_hook!(
-                Effects::BASE.add,
-                self.effects,
-                &mut velocity,
-                &mut acceleration
-            );
+            call_hook!(Effects::BASE.add, self.effects, &mut velocity, &mut acceleration);
             field.omega = Vec3::runtime(velocity.ang);
             field.v = Vec3::runtime(velocity.lin).scale(Folded::constant(1.0 / length));
         }
@@ -99,11 +94,7 @@ fn accelerated<R: Real>(
     let (omega, velocity, alpha) = (field.omega, field.v, Vec3::runtime(a.ang));
     let ([ax, ay, az], zero) = (alpha.0, Folded::ZERO);
     field.alpha = alpha;
-    field.u = Mat3([
-        Vec3([zero, az, -ay]),
-        Vec3([-az, zero, ax]),
-        Vec3([ay, -ax, zero]),
-    ]);
+    field.u = Mat3([Vec3([zero, az, -ay]), Vec3([-az, zero, ax]), Vec3([ay, -ax, zero])]);
     field.a = field.a + Vec3::runtime(a.lin).scale(Folded::constant(1.0 / length));
     if products {
         field.omega_products = omega;

@@ -64,10 +64,8 @@ impl<T, K> Engine<T, K> {
         let mut joints = joints_of(robot, effects)?;
         let sizes = sizes::<R, T, Effects, B, Q, V>(robot, effects);
         let length = R::from_f64(CompiledRobot::<T, B, Q, V>::LENGTH);
-        let mut set = BaseParameters {
-            joints: [RegroupedInertia::default(); V],
-            robot: PhantomData,
-        };
+        let mut set =
+            BaseParameters { joints: [RegroupedInertia::default(); V], robot: PhantomData };
         for (body, size) in set.joints.iter_mut().zip(sizes) {
             body.size = size;
         }
@@ -89,10 +87,7 @@ impl<T, K> Engine<T, K> {
                 let mut links = robot.links();
                 let moved = links.find(|link| link.coordinates().any(|k| k == i));
                 return Err(moved.map_or(
-                    ModelError {
-                        body: T::MODEL.name,
-                        problem: Problem::NotFinite,
-                    },
+                    ModelError { body: T::MODEL.name, problem: Problem::NotFinite },
                     |link| error(&link, Problem::NotFinite),
                 ));
             }
@@ -131,11 +126,7 @@ where
 {
     let nothing = CompositeInertia::from(SpatialInertia::ZERO);
     let at_base = Xform::IDENTITY;
-    let mut joints = [Carried {
-        x: at_base,
-        inertia: nothing,
-        parent: BASE,
-    }; V];
+    let mut joints = [Carried { x: at_base, inertia: nothing, parent: BASE }; V];
     // The joint that each body moves with, and its frame relative to that joint's.
     let mut places = [(BASE, at_base); B];
     let described = &model::<R, T, B, Q, V>().links;
@@ -204,16 +195,10 @@ fn along_axis<R: Real>(
     let axis = rot.transpose_mul(R::Vec3::new(R::ZERO, R::ZERO, R::ONE));
     let along = axis.dot(pos);
     if let Some(joint) = joints.get_mut(i) {
-        joint.x = Xform {
-            rot,
-            pos: pos - axis * along,
-        };
+        joint.x = Xform { rot, pos: pos - axis * along };
         joint.parent = parent;
     }
-    Xform {
-        pos: R::Vec3::new(R::ZERO, R::ZERO, along),
-        ..Xform::IDENTITY
-    }
+    Xform { pos: R::Vec3::new(R::ZERO, R::ZERO, along), ..Xform::IDENTITY }
 }
 
 /// What regrouping leaves to a body behind a joint, in units of length, and what its parent
@@ -295,8 +280,5 @@ where
 }
 
 fn error<R: Real>(link: &LinkView<'_, R>, problem: Problem) -> ModelError {
-    ModelError {
-        body: link.name,
-        problem,
-    }
+    ModelError { body: link.name, problem }
 }

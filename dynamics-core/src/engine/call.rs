@@ -59,11 +59,7 @@ impl<'a, R: Real, Tree: Compiled, Effects, const B: usize, const Q: usize, const
 {
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn new(turns: &'a [JointCoordinate<R>; Q], effects: &'a Effects) -> Self {
-        Self {
-            turns,
-            effects,
-            robot: PhantomData,
-        }
+        Self { turns, effects, robot: PhantomData }
     }
 
     /// The same under other effects.

@@ -205,10 +205,7 @@ where
     #[cfg_attr(optimised, inline(always))]
     fn centroidal_matrix(self) -> [Force<R>; V] {
         let mut columns = [Force::ZERO; V];
-        let mut pass = Columns::<R, Tree, Effects, B, Q, V> {
-            call: self,
-            columns: &mut columns,
-        };
+        let mut pass = Columns::<R, Tree, Effects, B, Q, V> { call: self, columns: &mut columns };
         let moving = sweep(&mut pass, &Pose::BASE);
         let all = moving + fixed(Remainder::<Tree, B, V>::AT_BASE);
         let (centre, _) = centre(all.mass, all.moment, Tree::LENGTH);

@@ -124,10 +124,7 @@ where
         };
         let (mut body, mut spin) = (Inertia::NONE, Folded::ZERO);
         if let Some(inertia) = const {
-            only_if(
-                CompiledJoint::<Tree, I>::LAST == I,
-                Call::matrix_inertia::<I> as fn(_) -> _,
-            )
+            only_if(CompiledJoint::<Tree, I>::LAST == I, Call::matrix_inertia::<I> as fn(_) -> _)
         } {
             (body, spin) = inertia(self.call);
         }
@@ -224,8 +221,5 @@ where
 /// wrench may be turned in either order. The axes of planar, spherical and free joints turn with
 /// the body.
 const fn keeps_axis(motion: JointMotion) -> bool {
-    matches!(
-        motion,
-        JointMotion::Turn | JointMotion::Slide | JointMotion::Screw
-    )
+    matches!(motion, JointMotion::Turn | JointMotion::Slide | JointMotion::Screw)
 }

@@ -206,10 +206,7 @@ impl<R: Real, Tree: Compiled, const I: usize> Displacement<R, Tree, I> {
 
     #[cfg_attr(optimised, inline(always))]
     fn sin_cos(&self) -> (Folded<R>, Folded<R>) {
-        (
-            Folded::runtime(self.turn.sin),
-            Folded::runtime(self.turn.cos),
-        )
+        (Folded::runtime(self.turn.sin), Folded::runtime(self.turn.cos))
     }
 }
 
@@ -238,11 +235,7 @@ pub(crate) fn cross_offset<R: Real, Tree, const I: usize>(
 where
     Tree: Compiled,
 {
-    Mat3([
-        offset_cross(x, at),
-        offset_cross(y, at),
-        offset_cross(z, at),
-    ])
+    Mat3([offset_cross(x, at), offset_cross(y, at), offset_cross(z, at)])
 }
 
 /// The position of the number `k`.

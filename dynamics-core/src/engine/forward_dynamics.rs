@@ -108,23 +108,15 @@ where
     /// C(q, q̇), the torque at q̈ = 0.
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn bias(self, state: &State<R, Q, V>) -> [R; V] {
-        let unaccelerated = Call {
-            turns: self.turns,
-            effects: &Bias(self.effects),
-            robot: self.robot,
-        };
+        let unaccelerated =
+            Call { turns: self.turns, effects: &Bias(self.effects), robot: self.robot };
         unaccelerated.torques(self.turns, state)
     }
 
     /// τ − C(q, q̇), the torque that is left to accelerate.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn remaining(self, state: &State<R, Q, V>, tau: &[R; V]) -> [R; V] {
-        const {
-            assert!(
-                Effects::ACCELERATIONS,
-                "forward dynamics needs `Inertia` in the scene"
-            )
-        };
+        const { assert!(Effects::ACCELERATIONS, "forward dynamics needs `Inertia` in the scene") };
         let bias = self.bias(state);
         let mut rest = Self::behind_gears(self.effects, state, tau);
         for_each_joint!(J, {

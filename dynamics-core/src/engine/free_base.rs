@@ -157,19 +157,14 @@ struct FreeScene<R, Effects, const B: usize, const V: usize>(PhantomData<(R, Eff
 impl<R: Real, Effects: Effect<R, B, V>, const B: usize, const V: usize>
     FreeScene<R, Effects, B, V>
 {
-    const TAKEN: () = assert!(
-        !Effects::GYROSCOPIC_ROTORS,
-        "no rotors that spin as bodies here; name `Armature`"
-    );
+    const TAKEN: () =
+        assert!(!Effects::GYROSCOPIC_ROTORS, "no rotors that spin as bodies here; name `Armature`");
 }
 
 /// The force on the base whose components are the first coordinates.
 #[cfg_attr(optimised, inline(always))]
 fn first<R: Real, const V: usize>(tau: &[R; V]) -> Force<R> {
-    Force::new(
-        R::Vec3::new(tau[0], tau[1], tau[2]),
-        R::Vec3::new(tau[3], tau[4], tau[5]),
-    )
+    Force::new(R::Vec3::new(tau[0], tau[1], tau[2]), R::Vec3::new(tau[3], tau[4], tau[5]))
 }
 
 /// The motion of the base that the force `lacking` gives all bodies, which is added to its rates.

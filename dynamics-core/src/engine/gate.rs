@@ -35,10 +35,7 @@ where
 {
     meaning::<R, Effects, B, V>();
     are_of::<R, Effects, B, V>(T::MODEL.name);
-    assert!(
-        V <= 64,
-        "the engine takes up to 64 velocity coordinates; use `Core`"
-    );
+    assert!(V <= 64, "the engine takes up to 64 velocity coordinates; use `Core`");
 }
 
 /// [`Engine::scene_f32`] and [`Engine::scene_f64`].

@@ -59,12 +59,7 @@ impl<T, K> Engine<T, K> {
         Effects: Effect<R, B, V>,
     {
         scene_is_taken!();
-        const {
-            assert!(
-                Effects::ACCELERATIONS,
-                "forward dynamics needs `Inertia` in the scene"
-            )
-        };
+        const { assert!(Effects::ACCELERATIONS, "forward dynamics needs `Inertia` in the scene") };
         let configuration = state.configuration();
         let trig = configuration.trig_or(Self::trig_source());
         let call = Call {
@@ -115,10 +110,7 @@ where
                 let rest = transmitted(self.effects, J, at, tau[J]) - bias[J] - held[J];
                 qdd[J] = R::either(free[J], rest, qdd[J]);
                 if let Some(hold) = const {
-                    only_if(
-                        J < V,
-                        hold::<R, Tree, V, J> as fn(&mut [[R; V]; V], &[bool; V]),
-                    )
+                    only_if(J < V, hold::<R, Tree, V, J> as fn(&mut [[R; V]; V], &[bool; V]))
                 } {
                     hold(&mut rows, &free);
                 }
@@ -162,10 +154,7 @@ fn times<R: Real, Tree: Compiled, const V: usize>(m: &MassMatrix<R, V>, x: &[R; 
     for_each_joint!(J, {
         if Index::<J, V>::IS_BELOW
             && let Some(row) = const {
-                only_if(
-                    J < V,
-                    row::<R, Tree, V, J> as fn(&MassMatrix<R, V>, &[R; V]) -> R,
-                )
+                only_if(J < V, row::<R, Tree, V, J> as fn(&MassMatrix<R, V>, &[R; V]) -> R)
             }
         {
             product[J] = row(m, x);

@@ -32,10 +32,7 @@ pub(crate) struct Twist<R> {
 }
 
 impl<R: Real> Twist<R> {
-    pub(crate) const ZERO: Self = Self {
-        ang: Vec3::ZERO,
-        lin: Vec3::ZERO,
-    };
+    pub(crate) const ZERO: Self = Self { ang: Vec3::ZERO, lin: Vec3::ZERO };
 
     /// The motion of a joint's body at this rate of its coordinate.
     #[cfg_attr(optimised, inline(always))]
@@ -61,10 +58,7 @@ impl<R: Real> Twist<R> {
         let joint = CompiledJoint::<Tree, I>::JOINT;
         let rot = Mat3::constant(&joint.rot);
         let p = Vec3::constant(joint.pos) + at.shift();
-        Self {
-            ang: at.enter(&rot, self.ang),
-            lin: at.enter(&rot, self.lin + self.ang.cross(p)),
-        }
+        Self { ang: at.enter(&rot, self.ang), lin: at.enter(&rot, self.lin + self.ang.cross(p)) }
     }
 
     /// The motion of joint I, a planar, spherical or free one, of all `rates`; zero unless it is
@@ -84,20 +78,13 @@ impl<R: Real> Twist<R> {
             JointMotion::Spherical => (three(rates, I, needed), [zero; 3]),
             _ => (three(rates, I, needed), three(rates, I + 3, needed)),
         };
-        Self {
-            ang: Vec3(ang),
-            lin: Vec3(lin).scale(length_inv),
-        }
+        Self { ang: Vec3(ang), lin: Vec3(lin).scale(length_inv) }
     }
 }
 
 #[cfg_attr(optimised, inline(always))]
 fn three<R: Real, const V: usize>(rates: &[R; V], first: usize, needed: bool) -> [Folded<R>; 3] {
-    [
-        rate(rates, first, needed),
-        rate(rates, first + 1, needed),
-        rate(rates, first + 2, needed),
-    ]
+    [rate(rates, first, needed), rate(rates, first + 1, needed), rate(rates, first + 2, needed)]
 }
 
 #[cfg_attr(optimised, inline(always))]

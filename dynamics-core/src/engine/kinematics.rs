@@ -218,19 +218,12 @@ impl<T, K> Engine<T, K> {
         let _ = frame;
         let configuration = state.configuration();
         let trig = configuration.trig_or(Self::trig_source());
-        let coasting = State {
-            qdd: [R::ZERO; V],
-            ..*state.state()
-        };
-        let Kinematics {
-            poses: [pose],
-            velocities: [v],
-            accelerations: [a],
-        } = Self::call(trig.borrow(), &()).walk::<_, 1, true>(
-            &coasting,
-            &AccelerationField::RESTING,
-            body,
-        );
+        let coasting = State { qdd: [R::ZERO; V], ..*state.state() };
+        let Kinematics { poses: [pose], velocities: [v], accelerations: [a] } = Self::call(
+            trig.borrow(),
+            &(),
+        )
+        .walk::<_, 1, true>(&coasting, &AccelerationField::RESTING, body);
         F::express(&pose, a) + F::classical_term(F::express(&pose, v))
     }
 }
@@ -241,11 +234,7 @@ impl<R: Real, Tree: Compiled, Effects, const B: usize, const Q: usize, const V: 
     /// The poses of the bodies of the list.
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn poses<List: Bodies<N>, const N: usize>(self, bodies: List) -> [Pose<R>; N] {
-        let resting = State {
-            q: [R::ZERO; Q],
-            qd: [R::ZERO; V],
-            qdd: [R::ZERO; V],
-        };
+        let resting = State { q: [R::ZERO; Q], qd: [R::ZERO; V], qdd: [R::ZERO; V] };
         let base = AccelerationField::RESTING;
         self.walk::<List, N, false>(&resting, &base, bodies).poses
     }
@@ -373,10 +362,7 @@ fn motion_of<R: Real>(
     let v = field.v + field.omega.cross(pos);
     // The field is of classical accelerations; RBDA (2.47).
     let a = field.a + field.u.mul(pos) - field.omega.cross(v);
-    let pose = Pose {
-        rot: x.rot.transpose(),
-        pos: x.pos,
-    };
+    let pose = Pose { rot: x.rot.transpose(), pos: x.pos };
     let (v, a) = (v.scale(length), a.scale(length));
     (pose, own(&rot, field.omega, v), own(&rot, field.alpha, a))
 }

@@ -248,11 +248,7 @@ fn loaded_again<'a, R: Real, State: RobotState<R, Q, V>, const Q: usize, const V
     _: &State,
     trig: &'a JointTrig<R, Q>,
 ) -> &'a JointTrig<R, Q> {
-    if const { State::Configuration::PRECOMPUTED } {
-        black_box(trig)
-    } else {
-        trig
-    }
+    if const { State::Configuration::PRECOMPUTED } { black_box(trig) } else { trig }
 }
 
 /// [`Engine::joint_trig`] of a robot of B bodies and V velocity coordinates.

@@ -123,22 +123,12 @@ where
         state: &State<R, Q, V>,
     ) -> MomentumAndDrift<R, V> {
         // A constant, for the order of the sines: see `torques` of `rnea`.
-        let mut result = const {
-            MomentumAndDrift {
-                p: [R::ZERO; V],
-                beta: [R::ZERO; V],
-            }
-        };
+        let mut result = const { MomentumAndDrift { p: [R::ZERO; V], beta: [R::ZERO; V] } };
         let mut base = self.unaccelerated();
         if !DRIFT {
             base.a = Vec3::ZERO;
         }
-        let mut task = Task {
-            call: self,
-            back,
-            state,
-            result: &mut result,
-        };
+        let mut task = Task { call: self, back, state, result: &mut result };
         for_each_joint!(
             J,
             CompiledJoint::<Tree, J>::IS_ON_BASE,
@@ -188,20 +178,14 @@ where
             body.pose = parent.pose.transformed_by(&at);
         }
 
-        let mut inner = Carried {
-            h: Wrench::ZERO,
-            load: Wrench::ZERO,
-        };
+        let mut inner = Carried { h: Wrench::ZERO, load: Wrench::ZERO };
         for_each_joint!(
             J,
             JointPair::<Tree, I, J>::IS_CHILD,
             visit = Self::visit::<DRIFT, J> as fn(&mut _, &_) -> Carried<R>,
             {
                 let child = visit(self, &body);
-                inner = Carried {
-                    h: inner.h + child.h,
-                    load: inner.load + child.load,
-                };
+                inner = Carried { h: inner.h + child.h, load: inner.load + child.load };
             }
         );
 
@@ -242,10 +226,7 @@ where
         let at = at.with_turn(turn);
         let spin = self.call.coupling::<I>() * Folded::runtime(self.state.qd[I]);
         let h = self.call.borne(h, along_z(spin));
-        Carried {
-            h: h.to_parent(&at),
-            load: load.to_parent(&at),
-        }
+        Carried { h: h.to_parent(&at), load: load.to_parent(&at) }
     }
 
     /// The velocities of the body behind joint I.
@@ -307,9 +288,7 @@ where
     fn hold<const I: usize>(&mut self, load: &Wrench<R>) {
         let length_inv = Folded::constant(Tree::LENGTH_INV);
         let at = self.call.joint_state::<I>(self.state);
-        let mut held = load
-            .along(CompiledJoint::<Tree, I>::JOINT, length_inv)
-            .get();
+        let mut held = load.along(CompiledJoint::<Tree, I>::JOINT, length_inv).get();
         self.call.effects.torque(I, at, &mut held);
         self.result.beta[I] -= held;
     }
@@ -331,10 +310,7 @@ where
     #[cfg_attr(optimised, inline(always))]
     fn rate<const I: usize>(body: &AccelerationField<R>, h: &Wrench<R>) -> Folded<R> {
         let length_inv = Folded::constant(Tree::LENGTH_INV);
-        if matches!(
-            CompiledJoint::<Tree, I>::MOTION,
-            JointMotion::Turn | JointMotion::Slide
-        ) {
+        if matches!(CompiledJoint::<Tree, I>::MOTION, JointMotion::Turn | JointMotion::Slide) {
             let ([wx, wy, _], [vx, vy, _]) = (body.omega.0, body.v.0);
             let ([fx, fy, _], [nx, ny, _]) = (h.f.0, h.n.0);
             return if CompiledJoint::<Tree, I>::PRISMATIC {
@@ -343,10 +319,8 @@ where
                 wy * nx - wx * ny + (vy * fx - vx * fy)
             };
         }
-        let back = Wrench {
-            f: h.f.cross(body.omega),
-            n: h.n.cross(body.omega) + h.f.cross(body.v),
-        };
+        let back =
+            Wrench { f: h.f.cross(body.omega), n: h.n.cross(body.omega) + h.f.cross(body.v) };
         back.along(CompiledJoint::<Tree, I>::JOINT, length_inv)
     }
 }

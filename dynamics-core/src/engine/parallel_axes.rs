@@ -70,10 +70,7 @@ impl<R: Real> Felt<R> {
         at: &Displacement<R, Tree, I>,
     ) -> Wrench<R> {
         let [hx, hy, _] = at.leave(self.moment).0;
-        Wrench {
-            f: Vec3([-hy, hx, Folded::ZERO]),
-            n: along_z(self.about),
-        }
+        Wrench { f: Vec3([-hy, hx, Folded::ZERO]), n: along_z(self.about) }
     }
 
     /// The same sums in the frame of joint I's parent and about its origin; `root` is in that

@@ -31,11 +31,7 @@ struct Size {
     second: f64,
 }
 
-const NOTHING: Size = Size {
-    mass: 0.0,
-    moment: 0.0,
-    second: 0.0,
-};
+const NOTHING: Size = Size { mass: 0.0, moment: 0.0, second: 0.0 };
 
 /// Carries the constants of a robot.
 struct Sizes<Tree, const B: usize, const V: usize>(core::marker::PhantomData<Tree>);
@@ -137,9 +133,7 @@ impl Singular {
     pub(crate) fn outermost(self) -> Result<(), NotPositiveDefinite> {
         match self.0.checked_ilog2() {
             None => Ok(()),
-            Some(joint) => Err(NotPositiveDefinite {
-                joint: joint as usize,
-            }),
+            Some(joint) => Err(NotPositiveDefinite { joint: joint as usize }),
         }
     }
 }
@@ -183,11 +177,7 @@ where
     const fn is_certain(i: usize) -> bool {
         let joint = joint::<Tree>(i);
         let size = Sizes::<Tree, B, V>::of(i);
-        let most = if joint.prismatic {
-            size.mass
-        } else {
-            size.second
-        };
+        let most = if joint.prismatic { size.mass } else { size.second };
         // The rounding errors of f32, and as much again for those of the pivot.
         let noise = 2.0 * ROUNDINGS * f32::EPSILON as f64 * most + f32::MIN_POSITIVE as f64;
         joint.parent != BASE

@@ -53,12 +53,7 @@ where
         tau: &mut [R; V],
     ) {
         let base = self.base();
-        let mut task = Task {
-            call: self,
-            back,
-            state,
-            tau,
-        };
+        let mut task = Task { call: self, back, state, tau };
         for_each_joint!(
             J,
             const {
@@ -115,10 +110,7 @@ where
             visit = Self::visit_child::<I, J> as fn(&mut _, &_) -> Wrench<R>,
             {
                 let child = visit(self, &field);
-                total = Wrench {
-                    f: total.f + child.f,
-                    n: total.n + child.n,
-                };
+                total = Wrench { f: total.f + child.f, n: total.n + child.n };
             }
         );
 
@@ -128,10 +120,7 @@ where
             let couple = self.spin::<I>(&field);
             total = self.call.borne(total, couple);
         } else if let Some(drive) = const {
-            only_if(
-                CompiledJoint::<Tree, I>::COUNT > 1,
-                Self::drive_several::<I> as fn(&mut _, &_),
-            )
+            only_if(CompiledJoint::<Tree, I>::COUNT > 1, Self::drive_several::<I> as fn(&mut _, &_))
         } {
             drive(self, &total);
         }
@@ -139,11 +128,8 @@ where
         if const { Self::is_round::<I>() } {
             return total.turned_to_parent(&at);
         }
-        let turn = if Tree::LOADS_SINES_AGAIN {
-            self.back[CompiledJoint::<Tree, I>::Q]
-        } else {
-            at.turn
-        };
+        let turn =
+            if Tree::LOADS_SINES_AGAIN { self.back[CompiledJoint::<Tree, I>::Q] } else { at.turn };
         total.to_parent(&at.with_turn(turn))
     }
 
@@ -209,9 +195,7 @@ where
     pub(super) fn drive<const I: usize>(&mut self, total: &Wrench<R>) {
         let at = self.call.joint_state::<I>(self.state);
         let length_inv = Folded::constant(Tree::LENGTH_INV);
-        let mut tau = total
-            .along(CompiledJoint::<Tree, I>::JOINT, length_inv)
-            .get();
+        let mut tau = total.along(CompiledJoint::<Tree, I>::JOINT, length_inv).get();
         self.call.effects.torque(I, at, &mut tau);
         if let Some(inertia) = self.call.effects.inertia(I) {
             tau += inertia * self.state.qdd[I];
@@ -372,10 +356,7 @@ where
             if JointPair::<Tree, I, K>::HAS_BODY {
                 let (body, place) = JointPair::<Tree, I, K>::BODY;
                 let fx = self.exerted(*body, place, field);
-                total = Wrench {
-                    f: total.f - fx.f,
-                    n: total.n - fx.n,
-                };
+                total = Wrench { f: total.f - fx.f, n: total.n - fx.n };
             }
         });
         total
@@ -391,19 +372,10 @@ where
     ) -> Wrench<R> {
         let length = Folded::constant(Tree::LENGTH);
         let (rot, pos) = (Mat3::constant(&place.rot), Vec3::constant(place.pos));
-        let mut at = BodyState {
-            pose: Xform::IDENTITY,
-            velocity: Motion::ZERO,
-            base: None,
-        };
+        let mut at = BodyState { pose: Xform::IDENTITY, velocity: Motion::ZERO, base: None };
         if Effects::BASE_MOTION && Effects::BODY_VELOCITY {
             let (mut base, mut acceleration) = (Motion::ZERO, Motion::ZERO);
-            call_hook!(
-                Effects::BASE.add,
-                self.effects,
-                &mut base,
-                &mut acceleration
-            );
+            call_hook!(Effects::BASE.add, self.effects, &mut base, &mut acceleration);
             at.base = Some(base);
         }
         if Effects::BODY_VELOCITY {

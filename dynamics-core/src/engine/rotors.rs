@@ -73,10 +73,7 @@ where
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn borne(self, carried: Wrench<R>, couple: Vec3<R>) -> Wrench<R> {
         if Effects::GYROSCOPIC_ROTORS {
-            Wrench {
-                f: carried.f,
-                n: carried.n + couple,
-            }
+            Wrench { f: carried.f, n: carried.n + couple }
         } else {
             carried
         }

@@ -73,10 +73,7 @@ where
             pose: [x, y, z, parent.pose.origin].map(Vec3::get),
         };
         let [f, n] = self.child_subtree::<J>(&field);
-        Wrench {
-            f: Vec3::runtime(f),
-            n: Vec3::runtime(n),
-        }
+        Wrench { f: Vec3::runtime(f), n: Vec3::runtime(n) }
     }
 
     #[inline(never)]
@@ -89,17 +86,10 @@ where
             omega: runtime_if(Effects::BODY_VELOCITY, omega),
             omega_products: runtime_if(Effects::VELOCITY_PRODUCTS, omega_products),
             alpha: runtime_if(moves, alpha),
-            u: Mat3([
-                runtime_if(moves, ux),
-                runtime_if(moves, uy),
-                runtime_if(moves, uz),
-            ]),
+            u: Mat3([runtime_if(moves, ux), runtime_if(moves, uy), runtime_if(moves, uz)]),
             a: runtime_if(moves | Effects::FIELD, a),
             v: runtime_if(Effects::BODY_VELOCITY, v),
-            pose: Pose {
-                axes: Mat3([x, y, z]),
-                origin,
-            },
+            pose: Pose { axes: Mat3([x, y, z]), origin },
         };
         let wrench = self.visit::<J>(&field);
         [wrench.f.get(), wrench.n.get()]

@@ -53,13 +53,7 @@ where
     #[cfg_attr(optimised, inline(always))]
     fn torque_rates(self, state: &State<R, Q, V>, [jerk, snap]: [&[R; V]; 2]) -> [[R; 3]; V] {
         let mut tau = [[R::ZERO; 3]; V];
-        let mut task = Task {
-            call: self,
-            state,
-            jerk,
-            snap,
-            tau: &mut tau,
-        };
+        let mut task = Task { call: self, state, jerk, snap, tau: &mut tau };
         let base = Field::at_rest(self.unaccelerated().a);
         for_each_joint!(
             J,
@@ -78,10 +72,7 @@ const fn takes_elastic_joints<Tree: Compiled>() {
     let mut i = 0;
     while i < Tree::JOINTS.len() {
         assert!(
-            matches!(
-                Tree::JOINTS[i].motion,
-                JointMotion::Turn | JointMotion::Slide
-            ),
+            matches!(Tree::JOINTS[i].motion, JointMotion::Turn | JointMotion::Slide),
             "the engine takes elastic joints that are revolute or prismatic; use `Core`"
         );
         i += 1;
@@ -110,10 +101,7 @@ where
     fn visit<const I: usize>(&mut self, parent: &Field<R>) -> WrenchSeries<R> {
         let joint = CompiledJoint::<Tree, I>::JOINT;
         let (half, length_inv) = (R::from_f64(0.5), Folded::constant(Tree::LENGTH_INV));
-        let (at, qdd) = (
-            JointState::new(self.state.q[I], self.state.qd[I]),
-            self.state.qdd[I],
-        );
+        let (at, qdd) = (JointState::new(self.state.q[I], self.state.qd[I]), self.state.qdd[I]);
         let (jerk, snap) = (self.jerk[I], self.snap[I]);
         let turn = Turn::new(self.call.turns[I], at.qd, qdd);
         let slide = Series::runtime([self.call.turns[I].q, at.qd, half * qdd]).times(length_inv);
@@ -136,18 +124,11 @@ where
             visit = Self::visit::<J> as fn(&mut _, &_) -> WrenchSeries<R>,
             {
                 let child = visit(self, &field);
-                total = WrenchSeries {
-                    f: total.f + child.f,
-                    n: total.n + child.n,
-                };
+                total = WrenchSeries { f: total.f + child.f, n: total.n + child.n };
             }
         );
 
-        let along = if joint.prismatic {
-            total.f.z().times(length_inv)
-        } else {
-            total.n.z()
-        };
+        let along = if joint.prismatic { total.f.z().times(length_inv) } else { total.n.z() };
         let [tau, rate, half_accel] = along.0.map(Folded::get);
         let mut rates = [tau, rate, half_accel + half_accel];
         add_joint_torque_rates(self.call.effects, I, at, [qdd, jerk, snap], &mut rates);
@@ -263,10 +244,7 @@ impl<R: Real> Field<R> {
         let w0 = wrench(body, a0, u0, s0);
         let w1 = wrench(body, a1, u1, s1);
         let w2 = wrench(body, a2, u2, s2);
-        WrenchSeries {
-            f: Series([w0.f, w1.f, w2.f]),
-            n: Series([w0.n, w1.n, w2.n]),
-        }
+        WrenchSeries { f: Series([w0.f, w1.f, w2.f]), n: Series([w0.n, w1.n, w2.n]) }
     }
 }
 
@@ -296,10 +274,7 @@ fn wrench<R: Real>(body: &Inertia<R>, a: Vec3<R>, u: &Mat3<R>, squares: &Sym3<R>
         + Vec3([y.0[2] * m.yy, z.0[0] * m.zz, x.0[1] * m.xx])
         - Vec3([x.0[1] * m.xz, y.0[2] * m.xy, z.0[0] * m.yz])
         - Vec3([z.0[1] * m.zz, x.0[2] * m.xx, y.0[0] * m.yy]);
-    Wrench {
-        f: a.scale(body.mass) + u.mul(body.moment),
-        n: body.moment.cross(a) + n,
-    }
+    Wrench { f: a.scale(body.mass) + u.mul(body.moment), n: body.moment.cross(a) + n }
 }
 
 /// A force f at the origin and a couple n: the components' polynomials in time.
@@ -316,10 +291,7 @@ impl<R: Real> WrenchSeries<R> {
     #[cfg_attr(optimised, inline(always))]
     fn finished(self) -> Self {
         let (f, n) = black_box((self.f.0.map(Vec3::get), self.n.0.map(Vec3::get)));
-        Self {
-            f: Series(f.map(Vec3::runtime)),
-            n: Series(n.map(Vec3::runtime)),
-        }
+        Self { f: Series(f.map(Vec3::runtime)), n: Series(n.map(Vec3::runtime)) }
     }
 
     /// The same in the frame of joint I's parent and about its origin.

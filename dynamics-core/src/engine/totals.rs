@@ -49,10 +49,7 @@ impl<R: Real> Totals<R> {
     fn carrying(self, inner: Self, omega: Vec3<R>) -> Self {
         let along = omega.dot(inner.spin);
         let sum = self + inner;
-        Self {
-            twice: sum.twice + along + along,
-            ..sum
-        }
+        Self { twice: sum.twice + along + along, ..sum }
     }
 
     /// The centre of mass, m; the base's origin if there is no mass. And 1/m, 1/kg; then zero.
@@ -67,11 +64,7 @@ impl<R: Real> Totals<R> {
 #[cfg_attr(optimised, inline(always))]
 pub(super) fn centre<R: Real>(mass: Folded<R>, moment: Vec3<R>, length: f64) -> (R::Vec3, R) {
     let mass = (mass * Folded::constant(1.0 / (length * length))).get();
-    let mass_inv = if mass > R::ZERO {
-        R::ONE / mass
-    } else {
-        R::ZERO
-    };
+    let mass_inv = if mass > R::ZERO { R::ONE / mass } else { R::ZERO };
     let moment = moment.scale(Folded::constant(1.0 / length)).get();
     (moment * mass_inv, mass_inv)
 }
@@ -87,10 +80,7 @@ where
     /// fixed to the base. With WHOLE, of which the momentum needs all of Σ.
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn totals<const WHOLE: bool>(self, qd: Option<&[R; V]>) -> Totals<R> {
-        let mut base = AccelerationField {
-            pose: Pose::UNKNOWN,
-            ..AccelerationField::RESTING
-        };
+        let mut base = AccelerationField { pose: Pose::UNKNOWN, ..AccelerationField::RESTING };
         let moves = Effects::BASE_MOTION && qd.is_some();
         if moves {
             let (v, _) = base_given(self.effects);
@@ -198,11 +188,7 @@ where
             rotor.n = along_z(spin);
         }
         let at = self.call.displacement::<I>();
-        let mass = Inertia {
-            mass: here.mass,
-            moment: here.moment,
-            second: Sym3::ZERO,
-        };
+        let mass = Inertia { mass: here.mass, moment: here.moment, second: Sym3::ZERO };
         let (mass, rotor) = (mass.to_parent(&at), rotor.to_parent(&at));
         Totals {
             mass: mass.mass,

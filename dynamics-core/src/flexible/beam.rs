@@ -210,12 +210,7 @@ impl Beam {
             Shape::BendZ(_) => ([0.0, 0.0, 1.0], [0.0, -slope, 0.0]),
             Shape::Twist(_) => ([0.0; 3], [1.0, 0.0, 0.0]),
         };
-        Ok(Field {
-            line: Some(line),
-            shift,
-            turn,
-            omega: unit,
-        })
+        Ok(Field { line: Some(line), shift, turn, omega: unit })
     }
 
     /// The integrals of one shape.
@@ -230,11 +225,7 @@ impl Beam {
             k += 1;
         }
         let (rho, [mass, inertia], [yy, zz]) = (self.mass_per_length, self.tip, self.sections);
-        let mut mode = Mode {
-            shift: field.shift,
-            turn: field.turn,
-            ..Mode::ZERO
-        };
+        let mut mode = Mode { shift: field.shift, turn: field.turn, ..Mode::ZERO };
         let mut i = 0;
         while i < 3 {
             mode.momentum[i] = (rho * zeroth + mass) * field.shift[i];
@@ -293,12 +284,7 @@ struct Field {
 }
 
 impl Field {
-    const NONE: Self = Self {
-        line: None,
-        shift: [0.0; 3],
-        turn: [0.0; 3],
-        omega: 0.0,
-    };
+    const NONE: Self = Self { line: None, shift: [0.0; 3], turn: [0.0; 3], omega: 0.0 };
 
     const fn is_twist(&self) -> bool {
         self.turn[0] != 0.0

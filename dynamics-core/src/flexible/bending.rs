@@ -104,13 +104,7 @@ impl<T, K> Bending<Core<T, K>> {
         E: Effect<R, B, V>,
     {
         const { Scene::<R, E, B, V>::OF_CORE };
-        rnea(
-            &Static::<T, K>::NEW,
-            R::modes::<T, B, Q, V, M>(),
-            state,
-            bent,
-            effects,
-        )
+        rnea(&Static::<T, K>::NEW, R::modes::<T, B, Q, V, M>(), state, bent, effects)
     }
 
     /// The inertia M(q, η) of joints and modes: see [`crba`](super::crba()).
@@ -127,13 +121,7 @@ impl<T, K> Bending<Core<T, K>> {
         E: Effect<R, B, V>,
     {
         const { Scene::<R, E, B, V>::OF_CORE };
-        crba(
-            &Static::<T, K>::NEW,
-            R::modes::<T, B, Q, V, M>(),
-            q,
-            eta,
-            effects,
-        )
+        crba(&Static::<T, K>::NEW, R::modes::<T, B, Q, V, M>(), q, eta, effects)
     }
 
     /// The accelerations of joints and modes, rad/s² or m/s², under these torques of the motors:
@@ -189,13 +177,7 @@ impl<T, K> Bending<Core<T, K>> {
         E: Effect<R, B, V>,
     {
         const { Scene::<R, E, B, V>::OF_CORE };
-        modal_dynamics(
-            &Static::<T, K>::NEW,
-            R::modes::<T, B, Q, V, M>(),
-            state,
-            bent,
-            effects,
-        )
+        modal_dynamics(&Static::<T, K>::NEW, R::modes::<T, B, Q, V, M>(), state, bent, effects)
     }
 
     /// The torques of the joints' motors at a tick of h seconds, N·m or N, at which the joints'
@@ -216,13 +198,7 @@ impl<T, K> Bending<Core<T, K>> {
         E: Effect<R, B, V>,
     {
         const { Scene::<R, E, B, V>::OF_CORE };
-        feedforward.tick(
-            &Static::<T, K>::NEW,
-            R::modes::<T, B, Q, V, M>(),
-            reference,
-            effects,
-            h,
-        )
+        feedforward.tick(&Static::<T, K>::NEW, R::modes::<T, B, Q, V, M>(), reference, effects, h)
     }
 }
 
@@ -274,9 +250,7 @@ impl<T, K> Bending<Engine<T, K>> {
         E: Effect<R, B, V>,
     {
         const { taken::<T, R, E, B, Q, V, M>() };
-        let trig = state
-            .configuration()
-            .trig_or(Engine::<T, K>::trig_source::<B, V>());
+        let trig = state.configuration().trig_or(Engine::<T, K>::trig_source::<B, V>());
         inverse::<T, R, E, B, Q, V, M>(trig.borrow(), state.state(), bent, effects)
     }
 
@@ -373,9 +347,7 @@ impl<T, K> Bending<Engine<T, K>> {
             taken::<T, R, E, B, Q, V, M>();
             accelerates::<R, E, B, V>();
         };
-        let trig = state
-            .configuration()
-            .trig_or(Engine::<T, K>::trig_source::<B, V>());
+        let trig = state.configuration().trig_or(Engine::<T, K>::trig_source::<B, V>());
         let (trig, joints) = (trig.borrow(), state.state());
         let bias = inverse::<T, R, _, B, Q, V, M>(trig, joints, bent, &Bias(effects));
         let m = inertia::<T, R, E, B, Q, V, M>(trig, &bent.q, effects);
@@ -417,14 +389,9 @@ impl<T, K> Bending<Engine<T, K>> {
         E: Effect<R, B, V>,
     {
         const { taken::<T, R, E, B, Q, V, M>() };
-        let trig = state
-            .configuration()
-            .trig_or(Engine::<T, K>::trig_source::<B, V>());
+        let trig = state.configuration().trig_or(Engine::<T, K>::trig_source::<B, V>());
         let (trig, joints) = (trig.borrow(), state.state());
-        let coasting = State {
-            qdd: [R::ZERO; M],
-            ..*bent
-        };
+        let coasting = State { qdd: [R::ZERO; M], ..*bent };
         let force = inverse::<T, R, E, B, Q, V, M>(trig, joints, &coasting, effects).modes;
         let m = of_modes::<T, R, E, B, Q, V, M>(trig, &bent.q, effects);
         accelerations(&m, force)

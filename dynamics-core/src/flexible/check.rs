@@ -91,10 +91,8 @@ pub(super) const fn problem(
 const fn rigid(body: &SpatialInertia<f64>, frame: &DMat3) -> [[f64; ALL]; ALL] {
     let i = mul(&mul(&transpose(frame), &body.rotational), frame);
     let h = mul_vec(&transpose(frame), body.first_moment);
-    let (rows, cross) = (
-        [i.x_axis, i.y_axis, i.z_axis],
-        [[0.0, -h.z, h.y], [h.z, 0.0, -h.x], [-h.y, h.x, 0.0]],
-    );
+    let (rows, cross) =
+        ([i.x_axis, i.y_axis, i.z_axis], [[0.0, -h.z, h.y], [h.z, 0.0, -h.x], [-h.y, h.x, 0.0]]);
     let (mut inertia, mut k) = ([[0.0; ALL]; ALL], 0);
     while k < 9 {
         let (row, column) = (k / 3, k % 3);

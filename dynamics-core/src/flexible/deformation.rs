@@ -90,11 +90,7 @@ impl<R: Real> End<R> {
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn of([shift, g]: [R::Vec3; 2], rest: R::Vec3) -> Self {
         let two = R::from_f64(2.0);
-        Self {
-            g,
-            scale: two / (R::ONE + g.dot(g)),
-            point: rest + shift,
-        }
+        Self { g, scale: two / (R::ONE + g.dot(g)), point: rest + shift }
     }
 
     /// The transform from the link's frame to a body on its end, from the same transform of the
@@ -109,10 +105,7 @@ impl<R: Real> End<R> {
             R::Vec3::new(y_0 * dx + dz, diagonal + y_0 * dy, y_0 * dz - dx),
             R::Vec3::new(z_0 * dx - dy, z_0 * dy + dx, diagonal + z_0 * dz),
         );
-        Xform {
-            rot: x.rot * rot,
-            pos: self.point + rot.transpose_mul(x.pos - rest),
-        }
+        Xform { rot: x.rot * rot, pos: self.point + rot.transpose_mul(x.pos - rest) }
     }
 
     /// The angular velocity of ġ.

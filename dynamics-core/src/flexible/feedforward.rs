@@ -74,12 +74,7 @@ impl<R: Real, const M: usize> ModalFeedforward<R, M> {
         D: RobotModel<R, B, Q, V>,
         E: Effect<R, B, V>,
     {
-        const {
-            assert!(
-                E::ELASTICITY,
-                "modes at rest need `Elasticity` in the scene"
-            )
-        };
+        const { assert!(E::ELASTICITY, "modes at rest need `Elasticity` in the scene") };
         let stiffness = Factors::of(&modes.stiffness).map_err(FlexibleError::Mode)?;
         let (mut bent, mut last) = (State::at([R::ZERO; M]), [R::ZERO; M]);
         for _ in 0..ITERATIONS {
@@ -180,11 +175,7 @@ pub(super) fn correct<R: Real, const M: usize>(
     }
     let factors = Factors::of(&matrix).map_err(FlexibleError::Mode)?;
     for (k, change) in factors.solve(force).into_iter().enumerate() {
-        let terms = [
-            (&mut bent.q, square),
-            (&mut bent.qd, of_rate),
-            (&mut bent.qdd, R::ONE),
-        ];
+        let terms = [(&mut bent.q, square), (&mut bent.qd, of_rate), (&mut bent.qdd, R::ONE)];
         for (to, factor) in terms {
             if let Some(to) = to.get_mut(k) {
                 *to -= factor * change;

@@ -27,10 +27,7 @@ impl fmt::Display for FlexibleError {
             Self::Joint(k) => ("joint", k),
             Self::Mode(k) => ("mode", k),
         };
-        write!(
-            out,
-            "{what} {k} moves no inertia or is too soft, or a number is not finite"
-        )
+        write!(out, "{what} {k} moves no inertia or is too soft, or a number is not finite")
     }
 }
 
@@ -106,10 +103,7 @@ pub(super) const fn accelerates<R: Real, E, const B: usize, const V: usize>()
 where
     E: Effect<R, B, V>,
 {
-    assert!(
-        E::ACCELERATIONS,
-        "forward dynamics needs `Inertia` in the scene"
-    );
+    assert!(E::ACCELERATIONS, "forward dynamics needs `Inertia` in the scene");
 }
 
 /// The accelerations η̈ of the modes along a motion of the joints, m/s² or rad/s².
@@ -147,10 +141,7 @@ where
 {
     let trig = state.configuration().trig_of(robot);
     let (trig, state) = (trig.borrow(), state.state());
-    let coasting = State {
-        qdd: [R::ZERO; M],
-        ..*bent
-    };
+    let coasting = State { qdd: [R::ZERO; M], ..*bent };
     let force = rnea(robot, modes, trig.with(state), &coasting, effects).modes;
     let m = modal_inertia(robot, modes, trig, &bent.q, effects);
     accelerations(&m, force)
@@ -194,14 +185,9 @@ impl<R: Real, const V: usize, const M: usize> FlexibleInertia<R, V, M> {
                 *rest -= dot(&column, &free);
             }
         }
-        let joints = Factors::of(&joints)
-            .map_err(FlexibleError::Joint)?
-            .solve(rest);
+        let joints = Factors::of(&joints).map_err(FlexibleError::Joint)?.solve(rest);
         let modes = modes.solve(core::array::from_fn(|k| {
-            let row = self
-                .coupling
-                .get(k)
-                .map_or(R::ZERO, |row| dot(row, &joints));
+            let row = self.coupling.get(k).map_or(R::ZERO, |row| dot(row, &joints));
             entry(&forces.modes, k) - row
         }));
         finite(&joints).map_err(FlexibleError::Joint)?;
@@ -236,10 +222,8 @@ impl<R: Real, const N: usize> Factors<R, N> {
             let (Some(row), Some(inv)) = (above.get(k), d_inv.get_mut(k)) else {
                 break;
             };
-            let (pivot, whole) = (
-                entry(row, k),
-                matrix.get(k).map_or(R::ZERO, |row| entry(row, k)),
-            );
+            let (pivot, whole) =
+                (entry(row, k), matrix.get(k).map_or(R::ZERO, |row| entry(row, k)));
             // One comparison that a NaN fails too.
             if !((pivot > whole * noise) & pivot.is_finite()) {
                 return Err(k);
@@ -264,10 +248,7 @@ impl<R: Real, const N: usize> Factors<R, N> {
     #[cfg_attr(optimised, inline(always))]
     fn forward(&self, mut x: [R; N]) -> [R; N] {
         for i in 0..N {
-            let row = self
-                .rows
-                .get(i)
-                .map_or(R::ZERO, |row| dot(row.split_at(i).0, &x));
+            let row = self.rows.get(i).map_or(R::ZERO, |row| dot(row.split_at(i).0, &x));
             if let Some(x) = x.get_mut(i) {
                 *x -= row;
             }

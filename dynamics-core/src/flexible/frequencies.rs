@@ -80,11 +80,7 @@ fn rotate<R: Real, const M: usize>(a: &mut [[R; M]; M], p: usize, q: usize) {
     }
     let ratio = (at(a, q, q) - at(a, p, p)) / (two * off);
     let size = ratio.abs() + (ratio * ratio + R::ONE).sqrt();
-    let t = if ratio < R::ZERO {
-        -R::ONE / size
-    } else {
-        R::ONE / size
-    };
+    let t = if ratio < R::ZERO { -R::ONE / size } else { R::ONE / size };
     let c = (t * t + R::ONE).rsqrt();
     let s = t * c;
     for row in a.iter_mut() {

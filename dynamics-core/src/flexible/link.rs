@@ -41,12 +41,8 @@ pub struct Mode {
 
 impl Mode {
     /// No displacement.
-    pub const ZERO: Self = Self {
-        momentum: [0.0; 3],
-        moments: [[0.0; 3]; 3],
-        shift: [0.0; 3],
-        turn: [0.0; 3],
-    };
+    pub const ZERO: Self =
+        Self { momentum: [0.0; 3], moments: [[0.0; 3]; 3], shift: [0.0; 3], turn: [0.0; 3] };
 }
 
 /// A link with its modes: what [`Modes`](super::Modes) is made of.
@@ -188,11 +184,7 @@ impl core::error::Error for ModeProblem {}
 
 impl fmt::Display for ModeError {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self {
-            link,
-            mode,
-            problem,
-        } = self;
+        let Self { link, mode, problem } = self;
         write!(out, "link `{link}`, mode {mode}: {problem}")
     }
 }

@@ -69,8 +69,5 @@ pub struct JointsAndModes<R, const V: usize, const M: usize> {
 
 impl<R: Real, const V: usize, const M: usize> JointsAndModes<R, V, M> {
     /// Zero.
-    pub const ZERO: Self = Self {
-        joints: [R::ZERO; V],
-        modes: [R::ZERO; M],
-    };
+    pub const ZERO: Self = Self { joints: [R::ZERO; V], modes: [R::ZERO; M] };
 }

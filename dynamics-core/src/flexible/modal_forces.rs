@@ -26,11 +26,7 @@ impl<R: Real> Outer<R> {
         E: Effect<R, B, V>,
     {
         let (v, a) = base_motion(effects);
-        Self {
-            v,
-            a,
-            pose: Xform::IDENTITY,
-        }
+        Self { v, a, pose: Xform::IDENTITY }
     }
 
     /// The same motion in another frame.
@@ -46,11 +42,7 @@ impl<R: Real> Outer<R> {
         if E::BODY_POSE {
             pose = *x * self.pose;
         }
-        Self {
-            v,
-            a: *x * self.a,
-            pose,
-        }
+        Self { v, a: *x * self.a, pose }
     }
 
     /// The force I a + v ×* I v that accelerates a body; without `Coriolis` I a.
@@ -63,11 +55,7 @@ impl<R: Real> Outer<R> {
     where
         E: Effect<R, B, V>,
     {
-        if E::VELOCITY_PRODUCTS {
-            inertia.force(self.a, self.v)
-        } else {
-            *inertia * self.a
-        }
+        if E::VELOCITY_PRODUCTS { inertia.force(self.a, self.v) } else { *inertia * self.a }
     }
 }
 
@@ -96,11 +84,9 @@ where
     // ∫ (2 ω × φ η̇ + φ η̈) dm.
     let mut relative = Force::ZERO;
     for k in range.clone() {
-        let (Some(mode), Some(products), Some(of_mode)) = (
-            modes.each.get(k),
-            modes.products.get(k),
-            of_modes.get_mut(k),
-        ) else {
+        let (Some(mode), Some(products), Some(of_mode)) =
+            (modes.each.get(k), modes.products.get(k), of_modes.get_mut(k))
+        else {
             break;
         };
         let (mut moments, mut force) = (mode.moments, mode.momentum.dot(point));

@@ -99,11 +99,7 @@ impl<const M: usize> Modes<f64, M> {
     ) -> Self {
         match Self::try_new(model, links) {
             Ok(modes) => modes,
-            Err(ModeError {
-                link,
-                mode,
-                problem,
-            }) => Text::EMPTY
+            Err(ModeError { link, mode, problem }) => Text::EMPTY
                 .with("link `")
                 .with(link)
                 .with("`, mode ")
@@ -243,11 +239,7 @@ pub trait BendingRobot<const B: usize, const Q: usize, const V: usize, const M: 
 }
 
 const fn problem(link: &'static str, mode: usize, problem: ModeProblem) -> ModeError {
-    ModeError {
-        link,
-        mode,
-        problem,
-    }
+    ModeError { link, mode, problem }
 }
 
 /// E m Eᵀ of a matrix by rows.

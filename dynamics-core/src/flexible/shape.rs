@@ -32,15 +32,7 @@ impl Line {
         let ((s, c), mu) = (sin_cos(wave), ratios[0] * wave);
         // From the condition of the shear force, which keeps its size with heavy bodies, too.
         let delta = (decay + c + s + mu * (c - s - decay)) / (cosh + c + mu * (sinh - s));
-        Some(
-            Self {
-                bending: true,
-                wave,
-                delta,
-                scale: 1.0,
-            }
-            .scaled(),
-        )
+        Some(Self { bending: true, wave, delta, scale: 1.0 }.scaled())
     }
 
     /// The `index`-th torsion shape, from one; `ratio` is J / ρI_p L.
@@ -48,15 +40,7 @@ impl Line {
         let Some(wave) = root(false, index, [ratio, 0.0]) else {
             return None;
         };
-        Some(
-            Self {
-                bending: false,
-                wave,
-                delta: 0.0,
-                scale: 1.0,
-            }
-            .scaled(),
-        )
+        Some(Self { bending: false, wave, delta: 0.0, scale: 1.0 }.scaled())
     }
 
     const fn scaled(mut self) -> Self {
@@ -71,10 +55,7 @@ impl Line {
         let [value, slope] = if self.bending {
             let Hyperbolic { decay, sinh, cosh } = hyperbolic(x);
             let (delta, r) = (self.delta, self.delta - 1.0);
-            [
-                decay + delta * sinh - c - r * s,
-                delta * cosh - decay + s - r * c,
-            ]
+            [decay + delta * sinh - c - r * s, delta * cosh - decay + s - r * c]
         } else {
             [s, c]
         };
@@ -91,11 +72,7 @@ struct Hyperbolic {
 
 const fn hyperbolic(x: f64) -> Hyperbolic {
     let (growth, decay) = (exp(x), exp(-x));
-    Hyperbolic {
-        decay,
-        sinh: 0.5 * (growth - decay),
-        cosh: 0.5 * (growth + decay),
-    }
+    Hyperbolic { decay, sinh: 0.5 * (growth - decay), cosh: 0.5 * (growth + decay) }
 }
 
 /// The characteristic function at βL = b, over cosh b in bending.
@@ -166,10 +143,7 @@ pub(super) const fn point(k: usize) -> [f64; 2] {
     let [node, weight] = GAUSS[k % 4];
     let node = if k % 8 < 4 { node } else { -node };
     let part = (k / 8) as f64;
-    [
-        (part + 0.5 * (1.0 + node)) / PARTS as f64,
-        0.5 * weight / PARTS as f64,
-    ]
+    [(part + 0.5 * (1.0 + node)) / PARTS as f64, 0.5 * weight / PARTS as f64]
 }
 
 #[cfg(test)]
@@ -179,18 +153,10 @@ mod tests {
     #[test]
     fn a_bare_beam_has_the_textbook_roots() {
         // Meirovitch (2001), table 8.4 to more digits.
-        let roots = [
-            1.875_104_068_711_961,
-            4.694_091_132_974_175,
-            7.854_757_438_237_613,
-        ];
+        let roots = [1.875_104_068_711_961, 4.694_091_132_974_175, 7.854_757_438_237_613];
         for (k, root) in roots.into_iter().enumerate() {
             let line = Line::bending(k + 1, [0.0; 2]).expect("a root");
-            assert!(
-                (line.wave - root).abs() < 4e-15 * root,
-                "{k}: {}",
-                line.wave
-            );
+            assert!((line.wave - root).abs() < 4e-15 * root, "{k}: {}", line.wave);
         }
         let twist = Line::torsion(2, 0.0).expect("a root");
         assert!((twist.wave - 1.5 * core::f64::consts::PI).abs() < 2e-15);

@@ -153,11 +153,7 @@ fn step<R: Real, const V: usize, const C: usize>(
     let (mut squares, mut largest) = ([[R::ZERO; C]; C], R::ZERO);
     for (i, (entries, row)) in squares.iter_mut().zip(&rows).enumerate() {
         *entries = rows.each_ref().map(|other| dot(row, other));
-        largest = if entries[i] > largest {
-            entries[i]
-        } else {
-            largest
-        };
+        largest = if entries[i] > largest { entries[i] } else { largest };
     }
     let rounding = R::EPSILON * R::from_f64(ROUNDINGS * C as f64) * largest;
     let mu = damping * squared(error) + rounding + R::MIN_POSITIVE;
@@ -169,12 +165,8 @@ fn step<R: Real, const V: usize, const C: usize>(
     for (weights, row) in inverse.iter().zip(&rows) {
         subtract(&mut step, dot(weights, error), row);
     }
-    let longest = step.iter().fold(
-        R::ZERO,
-        |longest, x| {
-            if x.abs() > longest { x.abs() } else { longest }
-        },
-    );
+    let longest =
+        step.iter().fold(R::ZERO, |longest, x| if x.abs() > longest { x.abs() } else { longest });
     let stride = R::from_f64(STRIDE);
     if longest > stride {
         step = step.map(|x| x * (stride / longest));

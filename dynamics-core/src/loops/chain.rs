@@ -40,11 +40,7 @@ where
     let links = &robot.model().links;
     while p != s {
         // A parent is listed before its children, the base before all.
-        let later = if p.wrapping_add(1) < s.wrapping_add(1) {
-            &mut s
-        } else {
-            &mut p
-        };
+        let later = if p.wrapping_add(1) < s.wrapping_add(1) { &mut s } else { &mut p };
         let Some(link) = links.get(*later) else {
             break;
         };
@@ -64,10 +60,7 @@ impl<R: Real, const B: usize> LoopBodies<R, B> {
     /// No bodies, to be filled where it stands.
     #[cfg_attr(optimised, inline(always))]
     pub(super) const fn blank() -> Self {
-        Self {
-            xforms: Vec::new(),
-            on_a_loop: [false; B],
-        }
+        Self { xforms: Vec::new(), on_a_loop: [false; B] }
     }
 
     /// Those of loops between these pairs of bodies and their common ancestors.
@@ -220,10 +213,7 @@ fn subspace<R: Real>(
         JointKind::Prismatic => put(first, Column::Slide(e_z)),
         JointKind::Universal => {
             let turn = entry(turns, link.idx_q() + 1);
-            put(
-                first,
-                Column::Turn(turn_x() * turn.cos - turn_y() * turn.sin),
-            );
+            put(first, Column::Turn(turn_x() * turn.cos - turn_y() * turn.sin));
             put(first + 1, Column::Turn(turn_z()));
         }
         JointKind::Spherical | JointKind::Free => {
@@ -247,8 +237,5 @@ fn subspace<R: Real>(
 /// X⁻¹
 #[cfg_attr(optimised, inline(always))]
 pub(super) fn inverse<R: Real>(x: &Xform<R>) -> Xform<R> {
-    Xform {
-        rot: x.rot.transpose(),
-        pos: -(x.rot * x.pos),
-    }
+    Xform { rot: x.rot.transpose(), pos: -(x.rot * x.pos) }
 }

@@ -138,10 +138,8 @@ impl<R: Real, const V: usize, const L: usize, const C: usize> Constraints<R, V, 
         if all.iter().all(|of_rows| all_finite(&of_rows[..])) {
             return Ok(());
         }
-        let is_finite = |row: &usize| {
-            all.iter()
-                .all(|of_rows| entry(&of_rows[..], *row).is_finite())
-        };
+        let is_finite =
+            |row: &usize| all.iter().all(|of_rows| entry(&of_rows[..], *row).is_finite());
         let row = (0..C).find(|row| !is_finite(row)).unwrap_or_default();
         let name = loops.name_of_row(row);
         Err(LoopError::NotFinite { name })
@@ -260,15 +258,9 @@ impl<R: Real, const V: usize, const L: usize, const C: usize> Constraints<R, V, 
             });
             let from_p = bodies.of_frame(robot, turns, (p, frame_p), ancestor, |_, _| ());
             let x = from_s * inverse(&from_p);
-            bodies.columns(
-                robot,
-                turns,
-                (p, frame_p),
-                ancestor,
-                |coordinate, column| {
-                    let _ = columns.push((coordinate, column.opposite(&x)));
-                },
-            );
+            bodies.columns(robot, turns, (p, frame_p), ancestor, |coordinate, column| {
+                let _ = columns.push((coordinate, column.opposite(&x)));
+            });
 
             let constraint = loops.constraint(joint, x);
             let rows = loops.rows(i);
@@ -286,21 +278,16 @@ impl<R: Real, const V: usize, const L: usize, const C: usize> Constraints<R, V, 
                         *entry = x;
                     }
                 }
-                if let (Some(own), Some(is_moved)) = (
-                    self.own_loop.get_mut(coordinate),
-                    is_moved.get_mut(coordinate),
-                ) {
+                if let (Some(own), Some(is_moved)) =
+                    (self.own_loop.get_mut(coordinate), is_moved.get_mut(coordinate))
+                {
                     *own = if *is_moved { NONE } else { i };
                     *is_moved = true;
                 }
             }
             let sizes = squares.map(|square| {
                 // A NaN remains one.
-                if square == R::ZERO {
-                    R::ONE
-                } else {
-                    square * square.rsqrt()
-                }
+                if square == R::ZERO { R::ONE } else { square * square.rsqrt() }
             });
             let position = constraint.position();
             for (k, row) in rows.enumerate() {

@@ -183,11 +183,8 @@ impl<const L: usize, const C: usize, const A: usize> Loops<L, C, A> {
     ) -> Result<Self, LoopModelError> {
         const { assert!(A >= V, "up to A coordinates are actuated, of V at least") };
         if joints.len() > L || actuated.len() > A {
-            let (expected, given) = if joints.len() > L {
-                (joints.len(), L)
-            } else {
-                (actuated.len(), A)
-            };
+            let (expected, given) =
+                if joints.len() > L { (joints.len(), L) } else { (actuated.len(), A) };
             let problem = LoopProblem::Rows { expected, given };
             let name = model.name;
             return Err(LoopModelError { name, problem });
@@ -228,11 +225,7 @@ impl<const L: usize, const C: usize, const A: usize> Loops<L, C, A> {
                 end += 1;
             }
             let aligned = joint.joint.normalised().frame();
-            axes[i] = [
-                both(aligned.x_axis),
-                both(aligned.y_axis),
-                both(aligned.z_axis),
-            ];
+            axes[i] = [both(aligned.x_axis), both(aligned.y_axis), both(aligned.z_axis)];
             let [rotations, translations] = counts(joint.joint.kind);
             first_rows[i] = rows;
             rows += rotations + translations;

@@ -320,11 +320,9 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
         open: &[usize],
         right: &mut [R; C],
     ) {
-        let (Some(pivot_row), Some(own), Some(multiples)) = (
-            self.rows.get_mut(row),
-            right.get_mut(row),
-            self.transform.get_mut(row),
-        ) else {
+        let (Some(pivot_row), Some(own), Some(multiples)) =
+            (self.rows.get_mut(row), right.get_mut(row), self.transform.get_mut(row))
+        else {
             return;
         };
         let reciprocal = R::ONE / entry(pivot_row, column);
@@ -369,11 +367,9 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
             }
             for &(other, column) in later {
                 let factor = entry(own, column);
-                if let (true, Some(of_other), Some(transform)) = (
-                    factor != R::ZERO,
-                    self.rows.get(other),
-                    self.transform.get(other),
-                ) {
+                if let (true, Some(of_other), Some(transform)) =
+                    (factor != R::ZERO, self.rows.get(other), self.transform.get(other))
+                {
                     subtract(&mut sums, factor, transform);
                     for (x, &free) in of_free.iter_mut().zip(free) {
                         *x -= factor * entry(of_other, free);
@@ -410,9 +406,7 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
     /// Which rows have a pivot.
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn loop_rows(&self) -> LoopRows<C> {
-        LoopRows {
-            independent: self.column_of.map(|column| column != NONE),
-        }
+        LoopRows { independent: self.column_of.map(|column| column != NONE) }
     }
 
     /// The coordinates without a pivot, which the others depend on.

@@ -27,11 +27,7 @@ impl<'a, R: Real, const V: usize, const C: usize> Factors<'a, R, V, C> {
     /// No factors yet, to be filled where they stand.
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn blank(k: &'a mut Elimination<R, V, C>) -> Self {
-        Self {
-            k,
-            right: [R::ZERO; C],
-            order: Order::new(),
-        }
+        Self { k, right: [R::ZERO; C], order: Order::new() }
     }
 
     /// Factors K, and eliminates b with its rows.

@@ -111,12 +111,7 @@ where
 {
     let trig = state.configuration().trig_of(robot);
     let (trig, state) = (trig.borrow(), state.state());
-    const {
-        assert!(
-            E::ACCELERATIONS,
-            "forward dynamics needs `Inertia` in the scene"
-        )
-    };
+    const { assert!(E::ACCELERATIONS, "forward dynamics needs `Inertia` in the scene") };
     no_load_friction::<R, E, B, V>();
     let turns = &trig.coordinates;
     let mut closing = Constraints::blank();
@@ -142,11 +137,7 @@ where
     let mut qdd = factors.solution();
     let metric = Metric::of(robot, &m.rows);
     let mut apart = metric.of_torque(&rest);
-    subtract(
-        &mut apart,
-        R::ONE,
-        &metric.weigh(metric.of_acceleration(&qdd)),
-    );
+    subtract(&mut apart, R::ONE, &metric.weigh(metric.of_acceleration(&qdd)));
     let mut orthogonal = Orthogonal::blank();
     let motions = factors.free().rev();
     orthogonal.set(&metric, motions.map(|free| factors.motion(free)));
@@ -157,10 +148,5 @@ where
         let name = loops.robot;
         return Err(LoopError::NotFinite { name });
     }
-    Ok(LoopMotion {
-        qdd,
-        lambda,
-        rows,
-        constraints: closing,
-    })
+    Ok(LoopMotion { qdd, lambda, rows, constraints: closing })
 }

@@ -134,13 +134,7 @@ where
         let name = loops.robot;
         return Err(LoopError::NotFinite { name });
     }
-    Ok(LoopTorque {
-        tau,
-        state,
-        lambda,
-        drive: map.drive(),
-        rows: map.rows(),
-    })
+    Ok(LoopTorque { tau, state, lambda, drive: map.drive(), rows: map.rows() })
 }
 
 impl<const L: usize, const C: usize, const A: usize> Loops<L, C, A> {

@@ -118,9 +118,7 @@ impl<R: Real, const V: usize> Orthogonal<R, V> {
     /// No motions, to be filled where it stands: it is large.
     #[cfg_attr(optimised, inline(always))]
     pub(super) const fn blank() -> Self {
-        Self {
-            motions: Vec::new(),
-        }
+        Self { motions: Vec::new() }
     }
 
     /// By the modified method of Gram and Schmidt, twice for each motion.
@@ -143,17 +141,9 @@ impl<R: Real, const V: usize> Orthogonal<R, V> {
             }
             let weighed = metric.weigh(q);
             let squared = dot(&q, &weighed);
-            let inverse = if squared > size && squared > R::ZERO {
-                R::ONE / squared
-            } else {
-                R::ZERO
-            };
-            let motion = Motion {
-                qdd,
-                q,
-                weighed,
-                inverse,
-            };
+            let inverse =
+                if squared > size && squared > R::ZERO { R::ONE / squared } else { R::ZERO };
+            let motion = Motion { qdd, q, weighed, inverse };
             let _ = self.motions.push(motion);
         }
     }

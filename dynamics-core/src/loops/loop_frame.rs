@@ -33,10 +33,7 @@ impl Frame {
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn xform<R: Real>(&self) -> Xform<R> {
         let [x, y, z] = self.rot.each_ref().map(select::<R>);
-        Xform {
-            rot: R::Mat3::from_cols(x, y, z).transpose(),
-            pos: select::<R>(&self.pos),
-        }
+        Xform { rot: R::Mat3::from_cols(x, y, z).transpose(), pos: select::<R>(&self.pos) }
     }
 }
 

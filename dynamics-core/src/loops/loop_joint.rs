@@ -21,12 +21,7 @@ pub struct BodyFrame {
 impl BodyFrame {
     /// The body's own frame. `body` is an index in the model's list, or [`BASE`].
     pub const fn new(body: usize) -> Self {
-        Self {
-            body,
-            position: [0.0; 3],
-            rotation: DMat3::IDENTITY,
-            largest_angle: 0.0,
-        }
+        Self { body, position: [0.0; 3], rotation: DMat3::IDENTITY, largest_angle: 0.0 }
     }
 
     /// Its origin in the body's frame, m.
@@ -56,10 +51,7 @@ impl BodyFrame {
 
     /// Its pose in the body's own frame.
     pub const fn pose(&self) -> Pose<f64> {
-        Pose {
-            rot: self.rotation,
-            pos: m::vec3(self.position),
-        }
+        Pose { rot: self.rotation, pos: m::vec3(self.position) }
     }
 
     const fn problem(&self, bodies: usize) -> Option<LoopProblem> {

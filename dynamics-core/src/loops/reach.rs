@@ -24,18 +24,11 @@ pub(super) const fn problem<const B: usize, const Q: usize, const V: usize>(
     joint: &LoopJoint,
     model: &Model<f64, B, Q, V>,
 ) -> Option<LoopProblem> {
-    let mut polygon = Polygon {
-        perimeter: 0.0,
-        longest: 0.0,
-        rigid: turns(joint.joint.kind),
-        coordinates: 0,
-    };
+    let mut polygon =
+        Polygon { perimeter: 0.0, longest: 0.0, rigid: turns(joint.joint.kind), coordinates: 0 };
     let [mut p, mut s] = joint.bodies();
     // A corner on the body reached, in its aligned frame.
-    let mut corners = [
-        m::vec3(joint.ends[0].position),
-        m::vec3(joint.ends[1].position),
-    ];
+    let mut corners = [m::vec3(joint.ends[0].position), m::vec3(joint.ends[1].position)];
     let mut end = 0;
     while end < 2 {
         let body = if end == 0 { p } else { s };

@@ -122,11 +122,7 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
         self.replace(rows, passive, &inverse);
         let candidates = (0..V).filter(|&i| entry(passive, i));
         candidates.reduce(|most, i| {
-            if of_passive(&inverse, i) > of_passive(&inverse, most) {
-                i
-            } else {
-                most
-            }
+            if of_passive(&inverse, i) > of_passive(&inverse, most) { i } else { most }
         })
     }
 
@@ -134,10 +130,7 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
     fn replace(&mut self, rows: &[[R; V]; C], passive: &[bool; V], inverse: &[[R; V]; V]) {
         self.row_of = [NONE; V];
         self.column_of = [NONE; C];
-        let joints = inverse
-            .iter()
-            .enumerate()
-            .filter(|(i, _)| entry(passive, *i));
+        let joints = inverse.iter().enumerate().filter(|(i, _)| entry(passive, *i));
         let places = self.rows.iter_mut().zip(&mut self.transform);
         let mut places = places.zip(&mut self.column_of).enumerate();
         for ((joint, weights), (place, ((of_joint, transform), column))) in joints.zip(&mut places)
@@ -183,13 +176,9 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
                 *unit = R::ONE;
             }
             let motion = self.complete(&unit);
-            let largest =
-                motion.iter().fold(
-                    R::ONE,
-                    |largest, x| {
-                        if x.abs() > largest { x.abs() } else { largest }
-                    },
-                );
+            let largest = motion
+                .iter()
+                .fold(R::ONE, |largest, x| if x.abs() > largest { x.abs() } else { largest });
             motion.map(|x| x * (R::ONE / largest))
         };
         let own = along(joint);

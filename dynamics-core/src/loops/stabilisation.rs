@@ -18,10 +18,7 @@ pub struct Stabilisation<R> {
 
 impl<R: Real> Stabilisation<R> {
     /// Exact accelerations: errors of position grow in a simulation.
-    pub const NONE: Self = Self {
-        position: R::ZERO,
-        velocity: R::ZERO,
-    };
+    pub const NONE: Self = Self { position: R::ZERO, velocity: R::ZERO };
 
     /// Errors decay as fast as they can without oscillation, by this time constant, s. Ten time
     /// steps or more keep the step stable.
@@ -33,10 +30,7 @@ impl<R: Real> Stabilisation<R> {
     #[must_use]
     pub fn critical(time_constant: R) -> Self {
         let rate = R::ONE / time_constant;
-        Self {
-            position: rate * rate,
-            velocity: rate + rate,
-        }
+        Self { position: rate * rate, velocity: rate + rate }
     }
 
     /// For a simulation in steps of this length, s: [`Stabilisation::critical`] with a time

@@ -75,11 +75,7 @@ impl<R: Real, const V: usize, const L: usize, const C: usize> Constraints<R, V, 
             }
         }
         let name = loops.name_of_row(row);
-        Closure {
-            name,
-            position,
-            velocity,
-        }
+        Closure { name, position, velocity }
     }
 }
 

@@ -25,11 +25,7 @@ pub(crate) const fn sqrt(x: f64) -> f64 {
 /// (sin x, cos x) by Taylor series about the nearest quarter turn; within 2 ulp to ±100 rad.
 pub(crate) const fn sin_cos(x: f64) -> (f64, f64) {
     let turns = x * core::f64::consts::FRAC_2_PI;
-    let k = if turns < 0.0 {
-        (turns - 0.5) as i64
-    } else {
-        (turns + 0.5) as i64
-    };
+    let k = if turns < 0.0 { (turns - 0.5) as i64 } else { (turns + 0.5) as i64 };
     // π/2 in two parts, the first with enough zero bits that k times it is exact.
     let r = (x - k as f64 * 1.570_796_326_734_125_6) - k as f64 * 6.077_100_506_506_192e-11;
     let (mut s, mut c, mut n) = (0.0, 0.0, 12);
@@ -51,11 +47,7 @@ pub(crate) const fn sin_cos(x: f64) -> (f64, f64) {
 /// eˣ by Taylor series about the nearest multiple of ln 2; within 2 ulp to |x| ≤ 700.
 pub(crate) const fn exp(x: f64) -> f64 {
     let powers = x * core::f64::consts::LOG2_E;
-    let k = (if powers < 0.0 {
-        powers - 0.5
-    } else {
-        powers + 0.5
-    }) as i64;
+    let k = (if powers < 0.0 { powers - 0.5 } else { powers + 0.5 }) as i64;
     // ln 2 in two parts, the first with enough zero bits that k times it is exact.
     let r = (x - k as f64 * 0.693_147_180_369_123_8) - k as f64 * 1.908_214_929_270_587_7e-10;
     let (mut sum, mut n) = (1.0, 16);
@@ -83,18 +75,11 @@ pub(crate) const fn dot(a: DVec3, b: DVec3) -> f64 {
 }
 
 pub(crate) const fn mul_vec(m: &DMat3, v: DVec3) -> DVec3 {
-    add(
-        add(scale(m.x_axis, v.x), scale(m.y_axis, v.y)),
-        scale(m.z_axis, v.z),
-    )
+    add(add(scale(m.x_axis, v.x), scale(m.y_axis, v.y)), scale(m.z_axis, v.z))
 }
 
 pub(crate) const fn mul(a: &DMat3, b: &DMat3) -> DMat3 {
-    DMat3::from_cols(
-        mul_vec(a, b.x_axis),
-        mul_vec(a, b.y_axis),
-        mul_vec(a, b.z_axis),
-    )
+    DMat3::from_cols(mul_vec(a, b.x_axis), mul_vec(a, b.y_axis), mul_vec(a, b.z_axis))
 }
 
 pub(crate) const fn transpose(m: &DMat3) -> DMat3 {
@@ -107,11 +92,7 @@ pub(crate) const fn transpose(m: &DMat3) -> DMat3 {
 
 /// The rotation Q of coordinates with Q x = (1, 0, 0) and Q z = (0, 0, 1), of orthonormal x and z.
 pub(crate) const fn frame(x: DVec3, z: DVec3) -> DMat3 {
-    let y = DVec3::new(
-        z.y * x.z - z.z * x.y,
-        z.z * x.x - z.x * x.z,
-        z.x * x.y - z.y * x.x,
-    );
+    let y = DVec3::new(z.y * x.z - z.z * x.y, z.z * x.x - z.x * x.z, z.x * x.y - z.y * x.x);
     transpose(&DMat3::from_cols(x, y, z))
 }
 
@@ -140,11 +121,8 @@ pub(crate) const fn rotation(roll: (f64, f64), pitch: (f64, f64), yaw: (f64, f64
         DVec3::Y,
         DVec3::new(pitch.0, 0.0, pitch.1),
     );
-    let z = DMat3::from_cols(
-        DVec3::new(yaw.1, yaw.0, 0.0),
-        DVec3::new(-yaw.0, yaw.1, 0.0),
-        DVec3::Z,
-    );
+    let z =
+        DMat3::from_cols(DVec3::new(yaw.1, yaw.0, 0.0), DVec3::new(-yaw.0, yaw.1, 0.0), DVec3::Z);
     mul(&z, &mul(&y, &x))
 }
 

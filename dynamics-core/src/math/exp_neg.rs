@@ -17,13 +17,7 @@
 #[cfg_attr(optimised, inline(always))]
 pub fn exp_neg(x: f32) -> f32 {
     const ROUND: f32 = 12_582_912.0;
-    const P: [f32; 5] = [
-        0.499_999_94,
-        0.166_665_23,
-        0.041_668_22,
-        0.008_367_908,
-        0.001_380_581_8,
-    ];
+    const P: [f32; 5] = [0.499_999_94, 0.166_665_23, 0.041_668_22, 0.008_367_908, 0.001_380_581_8];
     // A conversion that saturates limits x to [0, 128): neither a comparison nor its wait for the
     // FPU's flags.
     const STEPS: f32 = 33_554_432.0;

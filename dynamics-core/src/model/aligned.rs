@@ -10,15 +10,9 @@ use crate::spatial::{SpatialInertia, Xform};
 pub(super) const fn aligned<const B: usize>(body: &Body, links: &[Link<f64>; B]) -> Link<f64> {
     let joint = body.joint.normalised();
     let frame = joint.frame();
-    let parent = if body.parent == BASE {
-        DMat3::IDENTITY
-    } else {
-        links[body.parent].to_joint_frame
-    };
-    let rot = mul(
-        &mul(&frame, &transpose(&body.rotation)),
-        &transpose(&parent),
-    );
+    let parent =
+        if body.parent == BASE { DMat3::IDENTITY } else { links[body.parent].to_joint_frame };
+    let rot = mul(&mul(&frame, &transpose(&body.rotation)), &transpose(&parent));
     let pos = mul_vec(&parent, vec3(body.position));
     let inertia = at_origin(body);
     Link {

@@ -260,16 +260,10 @@ pub(crate) fn impossible<R: Real, const AXIS: bool>(
     relative: f64,
 ) -> Option<ImpossibleInertia> {
     use crate::scalar::{Matrix, Vector};
-    let (mass, h) = (
-        inertia.mass.to_f64(),
-        inertia.first_moment.array().map(R::to_f64),
-    );
+    let (mass, h) = (inertia.mass.to_f64(), inertia.first_moment.array().map(R::to_f64));
     let mut a = inertia.rotational.cols().map(|c| c.array().map(R::to_f64));
     let hh = h.iter().map(|x| x * x).sum::<f64>();
-    let largest = a
-        .as_flattened()
-        .iter()
-        .fold(0.0, |size: f64, x| size.max(x.abs()));
+    let largest = a.as_flattened().iter().fold(0.0, |size: f64, x| size.max(x.abs()));
     // The rounding error of the moments about the centre of mass.
     let noise = 8.0 * R::EPSILON.to_f64() * largest;
     if mass > 0.0 {

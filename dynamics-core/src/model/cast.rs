@@ -44,10 +44,7 @@ const fn cast(link: &Link<f64>) -> Link<f32> {
             pitch: link.joint.pitch as f32,
         },
         to_joint_frame: matrix(&link.to_joint_frame),
-        placement: Xform {
-            rot: matrix(&link.placement.rot),
-            pos: vector(link.placement.pos),
-        },
+        placement: Xform { rot: matrix(&link.placement.rot), pos: vector(link.placement.pos) },
         inertia: SpatialInertia {
             mass: link.inertia.mass as f32,
             first_moment: vector(link.inertia.first_moment),

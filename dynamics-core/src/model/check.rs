@@ -56,10 +56,7 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize> Model<R, B, Q, V> 
                 text = text.with(" and others");
                 break;
             }
-            text = text
-                .with(if i == 0 { "`" } else { ", `" })
-                .with(name)
-                .with("`");
+            text = text.with(if i == 0 { "`" } else { ", `" }).with(name).with("`");
             i += 1;
         }
         text.panic()
@@ -79,10 +76,7 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize> Model<R, B, Q, V> 
     /// relative to that moment; [`Problem::Massless`], [`Problem::Name`].
     pub fn check(&self, relative: f64) -> Result<(), ModelError> {
         for link in &self.links {
-            let wrong = |problem| ModelError {
-                body: link.name,
-                problem,
-            };
+            let wrong = |problem| ModelError { body: link.name, problem };
             if body::is_massless(&link.inertia) {
                 return Err(wrong(Problem::Massless));
             }
@@ -95,16 +89,8 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize> Model<R, B, Q, V> 
             }
         }
         for (i, link) in self.links.iter().enumerate() {
-            if self
-                .links
-                .iter()
-                .take(i)
-                .any(|other| other.name == link.name)
-            {
-                return Err(ModelError {
-                    body: link.name,
-                    problem: Problem::Name,
-                });
+            if self.links.iter().take(i).any(|other| other.name == link.name) {
+                return Err(ModelError { body: link.name, problem: Problem::Name });
             }
         }
         Ok(())

@@ -129,10 +129,7 @@ impl fmt::Display for ModelError {
         }
         if let Problem::Bodies { expected, given } = self.problem {
             let name = self.body;
-            return write!(
-                out,
-                "robot `{name}`: {expected} of its bodies move, not M = {given}"
-            );
+            return write!(out, "robot `{name}`: {expected} of its bodies move, not M = {given}");
         }
         write!(out, "body `{}`: {}", self.body, self.problem.text())?;
         if let Problem::Mass(mass) = self.problem {
@@ -207,10 +204,7 @@ pub(crate) struct Text {
 }
 
 impl Text {
-    pub(crate) const EMPTY: Self = Self {
-        bytes: [b' '; LONGEST],
-        length: 0,
-    };
+    pub(crate) const EMPTY: Self = Self { bytes: [b' '; LONGEST], length: 0 };
 
     pub(crate) const fn with(mut self, text: &str) -> Self {
         let (bytes, mut i) = (text.as_bytes(), 0);

@@ -25,11 +25,7 @@ pub const fn attach_to<const M: usize, const B: usize>(
     let (mut all, mut i) = ([root; B], 0);
     while i < M {
         let mut body = bodies[i];
-        body.parent = if body.parent == BASE {
-            0
-        } else {
-            body.parent + 1
-        };
+        body.parent = if body.parent == BASE { 0 } else { body.parent + 1 };
         all[i + 1] = body;
         i += 1;
     }

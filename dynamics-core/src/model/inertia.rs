@@ -48,21 +48,9 @@ impl<R: Real> BodyInertia<R> {
             mass,
             first_moment: column(x, y, z) * mass,
             rotational: R::Mat3::from_cols(
-                column(
-                    xx + mass * (y * y + z * z),
-                    xy - mass * x * y,
-                    xz - mass * x * z,
-                ),
-                column(
-                    xy - mass * x * y,
-                    yy + mass * (x * x + z * z),
-                    yz - mass * y * z,
-                ),
-                column(
-                    xz - mass * x * z,
-                    yz - mass * y * z,
-                    zz + mass * (x * x + y * y),
-                ),
+                column(xx + mass * (y * y + z * z), xy - mass * x * y, xz - mass * x * z),
+                column(xy - mass * x * y, yy + mass * (x * x + z * z), yz - mass * y * z),
+                column(xz - mass * x * z, yz - mass * y * z, zz + mass * (x * x + y * y)),
             ),
         }
     }
@@ -77,11 +65,7 @@ impl<R: Real> BodyInertia<R> {
     /// ```
     pub fn about_com(about: &SpatialInertia<R>) -> Self {
         let mass = about.mass;
-        let per = if mass == R::ZERO {
-            R::ZERO
-        } else {
-            R::ONE / mass
-        };
+        let per = if mass == R::ZERO { R::ZERO } else { R::ONE / mass };
         let com = (about.first_moment * per).array();
         let [x, y, z] = com;
         let [cx, cy, cz] = about.rotational.cols().map(Vector::array);
@@ -143,16 +127,10 @@ where
         inertia: BodyInertia<R>,
         relative: f64,
     ) -> Result<(), ModelError> {
-        let none = ModelError {
-            body: self.model.name,
-            problem: Problem::NoBody(body),
-        };
+        let none = ModelError { body: self.model.name, problem: Problem::NoBody(body) };
         let link = self.model.links.get_mut(body).ok_or(none)?;
         if let Some(problem) = inertia.problem(relative) {
-            return Err(ModelError {
-                body: link.name,
-                problem,
-            });
+            return Err(ModelError { body: link.name, problem });
         }
         let (about, frame) = (inertia.about_origin(), link.to_joint_frame);
         link.inertia = SpatialInertia {

@@ -27,12 +27,7 @@ pub struct Joint<R: Real> {
 
 impl Joint<f64> {
     const fn new(kind: JointKind, axis: [f64; 3]) -> Self {
-        Self {
-            kind,
-            axis: m::vec3(axis),
-            first_axis: DVec3::ZERO,
-            pitch: 0.0,
-        }
+        Self { kind, axis: m::vec3(axis), first_axis: DVec3::ZERO, pitch: 0.0 }
     }
 
     /// A rotation about `axis`, given in the body's frame; any length but zero.
@@ -103,11 +98,7 @@ impl Joint<f64> {
                     return Some(Problem::Axis);
                 }
                 let skew = m::dot(unit(a), unit(b));
-                if skew.abs() <= 1e-9 {
-                    None
-                } else {
-                    Some(Problem::RightAngles)
-                }
+                if skew.abs() <= 1e-9 { None } else { Some(Problem::RightAngles) }
             }
             _ if !is_axis(self.axis) => Some(Problem::Axis),
             _ if !self.pitch.is_finite() => Some(Problem::Pitch),
@@ -123,12 +114,7 @@ impl Joint<f64> {
         if skew.abs() > 4.0 * f64::EPSILON {
             first_axis = unit(m::add(first_axis, m::scale(axis, -skew)));
         }
-        Self {
-            kind: self.kind,
-            axis,
-            first_axis,
-            pitch: self.pitch,
-        }
+        Self { kind: self.kind, axis, first_axis, pitch: self.pitch }
     }
 
     /// The rotation of coordinates from the body's frame to one whose z is the axis, and whose x is
@@ -151,9 +137,5 @@ const fn is_axis(v: DVec3) -> bool {
 /// v at length one; an exact unit vector, and zero, keep their bits.
 const fn unit(v: DVec3) -> DVec3 {
     let squared = m::dot(v, v);
-    if squared == 1.0 || squared == 0.0 {
-        v
-    } else {
-        m::scale(v, 1.0 / m::sqrt(squared))
-    }
+    if squared == 1.0 || squared == 0.0 { v } else { m::scale(v, 1.0 / m::sqrt(squared)) }
 }

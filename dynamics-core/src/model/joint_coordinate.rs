@@ -72,10 +72,7 @@ impl<R: Real> JointCoordinate<R> {
     /// A coordinate that is not an angle.
     #[cfg_attr(optimised, inline(always))]
     pub fn linear(q: R) -> Self {
-        Self {
-            q,
-            ..Self::default()
-        }
+        Self { q, ..Self::default() }
     }
 
     /// Rz(q)ᵀ E for every column of E: from the frame before the turn into the one after. 18 flops.
@@ -165,11 +162,7 @@ fn by_fours<R: Real, K: Kernel<R>, const NEAR: bool, const W: usize, const Q: us
 /// (sin q, cos q), of a joint that stays within ±100 rad if `NEAR`.
 #[cfg_attr(optimised, inline(always))]
 fn sin_cos<R: Real, K: Kernel<R>, const NEAR: bool>(q: R) -> (R, R) {
-    if NEAR {
-        K::sin_cos_near(q)
-    } else {
-        K::sin_cos(q)
-    }
+    if NEAR { K::sin_cos_near(q) } else { K::sin_cos(q) }
 }
 
 #[cfg(test)]
@@ -215,10 +208,7 @@ mod tests {
             q.map(JointCoordinate::revolute_bounded::<Native>),
         ];
         let [any, near] = [any.map(bits), near.map(bits)];
-        assert_eq!(
-            JointTrig::new(&Ur5e::MODEL_F32, &q).coordinates.map(bits),
-            any
-        );
+        assert_eq!(JointTrig::new(&Ur5e::MODEL_F32, &q).coordinates.map(bits), any);
         assert_eq!(Engine::<Ur5e>::joint_trig(&q).coordinates.map(bits), near);
         assert_ne!(any, near);
     }

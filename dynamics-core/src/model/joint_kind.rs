@@ -89,9 +89,8 @@ impl JointKinds {
     pub(super) const NONE: Self = Self(0);
 
     /// Rotations about one axis, with limits or without.
-    pub(super) const REVOLUTE: Self = Self::NONE
-        .with(JointKind::Revolute)
-        .with(JointKind::Continuous);
+    pub(super) const REVOLUTE: Self =
+        Self::NONE.with(JointKind::Revolute).with(JointKind::Continuous);
 
     /// Rotations about one axis and none: continuous joints are revolute ones here, so that two
     /// kinds are left, which the compiler tells apart by one branch.

@@ -67,10 +67,8 @@ impl<R: Real> LinkView<'_, R> {
     /// axis, exactly.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn is_placed_by_screws(&self) -> bool {
-        let ([x, y, z], [_, r_y, r_z]) = (
-            self.placement.rot.cols().map(Vector::array),
-            self.placement.pos.array(),
-        );
+        let ([x, y, z], [_, r_y, r_z]) =
+            (self.placement.rot.cols().map(Vector::array), self.placement.pos.array());
         let across = (y[1] * r_y).abs() + (z[1] * r_z).abs();
         x[0] > R::ZERO && x[1].abs() + x[2].abs() + across == R::ZERO
     }
@@ -90,16 +88,8 @@ impl<R: Real> LinkView<'_, R> {
         let [along_x, _, _] = self.placement.pos.array();
         let turn = entry(turns, self.idx_q);
         AxialScrews {
-            about_x: Screw {
-                sin: z[1],
-                cos: y[1],
-                shift: along_x,
-            },
-            about_z: Screw {
-                sin: turn.sin,
-                cos: turn.cos,
-                shift: along_z,
-            },
+            about_x: Screw { sin: z[1], cos: y[1], shift: along_x },
+            about_z: Screw { sin: turn.sin, cos: turn.cos, shift: along_z },
         }
     }
 
@@ -183,10 +173,9 @@ impl<R: Real> LinkView<'_, R> {
     ) -> Motion<R> {
         let rate = entry(y, self.idx_v);
         match self.kind {
-            Revolute | Continuous => Motion::new(
-                plus_cross_z(a.ang, v.ang, rate),
-                plus_cross_z(a.lin, v.lin, rate),
-            ),
+            Revolute | Continuous => {
+                Motion::new(plus_cross_z(a.ang, v.ang, rate), plus_cross_z(a.lin, v.lin, rate))
+            }
             Prismatic => Motion::new(a.ang, plus_cross_z(a.lin, v.ang, rate)),
             Fixed => a,
             Universal => {
@@ -335,8 +324,5 @@ fn row_z<R: Real>(m: &R::Mat3) -> R::Vec3 {
 #[cfg_attr(optimised, inline(always))]
 fn unit<R: Real>(k: usize) -> Motion<R> {
     let at = |i| if i == k { R::ONE } else { R::ZERO };
-    Motion::new(
-        R::Vec3::new(at(0), at(1), at(2)),
-        R::Vec3::new(at(3), at(4), at(5)),
-    )
+    Motion::new(R::Vec3::new(at(0), at(1), at(2)), R::Vec3::new(at(3), at(4), at(5)))
 }

@@ -28,26 +28,14 @@ impl<'a, R: Real> LinkView<'a, R> {
     /// Link `i`, its joint one of `kinds`; `single`: every body has one coordinate.
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn new(i: usize, link: &'a Link<R>, kinds: JointKinds, single: bool) -> Self {
-        let (idx_q, idx_v) = if single {
-            (i, i)
-        } else {
-            (link.idx_q, link.idx_v)
-        };
-        Self {
-            link,
-            kind: kinds.of(link.joint.kind),
-            idx_q,
-            idx_v,
-        }
+        let (idx_q, idx_v) = if single { (i, i) } else { (link.idx_q, link.idx_v) };
+        Self { link, kind: kinds.of(link.joint.kind), idx_q, idx_v }
     }
 
     /// The same link, its joint one of `kinds`.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn of_kinds(self, kinds: JointKinds) -> Self {
-        Self {
-            kind: kinds.of(self.kind),
-            ..self
-        }
+        Self { kind: kinds.of(self.kind), ..self }
     }
 
     /// The kind of its joint.

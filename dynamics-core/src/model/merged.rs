@@ -114,16 +114,9 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
         while i < B {
             let link = &self.links[i];
             if link.parent != BASE && link.parent >= i {
-                return Err(ModelError {
-                    body: link.name,
-                    problem: Problem::Parent,
-                });
+                return Err(ModelError { body: link.name, problem: Problem::Parent });
             }
-            let carrier = if link.parent == BASE {
-                ON_BASE
-            } else {
-                places[link.parent]
-            };
+            let carrier = if link.parent == BASE { ON_BASE } else { places[link.parent] };
             let placement = after(&link.placement, &carrier.placement);
             if is_fixed(link) {
                 let body = carrier.body;
@@ -132,11 +125,7 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
                     links[body].inertia = with(&links[body].inertia, &link.inertia, &placement);
                 }
             } else {
-                links[count] = Link {
-                    parent: carrier.body,
-                    placement,
-                    ..*link
-                };
+                links[count] = Link { parent: carrier.body, placement, ..*link };
                 kinds = kinds.with(link.joint.kind);
                 chain &= carrier.body == count.wrapping_sub(1);
                 places[i].body = count;
@@ -155,24 +144,13 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
             }
             i += 1;
         }
-        let model = Model {
-            name: self.name,
-            links,
-            lambda: self.lambda,
-            kinds,
-            chain,
-        };
+        let model = Model { name: self.name, links, lambda: self.lambda, kinds, chain };
         Ok(Merged { model, places })
     }
 }
 
-const ON_BASE: MergedBody = MergedBody {
-    body: BASE,
-    placement: Xform {
-        rot: DMat3::IDENTITY,
-        pos: DVec3::ZERO,
-    },
-};
+const ON_BASE: MergedBody =
+    MergedBody { body: BASE, placement: Xform { rot: DMat3::IDENTITY, pos: DVec3::ZERO } };
 
 const fn is_fixed(link: &Link<f64>) -> bool {
     matches!(link.joint.kind, JointKind::Fixed)

@@ -204,18 +204,12 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
         while i < B {
             let body = &bodies[i];
             if let Some(problem) = body.problem(i) {
-                return Err(ModelError {
-                    body: body.name,
-                    problem,
-                });
+                return Err(ModelError { body: body.name, problem });
             }
             let (nq, nv) = body.joint.kind.coordinates();
             let mut link = aligned(body, &links);
             if !is_finite(&link) {
-                return Err(ModelError {
-                    body: body.name,
-                    problem: Problem::NotFinite,
-                });
+                return Err(ModelError { body: body.name, problem: Problem::NotFinite });
             }
             link.idx_q = if nq == 0 { BASE } else { idx_q };
             link.idx_v = if nv == 0 { BASE } else { idx_v };
@@ -235,31 +229,16 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
         if idx_q != Q || idx_v != V {
             return Err(ModelError {
                 body: name,
-                problem: Problem::Coordinates {
-                    expected: [idx_q, idx_v],
-                    given: [Q, V],
-                },
+                problem: Problem::Coordinates { expected: [idx_q, idx_v], given: [Q, V] },
             });
         }
-        Ok(Self {
-            name,
-            links,
-            lambda,
-            kinds,
-            chain,
-        })
+        Ok(Self { name, links, lambda, kinds, chain })
     }
 
     /// The same tree with its links in another scalar, which the host's tools bring.
     #[doc(hidden)]
     pub fn in_scalar<R: Real>(&self, links: [Link<R>; B]) -> Model<R, B, Q, V> {
-        Model {
-            name: self.name,
-            links,
-            lambda: self.lambda,
-            kinds: self.kinds,
-            chain: self.chain,
-        }
+        Model { name: self.name, links, lambda: self.lambda, kinds: self.kinds, chain: self.chain }
     }
 
     /// Whether the parent of every body is the one before it.
@@ -306,15 +285,8 @@ const EMPTY: Link<f64> = Link {
     parent: BASE,
     joint: Joint::fixed(),
     to_joint_frame: DMat3::IDENTITY,
-    placement: Xform {
-        rot: DMat3::IDENTITY,
-        pos: DVec3::ZERO,
-    },
-    inertia: SpatialInertia {
-        mass: 0.0,
-        first_moment: DVec3::ZERO,
-        rotational: DMat3::ZERO,
-    },
+    placement: Xform { rot: DMat3::IDENTITY, pos: DVec3::ZERO },
+    inertia: SpatialInertia { mass: 0.0, first_moment: DVec3::ZERO, rotational: DMat3::ZERO },
     idx_q: BASE,
     idx_v: BASE,
     limits: JointLimits::NONE,

@@ -90,16 +90,8 @@ impl ImpossibleInertia {
         if amount <= noise || amount <= relative * scale {
             return None;
         }
-        let at = if below > relative * scale {
-            least
-        } else {
-            most
-        };
-        Some(Self {
-            axis: vectors[at],
-            moment: values[at],
-            excess: amount / scale,
-        })
+        let at = if below > relative * scale { least } else { most };
+        Some(Self { axis: vectors[at], moment: values[at], excess: amount / scale })
     }
 
     /// The same as the problem of a body.
@@ -115,21 +107,12 @@ impl ImpossibleInertia {
 impl fmt::Display for ImpossibleInertia {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         // The direction of the axis with more positive components, and without −0.
-        let sign = if self.axis.iter().sum::<f64>() < 0.0 {
-            -1.0
-        } else {
-            1.0
-        };
-        let [x, y, z] = self
-            .axis
-            .map(|x| if x.abs() < 5e-3 { 0.0 } else { sign * x });
+        let sign = if self.axis.iter().sum::<f64>() < 0.0 { -1.0 } else { 1.0 };
+        let [x, y, z] = self.axis.map(|x| if x.abs() < 5e-3 { 0.0 } else { sign * x });
         write!(out, "the moment of inertia about ({x:.2}, {y:.2}, {z:.2}) ")?;
         if self.moment < 0.0 {
             let moment = self.moment;
-            write!(
-                out,
-                "is {moment:.3e} kg·m², and none is negative: no body has it"
-            )
+            write!(out, "is {moment:.3e} kg·m², and none is negative: no body has it")
         } else {
             let percent = 100.0 * self.excess;
             write!(

@@ -239,10 +239,7 @@ where
 {
     /// The robot as it is described.
     pub fn nominal() -> Self {
-        Self {
-            model: *model::<R, T, B, Q, V>(),
-            robot: PhantomData,
-        }
+        Self { model: *model::<R, T, B, Q, V>(), robot: PhantomData }
     }
 
     /// Its bodies' inertias, about the origins of their aligned frames and in their coordinates.

@@ -81,14 +81,7 @@ const fn calf(name: &'static str, parent: usize) -> Body {
         .xyz([0.0, 0.0, -0.2])
         .mass(0.166)
         .com([0.006435, 0.0, -0.107388])
-        .inertia([
-            0.002997972,
-            0.0,
-            -0.000141163,
-            0.003014022,
-            0.0,
-            0.000032426,
-        ])
+        .inertia([0.002997972, 0.0, -0.000141163, 0.003014022, 0.0, 0.000032426])
         .limits(limits(-154.5, -52.5))
 }
 
@@ -159,9 +152,7 @@ pub struct A1Free;
 const TRUNK: Body = Body::new("trunk", BASE, Joint::free())
     .mass(6.0)
     .com([0.0, 0.0041, -0.0005])
-    .inertia([
-        0.0158533, -0.0000366, -0.0000611, 0.0377999, -0.0000275, 0.0456542,
-    ]);
+    .inertia([0.0158533, -0.0000366, -0.0000611, 0.0377999, -0.0000275, 0.0456542]);
 
 impl Robot<17, 19, 18> for A1Free {
     const MODEL: Model<f64, 17, 19, 18> = Model::new("a1_free", attach_to(TRUNK, &LEGS));

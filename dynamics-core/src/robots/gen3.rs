@@ -24,12 +24,7 @@ pub struct Gen3;
 const Z: [f64; 3] = [0.0, 0.0, 1.0];
 
 const fn limits(position: f64, velocity: f64, torque: f64) -> JointLimits<f64> {
-    JointLimits {
-        lower: -position,
-        upper: position,
-        velocity,
-        torque,
-    }
+    JointLimits { lower: -position, upper: position, velocity, torque }
 }
 
 /// A large joint's limits.

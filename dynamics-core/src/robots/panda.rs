@@ -1,5 +1,9 @@
 //! Franka Emika Panda.
 
+// Formatted as users' files are.
+
+#[rustfmt::skip]
+
 #[path = "imported/panda.rs"]
 mod imported;
 

@@ -1,5 +1,9 @@
 //! The Robot Studio's SO-101.
 
+// Formatted as users' files are.
+
+#[rustfmt::skip]
+
 #[path = "imported/so101.rs"]
 mod imported;
 

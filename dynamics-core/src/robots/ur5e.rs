@@ -35,25 +35,11 @@ use crate::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, Robot};
 pub struct Ur5e;
 
 /// Joints 1 to 3, the large ones; the elbow turns half as far.
-const LARGE: JointLimits<f64> = JointLimits {
-    lower: -TAU,
-    upper: TAU,
-    velocity: PI,
-    torque: 150.0,
-};
-const ELBOW: JointLimits<f64> = JointLimits {
-    lower: -PI,
-    upper: PI,
-    velocity: PI,
-    torque: 150.0,
-};
+const LARGE: JointLimits<f64> =
+    JointLimits { lower: -TAU, upper: TAU, velocity: PI, torque: 150.0 };
+const ELBOW: JointLimits<f64> = JointLimits { lower: -PI, upper: PI, velocity: PI, torque: 150.0 };
 /// Joints 4 to 6, the wrist.
-const SMALL: JointLimits<f64> = JointLimits {
-    lower: -TAU,
-    upper: TAU,
-    velocity: PI,
-    torque: 28.0,
-};
+const SMALL: JointLimits<f64> = JointLimits { lower: -TAU, upper: TAU, velocity: PI, torque: 28.0 };
 
 const Z: [f64; 3] = [0.0, 0.0, 1.0];
 
@@ -65,42 +51,32 @@ impl Robot<6, 6, 6> for Ur5e {
                 .xyz([0.0, 0.0, 0.1625])
                 .mass(3.761)
                 .com([0.0, -0.00193, -0.02561])
-                .inertia([
-                    0.0070021, 1.053e-5, 7.3e-7, 0.00657286, -4.9994e-4, 0.00648091,
-                ])
+                .inertia([0.0070021, 1.053e-5, 7.3e-7, 0.00657286, -4.9994e-4, 0.00648091])
                 .limits(LARGE),
             Body::new("upper_arm", 0, Joint::revolute(Z))
                 .quarter_turns([1, 0, 0])
                 .mass(8.058)
                 .com([-0.2125, 0.0, 0.11336])
-                .inertia([
-                    0.01505885, -5.4e-5, 5.63e-6, 0.33388086, -1.81e-6, 0.33247207,
-                ])
+                .inertia([0.01505885, -5.4e-5, 5.63e-6, 0.33388086, -1.81e-6, 0.33247207])
                 .limits(LARGE),
             Body::new("forearm", 1, Joint::revolute(Z))
                 .xyz([-0.425, 0.0, 0.0])
                 .mass(2.846)
                 .com([-0.2422, 0.0, 0.0265])
-                .inertia([
-                    0.00399632, -1.365e-5, 0.00137272, 0.07879254, -6.6e-6, 0.0784851,
-                ])
+                .inertia([0.00399632, -1.365e-5, 0.00137272, 0.07879254, -6.6e-6, 0.0784851])
                 .limits(ELBOW),
             Body::new("wrist_1", 2, Joint::revolute(Z))
                 .xyz([-0.3922, 0.0, 0.1333])
                 .mass(1.37)
                 .com([0.0, -0.01634, -0.0018])
-                .inertia([
-                    0.00165491, 4.38e-6, -2.82e-6, 0.00126279, -1.0157e-4, 0.00135962,
-                ])
+                .inertia([0.00165491, 4.38e-6, -2.82e-6, 0.00126279, -1.0157e-4, 0.00135962])
                 .limits(SMALL),
             Body::new("wrist_2", 3, Joint::revolute(Z))
                 .xyz([0.0, -0.0997, 0.0])
                 .quarter_turns([1, 0, 0])
                 .mass(1.3)
                 .com([0.0, 0.01634, -0.0018])
-                .inertia([
-                    0.00135617, 4.44e-6, 2.74e-6, 9.6614e-4, 5.048e-5, 0.00127827,
-                ])
+                .inertia([0.00135617, 4.44e-6, 2.74e-6, 9.6614e-4, 5.048e-5, 0.00127827])
                 .limits(SMALL),
             Body::new("wrist_3", 4, Joint::revolute(Z))
                 .xyz([0.0, 0.0996, 0.0])

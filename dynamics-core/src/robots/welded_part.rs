@@ -36,14 +36,7 @@ impl Part {
             i += 1;
         }
         let [x, y, z] = d;
-        let apart = [
-            y * y + z * z,
-            -x * y,
-            -x * z,
-            x * x + z * z,
-            -y * z,
-            x * x + y * y,
-        ];
+        let apart = [y * y + z * z, -x * y, -x * z, x * x + z * z, -y * z, x * x + y * y];
         let (mut inertia, mut i) = ([0.0; 6], 0);
         while i < 6 {
             inertia[i] = self.inertia[i] + other.inertia[i] + reduced * apart[i];

@@ -1,5 +1,9 @@
 //! UFACTORY xArm7.
 
+// Formatted as users' files are.
+
+#[rustfmt::skip]
+
 #[path = "imported/xarm7.rs"]
 mod imported;
 

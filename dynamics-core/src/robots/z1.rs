@@ -1,5 +1,9 @@
 //! Unitree Z1.
 
+// Formatted as users' files are.
+
+#[rustfmt::skip]
+
 #[path = "imported/z1.rs"]
 mod imported;
 

@@ -91,10 +91,7 @@ where
             return aba(self.robot, at, &self.tau, &effects);
         }
         let half = R::from_f64(0.5) * h;
-        let mean = State {
-            qd: add_scaled(at.qd, half, &at.qdd),
-            ..*at
-        };
+        let mean = State { qd: add_scaled(at.qd, half, &at.qdd), ..*at };
         let effects = AtMeanVelocity::new(&effects, at.qd);
         aba(self.robot, &mean, &self.tau, &effects)
     }

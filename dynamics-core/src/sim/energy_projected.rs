@@ -18,9 +18,7 @@ pub struct EnergyProjected<R> {
 impl<R: Real, const Q: usize, const V: usize> Integrator<R, Q, V> for EnergyProjected<R> {
     fn start(mechanics: &impl Dynamics<R, Q, V>, at: &State<R, Q, V>) -> Self {
         let (kinetic, potential) = mechanics.energies(at);
-        Self {
-            energy: kinetic + potential,
-        }
+        Self { energy: kinetic + potential }
     }
 
     fn step(&self, robot: &impl Dynamics<R, Q, V>, at: &State<R, Q, V>, h: R) -> Step<R, V> {

@@ -65,13 +65,5 @@ where
     E: Effect<R, B, V>,
 {
     let tau = *tau;
-    SemiImplicit.advance(
-        &ModelDynamics {
-            robot,
-            tau,
-            effects,
-        },
-        state,
-        h,
-    )
+    SemiImplicit.advance(&ModelDynamics { robot, tau, effects }, state, h)
 }

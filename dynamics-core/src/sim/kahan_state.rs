@@ -33,10 +33,7 @@ pub struct KahanState<R, const V: usize, const COMPENSATED: bool> {
 impl<R: Real, const V: usize, const COMPENSATED: bool> KahanState<R, V, COMPENSATED> {
     /// Starts at an exact state.
     pub fn at(state: State<R, V, V>) -> Self {
-        Self {
-            state,
-            lost: [[R::ZERO; V]; 2],
-        }
+        Self { state, lost: [[R::ZERO; V]; 2] }
     }
 
     /// Advances by a step of h seconds.

@@ -65,11 +65,7 @@ where
     E: Effect<R, B, V>,
 {
     let (tau, acting) = (*tau, &*effects);
-    let mechanics = ModelDynamics {
-        robot,
-        tau,
-        effects: acting,
-    };
+    let mechanics = ModelDynamics { robot, tau, effects: acting };
     LinearlyImplicit.advance(&mechanics, state, h)?;
     for link in robot.links() {
         for k in link.coordinates() {

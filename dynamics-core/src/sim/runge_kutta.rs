@@ -50,9 +50,7 @@ impl<R: Real, const Q: usize, const V: usize> Integrator<R, Q, V> for RungeKutta
         Ok(StepIncrement {
             qd: mean(|k| &k.qd),
             qdd: mean(|k| &k.qdd),
-            half_difference: Some(core::array::from_fn(|j| {
-                third_of * (first.qd[j] - last.qd[j])
-            })),
+            half_difference: Some(core::array::from_fn(|j| third_of * (first.qd[j] - last.qd[j]))),
         })
     }
 }
@@ -92,13 +90,5 @@ where
     E: Effect<R, B, V>,
 {
     let tau = *tau;
-    RungeKutta.advance(
-        &ModelDynamics {
-            robot,
-            tau,
-            effects,
-        },
-        state,
-        h,
-    )
+    RungeKutta.advance(&ModelDynamics { robot, tau, effects }, state, h)
 }

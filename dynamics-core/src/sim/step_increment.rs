@@ -21,11 +21,7 @@ impl<R: Real, const V: usize> StepIncrement<R, V> {
     #[cfg_attr(optimised, inline(always))]
     pub fn constant(qd: [R; V], qdd: [R; V]) -> Self {
         let half_difference = None;
-        Self {
-            qd,
-            qdd,
-            half_difference,
-        }
+        Self { qd, qdd, half_difference }
     }
 
     /// Configuration after h seconds from q, on this robot's joints.

@@ -41,10 +41,7 @@ impl<R: Real> AccelerationField<R> {
     /// flops.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn moved(&self, x: &Xform<R>) -> Motion<R> {
-        Motion::new(
-            x.rot * self.ang,
-            x.rot * self.plus_gradient(self.origin, x.pos),
-        )
+        Motion::new(x.rot * self.ang, x.rot * self.plus_gradient(self.origin, x.pos))
     }
 
     /// a + U r. 18 flops.

@@ -102,18 +102,14 @@ impl<R: Real> AxialScrews<R> {
         ia: &ArticulatedInertia<R>,
     ) -> ArticulatedInertia<R> {
         let ia = self.about_z.articulated_back_about_z(ia).renamed();
-        self.about_x
-            .articulated_back_about_z(&ia)
-            .renamed()
-            .renamed()
+        self.about_x.articulated_back_about_z(&ia).renamed().renamed()
     }
 
     /// The same where nothing resists a turn about z, nor does in the frame between the screws. 174
     /// flops.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn free_at_parent(&self, ia: &FreeAboutZ<R>) -> ArticulatedInertia<R> {
-        self.about_x
-            .free_back_about_x(&self.about_z.free_back_about_z(ia))
+        self.about_x.free_back_about_x(&self.about_z.free_back_about_z(ia))
     }
 }
 
@@ -177,10 +173,7 @@ impl<R: Real> Screw<R> {
     /// An articulated inertia before the screw, about z. 115 flops.
     #[cfg_attr(optimised, inline(always))]
     fn articulated_back_about_z(&self, ia: &ArticulatedInertia<R>) -> ArticulatedInertia<R> {
-        let (i, mass) = (
-            self.symmetric_back(&ia.inertia),
-            self.symmetric_back(&ia.mass),
-        );
+        let (i, mass) = (self.symmetric_back(&ia.inertia), self.symmetric_back(&ia.mass));
         let [[hxx, hyx, hzx], [hxy, hyy, hzy], [hxz, hyz, hzz]] =
             ia.coupling.cols().map(Vector::array);
         let [[hxx, hxy], [hyx, hyy]] = self.block_back([[hxx, hxy], [hyx, hyy]]);
@@ -239,14 +232,7 @@ impl<R: Real> Screw<R> {
         let w = self.sin * (m.xx - m.yy) + self.cos * twice;
         let moved = self.sin * w;
         let [xz, yz] = self.turn_back([m.xz, m.yz]);
-        Symmetric {
-            xx: m.xx - moved,
-            xy: self.cos * w - m.xy,
-            xz,
-            yy: m.yy + moved,
-            yz,
-            zz: m.zz,
-        }
+        Symmetric { xx: m.xx - moved, xy: self.cos * w - m.xy, xz, yy: m.yy + moved, yz, zz: m.zz }
     }
 
     /// A symmetric matrix, turned back about z. 27 flops.
@@ -255,14 +241,7 @@ impl<R: Real> Screw<R> {
         let [[xx, xy], [_, yy]] = self.block_back([[m.xx, m.xy], [m.xy, m.yy]]);
         let [xz, yz] = self.turn_back([m.xz, m.yz]);
         let zz = m.zz;
-        Symmetric {
-            xx,
-            xy,
-            xz,
-            yy,
-            yz,
-            zz,
-        }
+        Symmetric { xx, xy, xz, yy, yz, zz }
     }
 }
 
@@ -275,14 +254,7 @@ trait Renamed {
 impl<R: Real> Renamed for Symmetric<R> {
     #[cfg_attr(optimised, inline(always))]
     fn renamed(&self) -> Self {
-        Self {
-            xx: self.yy,
-            xy: self.yz,
-            xz: self.xy,
-            yy: self.zz,
-            yz: self.xz,
-            zz: self.xx,
-        }
+        Self { xx: self.yy, xy: self.yz, xz: self.xy, yy: self.zz, yz: self.xz, zz: self.xx }
     }
 }
 
@@ -342,14 +314,8 @@ mod tests {
 
     /// Twenty-one numbers without a pattern.
     fn articulated() -> ArticulatedInertia<f64> {
-        let symmetric = |a: f64| Symmetric {
-            xx: a,
-            xy: 0.2,
-            xz: -0.3 * a,
-            yy: 0.7,
-            yz: 0.1 * a,
-            zz: 1.1,
-        };
+        let symmetric =
+            |a: f64| Symmetric { xx: a, xy: 0.2, xz: -0.3 * a, yy: 0.7, yz: 0.1 * a, zz: 1.1 };
         ArticulatedInertia {
             inertia: symmetric(2.0),
             coupling: DMat3::from_cols(

@@ -18,11 +18,7 @@ pub(crate) struct CompositeInertia<R: Real> {
 impl<R: Real> From<SpatialInertia<R>> for CompositeInertia<R> {
     #[cfg_attr(optimised, inline(always))]
     fn from(i: SpatialInertia<R>) -> Self {
-        Self {
-            mass: i.mass,
-            first_moment: i.first_moment,
-            inertia: Symmetric::of(&i.rotational),
-        }
+        Self { mass: i.mass, first_moment: i.first_moment, inertia: Symmetric::of(&i.rotational) }
     }
 }
 
@@ -38,14 +34,7 @@ impl<R: Real> AddAssign for CompositeInertia<R> {
 impl<R: Real> CompositeInertia<R> {
     /// The ten parameters, in the order of [`SpatialInertia::parameters`].
     pub(crate) fn parameters(&self) -> [R; 10] {
-        let Symmetric {
-            xx,
-            xy,
-            xz,
-            yy,
-            yz,
-            zz,
-        } = self.inertia;
+        let Symmetric { xx, xy, xz, yy, yz, zz } = self.inertia;
         let [x, y, z] = self.first_moment.array();
         [self.mass, x, y, z, xx, xy, yy, xz, yz, zz]
     }
@@ -59,10 +48,9 @@ impl<R: Real> CompositeInertia<R> {
             MotionSubspace::RevoluteZ => {
                 Force::new(self.inertia.column_z(), R::Vec3::new(-y, x, zero))
             }
-            MotionSubspace::PrismaticZ => Force::new(
-                R::Vec3::new(y, -x, zero),
-                R::Vec3::new(zero, zero, self.mass),
-            ),
+            MotionSubspace::PrismaticZ => {
+                Force::new(R::Vec3::new(y, -x, zero), R::Vec3::new(zero, zero, self.mass))
+            }
             MotionSubspace::General(s) => Force::new(
                 self.inertia.times(s.ang) + self.first_moment.cross(s.lin),
                 s.lin * self.mass - self.first_moment.cross(s.ang),

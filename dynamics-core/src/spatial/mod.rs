@@ -95,10 +95,7 @@ macro_rules! vector_space {
     ($t:ident, $what:literal) => {
         impl<R: Real> $t<R> {
             #[doc = concat!("The zero ", $what, ".")]
-            pub const ZERO: Self = Self {
-                ang: R::Vec3::ZERO,
-                lin: R::Vec3::ZERO,
-            };
+            pub const ZERO: Self = Self { ang: R::Vec3::ZERO, lin: R::Vec3::ZERO };
             #[doc = concat!("A ", $what, " from its angular and linear parts.")]
             #[cfg_attr(optimised, inline(always))]
             pub const fn new(ang: R::Vec3, lin: R::Vec3) -> Self {
@@ -175,28 +172,19 @@ impl<R: Real> Motion<R> {
     /// m × m₂, the rate of change of m₂ moving with velocity m. RBDA (2.31). 30 flops.
     #[cfg_attr(optimised, inline(always))]
     pub fn cross(self, m: Self) -> Self {
-        Self::new(
-            self.ang.cross(m.ang),
-            self.ang.cross(m.lin) + self.lin.cross(m.ang),
-        )
+        Self::new(self.ang.cross(m.ang), self.ang.cross(m.lin) + self.lin.cross(m.ang))
     }
 
     /// m ×* f, the rate of change of f moving with velocity m. RBDA (2.32). 30 flops.
     #[cfg_attr(optimised, inline(always))]
     pub fn cross_force(self, f: Force<R>) -> Force<R> {
-        Force::new(
-            self.ang.cross(f.ang) + self.lin.cross(f.lin),
-            self.ang.cross(f.lin),
-        )
+        Force::new(self.ang.cross(f.ang) + self.lin.cross(f.lin), self.ang.cross(f.lin))
     }
 }
 
 impl<R: Real> Xform<R> {
     /// The transform that changes nothing.
-    pub const IDENTITY: Self = Self {
-        rot: R::Mat3::IDENTITY,
-        pos: R::Vec3::ZERO,
-    };
+    pub const IDENTITY: Self = Self { rot: R::Mat3::IDENTITY, pos: R::Vec3::ZERO };
 
     /// Xᵀ f: a force from B to A coordinates, RBDA table 2.6. 39 flops.
     #[cfg_attr(optimised, inline(always))]
@@ -220,10 +208,7 @@ impl<R: Real> Mul for Xform<R> {
     type Output = Self;
     #[cfg_attr(optimised, inline(always))]
     fn mul(self, first: Self) -> Self {
-        Self {
-            rot: self.rot * first.rot,
-            pos: first.pos + first.rot.transpose_mul(self.pos),
-        }
+        Self { rot: self.rot * first.rot, pos: first.pos + first.rot.transpose_mul(self.pos) }
     }
 }
 
@@ -248,21 +233,14 @@ impl<R: Real> SpatialInertia<R> {
     pub fn bias_force(&self, v: Motion<R>) -> Force<R> {
         let (w, h) = (v.ang, self.first_moment);
         let point = w.cross(v.lin);
-        Force::new(
-            h.cross(point) + w.cross(self.turn(w)),
-            point * self.mass + w.cross(w.cross(h)),
-        )
+        Force::new(h.cross(point) + w.cross(self.turn(w)), point * self.mass + w.cross(w.cross(h)))
     }
 
     /// Ī w, reading the upper triangle of Ī. 15 flops.
     #[cfg_attr(optimised, inline(always))]
     fn turn(&self, w: R::Vec3) -> R::Vec3 {
         let ([xx, xy, xz, yy, yz, zz], [x, y, z]) = (self.upper(), w.array());
-        R::Vec3::new(
-            xx * x + xy * y + xz * z,
-            xy * x + yy * y + yz * z,
-            xz * x + yz * y + zz * z,
-        )
+        R::Vec3::new(xx * x + xy * y + xz * z, xy * x + yy * y + yz * z, xz * x + yz * y + zz * z)
     }
 
     /// The upper triangle of Ī: xx, xy, xz, yy, yz, zz.
@@ -306,11 +284,8 @@ impl<R: Real> SpatialInertia<R> {
     }
 
     /// Zero inertia.
-    pub const ZERO: Self = Self {
-        mass: R::ZERO,
-        first_moment: R::Vec3::ZERO,
-        rotational: R::Mat3::ZERO,
-    };
+    pub const ZERO: Self =
+        Self { mass: R::ZERO, first_moment: R::Vec3::ZERO, rotational: R::Mat3::ZERO };
 }
 
 impl<R: Real> Add for SpatialInertia<R> {

@@ -48,11 +48,7 @@ pub(crate) fn so3_plus<R: Real>(p: [R; 4], phi: R::Vec3) -> [R; 4] {
     let short = (one - squared(p)) * R::from_f64(0.5);
     let [x, y, z] = (phi * (sinc(half, sin) * R::from_f64(0.5) * (one + short))).array();
     // cos − 1 without cancellation.
-    let less = if cos > R::ZERO {
-        -(sin * sin / (one + cos))
-    } else {
-        cos - one
-    };
+    let less = if cos > R::ZERO { -(sin * sin / (one + cos)) } else { cos - one };
     let mut out = product(p, [x, y, z, less + cos * short]);
     out.iter_mut().zip(p).for_each(|(out, p)| *out += p);
     out
@@ -66,11 +62,7 @@ pub(crate) fn log<R: Real>(p: [R; 4]) -> R::Vec3 {
     let sin = u.dot(u).sqrt();
     let half = sin.atan2(w);
     let two = R::from_f64(2.0);
-    if sin > R::ZERO {
-        u * (two * (half / sin))
-    } else {
-        u * two
-    }
+    if sin > R::ZERO { u * (two * (half / sin)) } else { u * two }
 }
 
 /// The translation of exp(φ, ρ) in SE(3), in the body's frame at the start.
@@ -119,10 +111,7 @@ pub(crate) fn se3_log<R: Real>(turn: [R; 4], place: R::Vec3) -> (R::Vec3, R::Vec
         (R::ONE - half * (cos / sin)) / squared
     };
     let across = phi.cross(place);
-    (
-        phi,
-        place - across * R::from_f64(0.5) + phi.cross(across) * c,
-    )
+    (phi, place - across * R::from_f64(0.5) + phi.cross(across) * c)
 }
 
 /// sin x / x from x and sin x.

@@ -20,25 +20,12 @@ impl<R: Real> Symmetric<R> {
     /// m 1.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn diagonal(m: R) -> Self {
-        Self {
-            xx: m,
-            xy: R::ZERO,
-            xz: R::ZERO,
-            yy: m,
-            yz: R::ZERO,
-            zz: m,
-        }
+        Self { xx: m, xy: R::ZERO, xz: R::ZERO, yy: m, yz: R::ZERO, zz: m }
     }
 
     /// 0.
-    pub(crate) const ZERO: Self = Self {
-        xx: R::ZERO,
-        xy: R::ZERO,
-        xz: R::ZERO,
-        yy: R::ZERO,
-        yz: R::ZERO,
-        zz: R::ZERO,
-    };
+    pub(crate) const ZERO: Self =
+        Self { xx: R::ZERO, xy: R::ZERO, xz: R::ZERO, yy: R::ZERO, yz: R::ZERO, zz: R::ZERO };
 
     /// Its columns.
     #[cfg_attr(optimised, inline(always))]
@@ -55,14 +42,7 @@ impl<R: Real> Symmetric<R> {
     pub(crate) fn of(m: &R::Mat3) -> Self {
         let [x, y, z] = m.cols();
         let ([xx, _, _], [xy, yy, _], [xz, yz, zz]) = (x.array(), y.array(), z.array());
-        Self {
-            xx,
-            xy,
-            xz,
-            yy,
-            yz,
-            zz,
-        }
+        Self { xx, xy, xz, yy, yz, zz }
     }
 
     /// Row and column z.
@@ -130,11 +110,7 @@ pub(crate) fn turned_back<R: Real>(h: &R::Mat3, e: &R::Mat3) -> R::Mat3 {
     let (vx, vy, vz) = (v(x), v(y), v(z));
     let (m_yy, m_zz) = (along(ly, y), along(lz, z));
     R::Mat3::from_cols(
-        R::Vec3::new(
-            (a + d) - m_yy - m_zz + zz,
-            along(ly, x) + vz,
-            along(lz, x) - vy,
-        ),
+        R::Vec3::new((a + d) - m_yy - m_zz + zz, along(ly, x) + vz, along(lz, x) - vy),
         R::Vec3::new(along(lx, y) - vz, m_yy + zz, along(lz, y) + vx),
         R::Vec3::new(along(lx, z) + vy, along(ly, z) - vx, m_zz + zz),
     )
@@ -193,10 +169,7 @@ pub(crate) const fn eigen<const VECTORS: bool>(mut a: [[f64; 3]; 3]) -> Eigen {
         rotate::<1, 2, VECTORS>(&mut a, &mut vectors);
         sweep += 1;
     }
-    Eigen {
-        values: [a[0][0], a[1][1], a[2][2]],
-        vectors,
-    }
+    Eigen { values: [a[0][0], a[1][1], a[2][2]], vectors }
 }
 
 /// The rotation in the plane of axes P and Q that makes the entry there zero; its indices are
@@ -243,10 +216,7 @@ mod tests {
         let error = turned_back::<f64>(&h, &e) - e.transpose() * h * e;
         assert!(error.abs_diff_eq(DMat3::ZERO, 1e-14), "{error}");
         let s = h + h.transpose();
-        let (got, want) = (
-            Symmetric::<f64>::of(&s).turned_back(&e),
-            e.transpose() * s * e,
-        );
+        let (got, want) = (Symmetric::<f64>::of(&s).turned_back(&e), e.transpose() * s * e);
         for v in [DVec3::X, DVec3::Y, DVec3::Z] {
             let got: DVec3 = Symmetric::<f64>::times(&got, v);
             assert!(got.abs_diff_eq(want * v, 1e-14), "{got:?} {want}");
@@ -255,10 +225,7 @@ mod tests {
 
     #[test]
     fn eigenvectors_make_the_matrix_diagonal() {
-        for m in [
-            [2.0, 0.3, -0.4, 1.5, 0.7, 0.9],
-            [1.0, 1.5, 0.0, 1.0, 0.0, 1.0],
-        ] {
+        for m in [[2.0, 0.3, -0.4, 1.5, 0.7, 0.9], [1.0, 1.5, 0.0, 1.0, 0.0, 1.0]] {
             let [xx, xy, xz, yy, yz, zz] = m;
             let found = super::eigen::<true>([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]);
             let m = DMat3::from_cols_array(&[xx, xy, xz, xy, yy, yz, xz, yz, zz]);
@@ -275,10 +242,7 @@ mod tests {
         let a = [[2.0, 1.0, 0.0], [1.0, 2.0, 1.0], [0.0, 1.0, 2.0]];
         let mut e = super::eigen::<false>(a).values;
         e.sort_by(f64::total_cmp);
-        for (got, want) in e
-            .iter()
-            .zip([2.0 - 2.0_f64.sqrt(), 2.0, 2.0 + 2.0_f64.sqrt()])
-        {
+        for (got, want) in e.iter().zip([2.0 - 2.0_f64.sqrt(), 2.0, 2.0 + 2.0_f64.sqrt()]) {
             assert!((got - want).abs() < 1e-14, "{got} {want}");
         }
     }

@@ -38,12 +38,7 @@ pub struct IncrementalTrig<R, const N: usize> {
 impl<R: Real, const N: usize> IncrementalTrig<R, N> {
     /// The joints at q, rad.
     pub fn at(q: [R; N]) -> Self {
-        Self {
-            trig: JointTrig {
-                coordinates: q.map(JointCoordinate::revolute),
-            },
-            next: 0,
-        }
+        Self { trig: JointTrig { coordinates: q.map(JointCoordinate::revolute) }, next: 0 }
     }
 
     /// The same joints a tick later, at q.

@@ -27,11 +27,7 @@ pub struct NoAttitude {
 
 impl fmt::Display for NoAttitude {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            out,
-            "the quaternion at q[{}] is zero or not a number",
-            self.at
-        )
+        write!(out, "the quaternion at q[{}] is zero or not a number", self.at)
     }
 }
 

@@ -40,11 +40,7 @@ pub type ArmState<R, const N: usize> = State<R, N, N>;
 impl<R: Real, const Q: usize, const V: usize> State<R, Q, V> {
     /// The state of rest at q.
     pub fn at(q: [R; Q]) -> Self {
-        Self {
-            q,
-            qd: [R::ZERO; V],
-            qdd: [R::ZERO; V],
-        }
+        Self { q, qd: [R::ZERO; V], qdd: [R::ZERO; V] }
     }
 
     /// Whether every number is finite.
@@ -103,9 +99,7 @@ impl<R: Real, const Q: usize> JointTrig<R, Q> {
         D: RobotModel<R, B, Q, V>,
     {
         if const { VECTORS } && robot.model().kinds().are_revolute_or_fixed() {
-            return Self {
-                coordinates: q.map(JointCoordinate::with_kernel::<K>),
-            };
+            return Self { coordinates: q.map(JointCoordinate::with_kernel::<K>) };
         }
         let mut turns = [JointCoordinate::default(); Q];
         if const { D::MAY_BE_REVOLUTE }

@@ -32,10 +32,7 @@ pub trait Kernel<R> {
 /// of others.
 ///
 /// Without a branch: the compiler would make one of an `if`.
-#[allow(
-    clippy::eq_op,
-    reason = "x − x is 0 of a finite x and NaN of any other"
-)]
+#[allow(clippy::eq_op, reason = "x − x is 0 of a finite x and NaN of any other")]
 #[cfg_attr(optimised, inline(always))]
 pub(super) fn bounded(r: f32, inside: bool, x: f32) -> f32 {
     core::hint::select_unpredictable(inside, r, x - x)

@@ -33,10 +33,7 @@ impl<const DEGREE: usize, const PARTS: usize> Kernel<f32> for Minimax<DEGREE, PA
     #[cfg_attr(optimised, inline(always))]
     fn sin_cos(x: f32) -> (f32, f32) {
         const {
-            assert!(
-                DEGREE == 3 || DEGREE == 5 || DEGREE == 7,
-                "degrees are 3, 5 and 7"
-            );
+            assert!(DEGREE == 3 || DEGREE == 5 || DEGREE == 7, "degrees are 3, 5 and 7");
             assert!(PARTS == 2 || PARTS == 3, "parts are 2 or 3");
         }
         let (k, quadrant) = quarter_turns(x);
@@ -71,10 +68,7 @@ fn polynomials<const DEGREE: usize>(r: f32) -> (f32, f32) {
     const COS_6: [f32; 2] = [0.041_661_993, -0.001_366_497_3];
     let u = r * r;
     match DEGREE {
-        3 => (
-            r + r * u * -0.161_598_67,
-            1.0 + u * (-0.5 + u * 0.040_818_892),
-        ),
+        3 => (r + r * u * -0.161_598_67, 1.0 + u * (-0.5 + u * 0.040_818_892)),
         5 => (
             r + r * u * (SIN_5[0] + u * SIN_5[1]),
             1.0 + u * (-0.5 + u * (COS_6[0] + u * COS_6[1])),

@@ -65,10 +65,7 @@ pub fn sin_cos_near(x: f32) -> (f32, f32) {
 /// let (s, c) = dynamics_core::trig::sin_cos_f64(2.0);
 /// assert!((s - 0.909_297_426_825_681_7).abs() < 3e-16 && (c + 0.416_146_836_547_142_4).abs() < 3e-16);
 /// ```
-#[allow(
-    clippy::eq_op,
-    reason = "x − x is 0 of a finite x and NaN of any other"
-)]
+#[allow(clippy::eq_op, reason = "x − x is 0 of a finite x and NaN of any other")]
 #[cfg_attr(optimised, inline(always))]
 pub fn sin_cos_f64(x: f64) -> (f64, f64) {
     const ROUND: f64 = 6_755_399_441_055_744.0;

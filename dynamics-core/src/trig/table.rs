@@ -55,10 +55,7 @@ impl<const N: usize, const ORDER: usize, const PARTS: usize> Table<N, ORDER, PAR
             // Within half a turn, where the series of `const_math` ends early.
             let turns = k as f64 / N as f64 - if 2 * k > N { 1.0 } else { 0.0 };
             let (s, c) = const_eval::sin_cos(turns * core::f64::consts::TAU);
-            entries[k] = Pair {
-                sin: s as f32,
-                cos: c as f32,
-            };
+            entries[k] = Pair { sin: s as f32, cos: c as f32 };
             k += 1;
         }
         entries
@@ -124,10 +121,7 @@ impl<const N: usize, const ORDER: usize, const PARTS: usize> Kernel<f32>
         let r = bounded(r, t.to_bits() & OUTSIDE == 0, x);
         let Pair { sin: s, cos: c } = if GATHERS {
             let word = (const { &Self::WORDS })[at];
-            Pair {
-                sin: f32::from_bits(word as u32),
-                cos: f32::from_bits((word >> 32) as u32),
-            }
+            Pair { sin: f32::from_bits(word as u32), cos: f32::from_bits((word >> 32) as u32) }
         } else {
             (const { &Self::ENTRIES })[at]
         };

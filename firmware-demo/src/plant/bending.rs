@@ -33,13 +33,7 @@ where
         let rest = ModalFeedforward::at_rest(&robot, &modes, &q, &effects);
         // Modes that are checked while compiling have a stiffness.
         let bent = rest.map_or(State::at([0.0; M]), |rest| rest.bent);
-        Self {
-            robot,
-            modes,
-            effects,
-            joints: State::at(q),
-            bent,
-        }
+        Self { robot, modes, effects, joints: State::at(q), bent }
     }
 }
 
@@ -55,14 +49,6 @@ where
     }
 
     fn step(&mut self, torque: &[f32; B], _: &X, h: f32) -> Result<(), FlexibleError> {
-        step(
-            &self.robot,
-            &self.modes,
-            &mut self.joints,
-            &mut self.bent,
-            torque,
-            &self.effects,
-            h,
-        )
+        step(&self.robot, &self.modes, &mut self.joints, &mut self.bent, torque, &self.effects, h)
     }
 }

@@ -33,12 +33,7 @@ where
     pub fn new(robot: Calibrated<T, f32, B, V, V>, effects: E, y: [f32; N]) -> Self {
         let y = State::at(y);
         let motion = Clustered::<Core<T>>::motion(&y).ok();
-        Self {
-            robot,
-            effects,
-            y,
-            motion,
-        }
+        Self { robot, effects, y, motion }
     }
 
     /// One step as [`linearly_implicit`](dynamics_core::sim::linearly_implicit()) takes it, of y:

@@ -36,10 +36,7 @@ where
             joints,
             effects,
             links: State::at(links),
-            motors: MotorState {
-                position: motors,
-                velocity: [0.0; B],
-            },
+            motors: MotorState { position: motors, velocity: [0.0; B] },
         }
     }
 }

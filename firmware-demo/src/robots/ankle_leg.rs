@@ -31,12 +31,8 @@ const fn rod(side: f64, height: f64, length: f64) -> Rod {
     }
 }
 
-const LIMITS: JointLimits<f64> = JointLimits {
-    lower: -PI,
-    upper: PI,
-    velocity: 20.0,
-    torque: 100.0,
-};
+const LIMITS: JointLimits<f64> =
+    JointLimits { lower: -PI, upper: PI, velocity: 20.0, torque: 100.0 };
 
 const fn crank(name: &'static str, parent: usize, rod: &Rod) -> Body {
     let [x, y, z] = rod.joint;
@@ -50,9 +46,7 @@ const fn crank(name: &'static str, parent: usize, rod: &Rod) -> Body {
 
 /// The massless body between a rod's two axes.
 const fn cross(name: &'static str, parent: usize, rod: &Rod) -> Body {
-    Body::new(name, parent, Joint::revolute(Y))
-        .xyz(rod.crank)
-        .limits(LIMITS)
+    Body::new(name, parent, Joint::revolute(Y)).xyz(rod.crank).limits(LIMITS)
 }
 
 const fn bar(name: &'static str, parent: usize, rod: &Rod) -> Body {

@@ -27,24 +27,11 @@ struct Size {
     platform: f64,
 }
 
-const USUAL: Size = Size {
-    base: 0.2,
-    crank: 0.2,
-    rod: 0.45,
-    platform: 0.05,
-};
-const FLAT: Size = Size {
-    base: 0.1875,
-    crank: 0.1875,
-    rod: 0.3125,
-    platform: 0.0625,
-};
+const USUAL: Size = Size { base: 0.2, crank: 0.2, rod: 0.45, platform: 0.05 };
+const FLAT: Size = Size { base: 0.1875, crank: 0.1875, rod: 0.3125, platform: 0.0625 };
 /// cos and sin of 0, 120 and 240 degrees.
-const SIDES: [(f64, f64); 3] = [
-    (1.0, 0.0),
-    (-0.5, 0.866_025_403_784_438_6),
-    (-0.5, -0.866_025_403_784_438_6),
-];
+const SIDES: [(f64, f64); 3] =
+    [(1.0, 0.0), (-0.5, 0.866_025_403_784_438_6), (-0.5, -0.866_025_403_784_438_6)];
 
 /// (x, y) of a side in the frame of the base or the platform.
 const fn at(side: usize, x: f64, y: f64) -> [f64; 3] {

@@ -14,12 +14,7 @@ use dynamics_core::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, Robo
 pub struct DirectDrive;
 
 const fn limits(reach: f64, velocity: f64, torque: f64) -> JointLimits<f64> {
-    JointLimits {
-        lower: -reach,
-        upper: reach,
-        velocity,
-        torque,
-    }
+    JointLimits { lower: -reach, upper: reach, velocity, torque }
 }
 
 impl Robot<3, 3, 3> for DirectDrive {

@@ -23,12 +23,8 @@ pub const LEVER: f64 = 0.05;
 
 const Y: [f64; 3] = [0.0, 1.0, 0.0];
 
-const LIMITS: JointLimits<f64> = JointLimits {
-    lower: -PI,
-    upper: PI,
-    velocity: 20.0,
-    torque: 100.0,
-};
+const LIMITS: JointLimits<f64> =
+    JointLimits { lower: -PI, upper: PI, velocity: 20.0, torque: 100.0 };
 
 impl Robot<5, 5, 5> for FourBarLeg {
     const MODEL: ArmModel<f64, 5> = Model::new(

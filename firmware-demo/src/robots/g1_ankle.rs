@@ -53,12 +53,7 @@ const fn rod(side: f64, height: f64) -> Rod {
 
 /// Degrees, N·m and rad/s.
 const fn limits(lower: f64, upper: f64, torque: f64, velocity: f64) -> JointLimits<f64> {
-    JointLimits {
-        lower: lower * PI / 180.0,
-        upper: upper * PI / 180.0,
-        velocity,
-        torque,
-    }
+    JointLimits { lower: lower * PI / 180.0, upper: upper * PI / 180.0, velocity, torque }
 }
 
 const fn crank(name: &'static str, rod: &Rod) -> Body {
@@ -73,9 +68,7 @@ const fn crank(name: &'static str, rod: &Rod) -> Body {
 
 /// A body without mass between the two axes of a rod.
 const fn cross(name: &'static str, crank: usize, rod: &Rod) -> Body {
-    Body::new(name, crank, Joint::revolute(Y))
-        .xyz(rod.crank)
-        .limits(limits(-90.0, 90.0, 0.0, 37.0))
+    Body::new(name, crank, Joint::revolute(Y)).xyz(rod.crank).limits(limits(-90.0, 90.0, 0.0, 37.0))
 }
 
 const fn bar(name: &'static str, cross: usize, rod: &Rod) -> Body {

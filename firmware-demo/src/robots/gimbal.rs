@@ -17,12 +17,7 @@ pub struct Gimbal;
 const TILT: f64 = 35.0 * PI / 180.0;
 
 const fn limits(range: f64, torque: f64) -> JointLimits<f64> {
-    JointLimits {
-        lower: -range,
-        upper: range,
-        velocity: 2.0,
-        torque,
-    }
+    JointLimits { lower: -range, upper: range, velocity: 2.0, torque }
 }
 
 impl Robot<3, 3, 3> for Gimbal {

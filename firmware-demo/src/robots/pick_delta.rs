@@ -35,11 +35,8 @@ const Y: [f64; 3] = [0.0, 1.0, 0.0];
 const Z: [f64; 3] = [0.0, 0.0, 1.0];
 
 /// cos and sin of 0°, 120° and 240°.
-pub const SIDES: [[f64; 2]; 3] = [
-    [1.0, 0.0],
-    [-0.5, 0.866_025_403_784_438_6],
-    [-0.5, -0.866_025_403_784_438_6],
-];
+pub const SIDES: [[f64; 2]; 3] =
+    [[1.0, 0.0], [-0.5, 0.866_025_403_784_438_6], [-0.5, -0.866_025_403_784_438_6]];
 
 /// Beam and pin, kg and m.
 const BEAM: f64 = 3.47;
@@ -73,20 +70,11 @@ impl PickDelta {
     pub const PLATFORM: f64 = 0.125;
 }
 
-const CRANK_LIMITS: JointLimits<f64> = JointLimits {
-    lower: -0.7,
-    upper: 1.6,
-    velocity: 8.0,
-    torque: 450.0,
-};
+const CRANK_LIMITS: JointLimits<f64> =
+    JointLimits { lower: -0.7, upper: 1.6, velocity: 8.0, torque: 450.0 };
 
 /// Limits of joints without a drive.
-const FREE: JointLimits<f64> = JointLimits {
-    lower: -PI,
-    upper: PI,
-    velocity: 20.0,
-    torque: 0.0,
-};
+const FREE: JointLimits<f64> = JointLimits { lower: -PI, upper: PI, velocity: 20.0, torque: 0.0 };
 
 const fn crank(name: &'static str, side: usize) -> Body {
     let [cos, sin] = SIDES[side];
@@ -104,9 +92,7 @@ const fn crank(name: &'static str, side: usize) -> Body {
 
 /// A body without mass between the two axes of a pair of rods.
 const fn cross(name: &'static str, crank: usize) -> Body {
-    Body::new(name, crank, Joint::revolute(Y))
-        .xyz([PickDelta::CRANK, 0.0, 0.0])
-        .limits(FREE)
+    Body::new(name, crank, Joint::revolute(Y)).xyz([PickDelta::CRANK, 0.0, 0.0]).limits(FREE)
 }
 
 const fn rods(name: &'static str, cross: usize) -> Body {
@@ -143,10 +129,8 @@ impl Robot<12, 12, 12> for PickDelta {
 
 impl ClusteredRobot<12, 12, 12, 3, 3> for PickDelta {
     type Clusters = (Driven<Delta, 12, 3>,);
-    const CLUSTERS: Self::Clusters = (Driven::new(
-        "arms",
-        Delta::new(Self::BASE, Self::CRANK, Self::ROD, Self::PLATFORM),
-    ),);
+    const CLUSTERS: Self::Clusters =
+        (Driven::new("arms", Delta::new(Self::BASE, Self::CRANK, Self::ROD, Self::PLATFORM)),);
     const COORDINATES: &'static [&'static [usize]] = &[&[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11]];
 }
 

@@ -39,10 +39,7 @@ const fn meets(name: &'static str, [p, s]: [(usize, f64); 2]) -> LoopJoint {
     LoopJoint::new(
         name,
         Joint::revolute(Y),
-        [
-            BodyFrame::new(p.0).xyz([p.1, 0.0, 0.0]),
-            BodyFrame::new(s.0).xyz([s.1, 0.0, 0.0]),
-        ],
+        [BodyFrame::new(p.0).xyz([p.1, 0.0, 0.0]), BodyFrame::new(s.0).xyz([s.1, 0.0, 0.0])],
     )
 }
 
@@ -71,11 +68,8 @@ impl Robot<3, 3, 3> for Parallelogram {
     const MODEL: ArmModel<f64, 3> = four_bar("parallelogram", [0.3, 0.5, 0.3, 0.5]);
 }
 impl LoopRobot<3, 3, 3, 1, 5, 1> for Parallelogram {
-    const LOOPS: Loops<1, 5, 1> = Loops::new(
-        &Self::MODEL,
-        [meets("far_corner", [(1, 0.5), (2, 0.3)])],
-        [0],
-    );
+    const LOOPS: Loops<1, 5, 1> =
+        Loops::new(&Self::MODEL, [meets("far_corner", [(1, 0.5), (2, 0.3)])], [0]);
 }
 
 const fn five_bar(name: &'static str) -> ArmModel<f64, 4> {
@@ -102,9 +96,6 @@ impl Robot<4, 4, 4> for ThreeMotors {
     const MODEL: ArmModel<f64, 4> = five_bar("three_motors");
 }
 impl LoopRobot<4, 4, 4, 1, 5, 3> for ThreeMotors {
-    const LOOPS: Loops<1, 5, 3> = Loops::new(
-        &Self::MODEL,
-        [meets("tip", [(1, 0.4), (3, 0.4)])],
-        [0, 1, 2],
-    );
+    const LOOPS: Loops<1, 5, 3> =
+        Loops::new(&Self::MODEL, [meets("tip", [(1, 0.4), (3, 0.4)])], [0, 1, 2]);
 }

@@ -17,12 +17,7 @@ const Z: [f64; 3] = [0.0, 0.0, 1.0];
 
 /// ± `position`, rad.
 const fn limits(position: f64, velocity: f64, torque: f64) -> JointLimits<f64> {
-    JointLimits {
-        lower: -position,
-        upper: position,
-        velocity,
-        torque,
-    }
+    JointLimits { lower: -position, upper: position, velocity, torque }
 }
 
 impl Robot<3, 3, 3> for Scara {

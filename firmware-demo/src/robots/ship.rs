@@ -68,17 +68,11 @@ impl<R: Real> Ship<R> {
         let (roll, pitch, yaw) = (self.roll.at(t), self.pitch.at(t), self.yaw.at(t));
         let [_, climb, lift] = self.heave.at(t);
 
-        let up = across_x(
-            roll[0],
-            across_y(pitch[0], R::Vec3::new(zero, zero, R::ONE)),
-        );
+        let up = across_x(roll[0], across_y(pitch[0], R::Vec3::new(zero, zero, R::ONE)));
         let about_z = |k: usize| R::Vec3::new(zero, zero, yaw[k]);
         let about_y = |k: usize| R::Vec3::new(zero, pitch[k], zero);
         let about_x = |k: usize| R::Vec3::new(roll[k], zero, zero);
-        let (w, a) = (
-            across_y(pitch[0], about_z(1)),
-            across_y(pitch[0], about_z(2)),
-        );
+        let (w, a) = (across_y(pitch[0], about_z(1)), across_y(pitch[0], about_z(2)));
         let (w, a) = (w + about_y(1), a + about_y(2) + w.cross(about_y(1)));
         let (w, a) = (across_x(roll[0], w), across_x(roll[0], a));
         let (omega, alpha) = (w + about_x(1), a + about_x(2) + w.cross(about_x(1)));

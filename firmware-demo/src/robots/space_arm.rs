@@ -19,12 +19,7 @@ const LARGE: JointLimits<f64> = limits(80.0);
 const SMALL: JointLimits<f64> = limits(16.0);
 
 const fn limits(torque: f64) -> JointLimits<f64> {
-    JointLimits {
-        lower: -PI,
-        upper: PI,
-        velocity: 1.5,
-        torque,
-    }
+    JointLimits { lower: -PI, upper: PI, velocity: 1.5, torque }
 }
 
 const X: [f64; 3] = [1.0, 0.0, 0.0];
@@ -95,10 +90,6 @@ impl SpaceArm {
 
     /// The state of these joints on a satellite at rest at the origin.
     pub const fn floating(joints: &State<f32, 6, 6>) -> State<f32, 13, 12> {
-        State {
-            q: Self::at(joints.q),
-            qd: Self::joints(joints.qd),
-            qdd: Self::joints(joints.qdd),
-        }
+        State { q: Self::at(joints.q), qd: Self::joints(joints.qd), qdd: Self::joints(joints.qdd) }
     }
 }

@@ -43,11 +43,7 @@ pub const ABOVE: [(f64, f64); 6] = [
 ];
 
 pub const LEGS: [Leg; 6] = {
-    let mut legs = [Leg {
-        base: [0.0; 3],
-        platform: [0.0; 3],
-        length: SLIDE + BALL,
-    }; 6];
+    let mut legs = [Leg { base: [0.0; 3], platform: [0.0; 3], length: SLIDE + BALL }; 6];
     let mut i = 0;
     while i < legs.len() {
         let ((below_x, below_y), (above_x, above_y)) = (BELOW[i], ABOVE[i]);
@@ -58,12 +54,8 @@ pub const LEGS: [Leg; 6] = {
     legs
 };
 
-const LIMITS: JointLimits<f64> = JointLimits {
-    lower: -PI,
-    upper: PI,
-    velocity: 5.0,
-    torque: 1000.0,
-};
+const LIMITS: JointLimits<f64> =
+    JointLimits { lower: -PI, upper: PI, velocity: 5.0, torque: 1000.0 };
 
 /// A body without mass between two axes that meet.
 const fn cross(name: &'static str, parent: usize, joint: Joint<f64>) -> Body {
@@ -131,9 +123,8 @@ impl ClusteredRobot<24, 24, 24, 6, 6> for StewartPlatform {
     type Clusters = (Driven<Stewart, 24, 6>,);
     const CLUSTERS: Self::Clusters =
         (Driven::new("legs", Stewart::new(LEGS)).actuated([8, 11, 14, 17, 20, 23]),);
-    const COORDINATES: &'static [&'static [usize]] = &[&[
-        0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23,
-    ]];
+    const COORDINATES: &'static [&'static [usize]] =
+        &[&[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23]];
 }
 
 const _: ArmModel<f64, 24> = StewartPlatform::MODEL;

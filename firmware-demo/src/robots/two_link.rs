@@ -9,36 +9,22 @@ use dynamics_core::model::{ArmModel, BASE, Body, Joint, JointLimits, Robot};
 pub struct TwoLink;
 
 /// The upper link with the elbow's motor.
-pub const UPPER: Beam = Beam::new(0.5, 0.8)
-    .bending([80.0; 2])
-    .tip(0.3, 1e-4)
-    .damping_ratio(0.01);
+pub const UPPER: Beam = Beam::new(0.5, 0.8).bending([80.0; 2]).tip(0.3, 1e-4).damping_ratio(0.01);
 /// The fore link with a gripper.
-pub const FORE: Beam = Beam::new(0.4, 0.4)
-    .bending([30.0; 2])
-    .tip(0.1, 2e-5)
-    .damping_ratio(0.01);
+pub const FORE: Beam = Beam::new(0.4, 0.4).bending([30.0; 2]).tip(0.1, 2e-5).damping_ratio(0.01);
 
 const fn body(name: &'static str, parent: usize, beam: &Beam) -> Body {
     Body::new(name, parent, Joint::revolute([0.0, 1.0, 0.0]))
         .mass(beam.mass())
         .com(beam.com())
         .inertia(beam.inertia())
-        .limits(JointLimits {
-            lower: -3.0,
-            upper: 3.0,
-            velocity: 8.0,
-            torque: 40.0,
-        })
+        .limits(JointLimits { lower: -3.0, upper: 3.0, velocity: 8.0, torque: 40.0 })
 }
 
 impl Robot<2, 2, 2> for TwoLink {
     const MODEL: ArmModel<f64, 2> = ArmModel::new(
         "two_link",
-        [
-            body("upper", BASE, &UPPER),
-            body("fore", 0, &FORE).xyz([0.5, 0.0, 0.0]),
-        ],
+        [body("upper", BASE, &UPPER), body("fore", 0, &FORE).xyz([0.5, 0.0, 0.0])],
     );
 }
 
@@ -53,10 +39,7 @@ const fn link(beam: &Beam, body: usize, shapes: &[Shape]) -> FlexibleLink {
 impl BendingRobot<2, 2, 2, 2> for TwoLink {
     const MODES: Modes<f64, 2> = Modes::new(
         &Self::MODEL,
-        &[
-            link(&UPPER, 0, &[Shape::BendZ(1)]),
-            link(&FORE, 1, &[Shape::BendZ(1)]),
-        ],
+        &[link(&UPPER, 0, &[Shape::BendZ(1)]), link(&FORE, 1, &[Shape::BendZ(1)])],
     );
 }
 

@@ -109,16 +109,7 @@ where
         let reference = S::reference().map_err(StartError::Trajectory)?;
         let (rig, control) = start::<S, _, B, Q, V, N>(&reference, wires, PlantModel::Exact, ())
             .map_err(StartError::Setup)?;
-        Ok(Self {
-            reference,
-            wires,
-            rig,
-            control,
-            records,
-            run: 0,
-            tick: 0,
-            broken: false,
-        })
+        Ok(Self { reference, wires, rig, control, records, run: 0, tick: 0, broken: false })
     }
 
     pub fn ticks(&self) -> u32 {
@@ -145,19 +136,12 @@ where
         let telemetry = (run.tick)(&mut self.control, &self.reference, &environment(now));
         let actual = self.rig.plant.actual();
         let part = 1.0 / S::STEPS as f32;
-        let advanced = self
-            .rig
-            .advance(self.wires, S::STEPS, S::TICK * part, |step| {
-                environment(now + part * step as f32)
-            });
+        let advanced = self.rig.advance(self.wires, S::STEPS, S::TICK * part, |step| {
+            environment(now + part * step as f32)
+        });
         self.broken = advanced.is_err();
-        let record = Record {
-            run: self.run,
-            tick: self.tick,
-            telemetry,
-            actual,
-            broken: self.broken,
-        };
+        let record =
+            Record { run: self.run, tick: self.tick, telemetry, actual, broken: self.broken };
         // A full queue loses the record; the reader sees the gap in the ticks and says so.
         let _ = self.records.enqueue(record);
         if self.broken {

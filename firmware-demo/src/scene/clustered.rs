@@ -25,10 +25,7 @@ pub struct MotorReference<T, C, const B: usize, const V: usize> {
 impl<T, C, const B: usize, const V: usize> MotorReference<T, C, B, V> {
     /// The motors' motion of this reference of y.
     pub const fn new(y: C) -> Self {
-        Self {
-            y,
-            robot: PhantomData,
-        }
+        Self { y, robot: PhantomData }
     }
 }
 
@@ -121,9 +118,7 @@ where
     // G_a⁻ᵀ of the columns, and then of the rows.
     let mut half = [[0.0; N]; N];
     for (k, column) in half.iter_mut().enumerate() {
-        *column = motion
-            .to_motors(&core::array::from_fn(|i| m.get(i, k)))?
-            .tau;
+        *column = motion.to_motors(&core::array::from_fn(|i| m.get(i, k)))?.tau;
     }
     let mut diagonal = [0.0; N];
     for (j, entry) in diagonal.iter_mut().enumerate() {

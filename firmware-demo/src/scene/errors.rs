@@ -17,12 +17,7 @@ pub struct Errors<const N: usize> {
 
 impl<const N: usize> Default for Errors<N> {
     fn default() -> Self {
-        Self {
-            count: 0,
-            squares: [0.0; N],
-            max: [0.0; N],
-            status: None,
-        }
+        Self { count: 0, squares: [0.0; N], max: [0.0; N], status: None }
     }
 }
 

@@ -112,17 +112,11 @@ where
     Brake: OutputPin,
     D: Detect<f32, N>,
 {
-    let Devices {
-        encoders,
-        drives,
-        brake,
-    } = devices;
+    let Devices { encoders, drives, brake } = devices;
     let scales = FullScale::of(S::limits().map(|limit| limit.torque)).map_err(SetupError::Drive)?;
     // The plants start within half a turn of zero. One mapping for all joints, with the speed of
     // the fastest, takes less stack than one for each.
-    let fastest = S::limits()
-        .iter()
-        .fold(0.0_f32, |most, limit| most.max(limit.velocity));
+    let fastest = S::limits().iter().fold(0.0_f32, |most, limit| most.max(limit.velocity));
     let mapping = JointMapping::IDENTITY.with_range(JointRange::Near(0.0), fastest * S::TICK);
     let mapping = mapping.map_err(SetupError::Encoder)?;
     let mut joint = 0;

@@ -58,11 +58,7 @@ where
     S: Scene<B, Q, V, N>,
 {
     pub const fn of<L: Law<N, S::Environment>>(plant: PlantModel, name: &'static str) -> Self {
-        Self {
-            plant,
-            law: Name::Of(name),
-            tick: marked_tick::<L, S::Reference, S::Environment, N>,
-        }
+        Self { plant, law: Name::Of(name), tick: marked_tick::<L, S::Reference, S::Environment, N> }
     }
 
     /// A run of the law `L`, which lacks an effect of this name, on the exact plant.
@@ -90,11 +86,7 @@ where
         if S::CONSTANT_EFFECTS {
             return S::inverse(reference, environment, &S::EFFECTS);
         }
-        S::inverse(
-            reference,
-            environment,
-            &Current::<S, B, Q, V, N>(environment),
-        )
+        S::inverse(reference, environment, &Current::<S, B, Q, V, N>(environment))
     }
 }
 
@@ -115,11 +107,7 @@ where
             let effects = const { Without::<_, I>(S::EFFECTS) };
             return S::inverse(reference, environment, &effects);
         }
-        S::inverse(
-            reference,
-            environment,
-            &CurrentWithout::<S, I, B, Q, V, N>(environment),
-        )
+        S::inverse(reference, environment, &CurrentWithout::<S, I, B, Q, V, N>(environment))
     }
 }
 

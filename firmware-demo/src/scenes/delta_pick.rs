@@ -13,14 +13,8 @@ use crate::scene::clustered;
 use crate::scene::{Noise, Scene};
 use crate::trajectories::picks::{FEEDER, Picks, cranks};
 
-pub type Effects = (
-    Gravity,
-    Inertia,
-    Coriolis,
-    Viscous<f32, 12>,
-    Coulomb<f32, 12>,
-    Armature<f32, 12>,
-);
+pub type Effects =
+    (Gravity, Inertia, Coriolis, Viscous<f32, 12>, Coulomb<f32, 12>, Armature<f32, 12>);
 
 /// The effects' numbers, of the cranks.
 ///
@@ -31,13 +25,8 @@ pub const EFFECTS: Effects = (
     Inertia,
     Coriolis,
     Viscous(at_cranks(2.0)),
-    Coulomb {
-        torque: at_cranks(8.0),
-        width: Width::f32(0.05),
-    },
-    Armature(at_cranks(
-        PickDelta::GEAR * PickDelta::RATIO * PickDelta::RATIO,
-    )),
+    Coulomb { torque: at_cranks(8.0), width: Width::f32(0.05) },
+    Armature(at_cranks(PickDelta::GEAR * PickDelta::RATIO * PickDelta::RATIO)),
 );
 
 const fn at_cranks(number: f32) -> [f32; 12] {

@@ -15,46 +15,17 @@ use crate::robots::DirectDrive;
 use crate::scene::{Noise, PlantModel, Run, Scene, rigid, through};
 use joint_drivers::Law;
 
-pub type Effects = (
-    Gravity,
-    Inertia,
-    Coriolis,
-    Viscous<f32, 3>,
-    GyroscopicRotors<f32, 3>,
-);
+pub type Effects = (Gravity, Inertia, Coriolis, Viscous<f32, 3>, GyroscopicRotors<f32, 3>);
 
 /// A ring motor drives the turret directly, pancake motors the others.
-const ROTORS: GyroscopicRotors<f32, 3> = GyroscopicRotors {
-    inertia: [12e-3, 2.5e-3, 8e-4],
-    ratio: [1.0, 3.0, 6.0],
-};
+const ROTORS: GyroscopicRotors<f32, 3> =
+    GyroscopicRotors { inertia: [12e-3, 2.5e-3, 8e-4], ratio: [1.0, 3.0, 6.0] };
 
-const EFFECTS: Effects = (
-    Gravity::EARTH,
-    Inertia,
-    Coriolis,
-    Viscous([0.08, 0.1, 0.05]),
-    ROTORS,
-);
+const EFFECTS: Effects = (Gravity::EARTH, Inertia, Coriolis, Viscous([0.08, 0.1, 0.05]), ROTORS);
 
 /// The effects with the rotors as armature inertia at their joints: ρ² I.
-const DIAGONAL: (
-    Gravity,
-    Inertia,
-    Coriolis,
-    Viscous<f32, 3>,
-    Armature<f32, 3>,
-) = {
-    let (
-        gravity,
-        inertia,
-        coriolis,
-        viscous,
-        GyroscopicRotors {
-            inertia: i,
-            ratio: r,
-        },
-    ) = EFFECTS;
+const DIAGONAL: (Gravity, Inertia, Coriolis, Viscous<f32, 3>, Armature<f32, 3>) = {
+    let (gravity, inertia, coriolis, viscous, GyroscopicRotors { inertia: i, ratio: r }) = EFFECTS;
     let armature = Armature([i[0] * r[0] * r[0], i[1] * r[1] * r[1], i[2] * r[2] * r[2]]);
     (gravity, inertia, coriolis, viscous, armature)
 };

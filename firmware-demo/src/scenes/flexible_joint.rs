@@ -52,12 +52,8 @@ impl Scene<7, 7, 7, 7> for CompliantArm {
 
     const NAME: &'static str = "flexible_joint";
     const BOUND: f32 = 2e-3;
-    const EFFECTS: Effects = (
-        Gravity::EARTH,
-        Inertia,
-        Coriolis,
-        Viscous([2.0, 2.0, 1.5, 1.5, 1.0, 0.5, 0.5]),
-    );
+    const EFFECTS: Effects =
+        (Gravity::EARTH, Inertia, Coriolis, Viscous([2.0, 2.0, 1.5, 1.5, 1.0, 0.5, 0.5]));
     const GAIN_POSE: [f32; 7] = UPRIGHT;
     const GAIN_POSE_NAME: &'static str = "upright";
     const BASELINES: &'static [Run<Self, 7, 7, 7, 7>] =
@@ -81,22 +77,12 @@ impl Scene<7, 7, 7, 7> for CompliantArm {
         course: &ElasticReference<f32, 7, 7>,
         effects: &E,
     ) -> [f32; 7] {
-        let course = ElasticReference {
-            state: *reference,
-            ..*course
-        };
+        let course = ElasticReference { state: *reference, ..*course };
         let wanted = Engine::<Iiwa14>::elastic_inverse_dynamics(&JOINTS, &course, effects);
         // The loop feeds back q_d − θ; the motors are to be at θ_d.
         let gains = Gains::from_inertia(&INERTIA, OMEGA_N, ZETA);
-        let motors = State {
-            q: wanted.position,
-            qd: wanted.velocity,
-            qdd: [0.0; 7],
-        };
-        let joints = Estimate {
-            q: reference.q,
-            qd: reference.qd,
-        };
+        let motors = State { q: wanted.position, qd: wanted.velocity, qdd: [0.0; 7] };
+        let joints = Estimate { q: reference.q, qd: reference.qd };
         let wound = feedback(&gains, &motors, &joints);
         core::array::from_fn(|j| wanted.torque[j] + wound[j])
     }

@@ -16,24 +16,11 @@ use crate::scene::{Noise, PlantModel, Run, Scene, TICK, speeds};
 use crate::trajectories::swing_and_back::{Move, SwingAndBack, rest_to_rest, shaper};
 use joint_drivers::Law;
 
-pub type Effects = (
-    Gravity,
-    Inertia,
-    Coriolis,
-    Elasticity,
-    Viscous<f32, 2>,
-    Armature<f32, 2>,
-);
+pub type Effects = (Gravity, Inertia, Coriolis, Elasticity, Viscous<f32, 2>, Armature<f32, 2>);
 
 /// Gears and motors of this size, assumed.
-pub const EFFECTS: Effects = (
-    Gravity::EARTH,
-    Inertia,
-    Coriolis,
-    Elasticity,
-    Viscous([1.0, 0.2]),
-    Armature([0.2, 0.04]),
-);
+pub const EFFECTS: Effects =
+    (Gravity::EARTH, Inertia, Coriolis, Elasticity, Viscous([1.0, 0.2]), Armature([0.2, 0.04]));
 
 /// The start and end of the arm, rad: q₀ > 0 is below the horizontal.
 pub const START: [f32; 2] = [0.3, 0.9];

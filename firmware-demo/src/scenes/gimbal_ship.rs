@@ -17,35 +17,20 @@ use crate::scene::{Noise, Scene, TICK, rigid};
 use crate::trajectories::watch::Watch;
 
 /// The effects on the gimbal; gravity and the base's motion come from the ship's inertial unit.
-pub type Effects = (
-    GravityVector<f32>,
-    MovingBase<f32>,
-    Inertia,
-    Coriolis,
-    Viscous<f32, 3>,
-    Coulomb<f32, 3>,
-);
+pub type Effects =
+    (GravityVector<f32>, MovingBase<f32>, Inertia, Coriolis, Viscous<f32, 3>, Coulomb<f32, 3>);
 
 /// On a ship at rest; friction is that of bearings and seals of this size.
 pub const EFFECTS: Effects = (
     GravityVector(Vec3::new(0.0, 0.0, -9.81)),
     MovingBase {
-        velocity: Motion {
-            ang: Vec3::ZERO,
-            lin: Vec3::ZERO,
-        },
-        acceleration: Motion {
-            ang: Vec3::ZERO,
-            lin: Vec3::ZERO,
-        },
+        velocity: Motion { ang: Vec3::ZERO, lin: Vec3::ZERO },
+        acceleration: Motion { ang: Vec3::ZERO, lin: Vec3::ZERO },
     },
     Inertia,
     Coriolis,
     Viscous([1.2, 1.2, 0.6]),
-    Coulomb {
-        torque: [0.8, 0.8, 0.5],
-        width: Width::f32(0.05),
-    },
+    Coulomb { torque: [0.8, 0.8, 0.5], width: Width::f32(0.05) },
 );
 
 #[derive(Clone, Copy, Debug)]
@@ -65,11 +50,7 @@ impl Scene<3, 3, 3, 3> for OnWatch {
     const GAIN_POSE_NAME: &'static str = "level";
 
     fn reference() -> Result<Self::Reference, TrajectoryError> {
-        Ok(Watch {
-            ship: Ship::patrol_boat(),
-            sweep: Swing::of(1.0, 8.0),
-            ticks: 12_000,
-        })
+        Ok(Watch { ship: Ship::patrol_boat(), sweep: Swing::of(1.0, 8.0), ticks: 12_000 })
     }
 
     fn environment(watch: &Self::Reference, ticks: f32) -> Self::Environment {

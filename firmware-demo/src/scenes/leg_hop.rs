@@ -13,21 +13,11 @@ use crate::robots::Leg;
 use crate::scene::{Noise, Scene, rigid};
 use crate::trajectories::hop::{ElasticReference, Hop};
 
-pub type Effects = (
-    Gravity,
-    Inertia,
-    Coriolis,
-    Viscous<f32, 4>,
-    Armature<f32, 4>,
-    Contact<f32, 1>,
-);
+pub type Effects = (Gravity, Inertia, Coriolis, Viscous<f32, 4>, Armature<f32, 4>, Contact<f32, 1>);
 
 /// A rubber mat; its numbers are assumed. The ball's centre comes as near as its radius.
 pub const GROUND: Contact<f32, 1> = Contact {
-    points: [ContactPoint {
-        body: Leg::FOOT,
-        point: Vec3::ZERO,
-    }],
+    points: [ContactPoint { body: Leg::FOOT, point: Vec3::ZERO }],
     normal: Vec3::Z,
     height: Leg::FOOT_RADIUS,
     stiffness: 3e4,
@@ -49,13 +39,8 @@ const EFFECTS: Effects = (
 );
 
 /// Four hops of 77 mm.
-pub const COURSE: ElasticReference = ElasticReference {
-    rise: 140,
-    flight: 250,
-    stance: 250,
-    knee: 0.68,
-    clearance: 0.09,
-};
+pub const COURSE: ElasticReference =
+    ElasticReference { rise: 140, flight: 250, stance: 250, knee: 0.68, clearance: 0.09 };
 
 fn hop() -> Hop {
     Hop::new(&COURSE, &GROUND, 9.81)
@@ -84,11 +69,7 @@ impl Scene<5, 4, 4, 3> for Hopping {
 
     fn environment(reference: &Hop, ticks: f32) -> Self::Environment {
         let whole = reference.whole(ticks as u32);
-        State {
-            q: [whole.q[0]],
-            qd: [whole.qd[0]],
-            qdd: [whole.qdd[0]],
-        }
+        State { q: [whole.q[0]], qd: [whole.qd[0]], qdd: [whole.qdd[0]] }
     }
 
     fn inverse<E: Effect<f32, 5, 4>>(
@@ -97,11 +78,8 @@ impl Scene<5, 4, 4, 3> for Hopping {
         effects: &E,
     ) -> [f32; 3] {
         let on = |[rail]: [f32; 1], [hip, thigh, calf]: [f32; 3]| [rail, hip, thigh, calf];
-        let whole = State {
-            q: on(rail.q, leg.q),
-            qd: on(rail.qd, leg.qd),
-            qdd: on(rail.qdd, leg.qdd),
-        };
+        let whole =
+            State { q: on(rail.q, leg.q), qd: on(rail.qd, leg.qd), qdd: on(rail.qdd, leg.qdd) };
         last(&Engine::<Leg>::rnea(&whole, effects))
     }
 

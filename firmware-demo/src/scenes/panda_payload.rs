@@ -56,15 +56,8 @@ pub const HAND: usize = Panda::MODEL.body("panda_link7");
 pub type Load = Payload<f32, HAND>;
 
 /// The effects on the arm, the load last.
-pub type Effects = (
-    Gravity,
-    Inertia,
-    Coriolis,
-    Viscous<f32, 7>,
-    Coulomb<f32, 7>,
-    Armature<f32, 7>,
-    Load,
-);
+pub type Effects =
+    (Gravity, Inertia, Coriolis, Viscous<f32, 7>, Coulomb<f32, 7>, Armature<f32, 7>, Load);
 
 /// The number of the load among them.
 const LOAD: usize = 6;
@@ -76,10 +69,7 @@ pub const EFFECTS: Effects = (
     Inertia,
     Coriolis,
     Viscous([1.0, 1.0, 1.0, 1.0, 0.5, 0.5, 0.5]),
-    Coulomb {
-        torque: [0.6, 0.9, 0.6, 1.2, 0.8, 0.4, 0.5],
-        width: Width::f32(0.05),
-    },
+    Coulomb { torque: [0.6, 0.9, 0.6, 1.2, 0.8, 0.4, 0.5], width: Width::f32(0.05) },
     Armature([0.5, 0.5, 0.4, 0.4, 0.2, 0.2, 0.2]),
     Payload(SpatialInertia::ZERO),
 );
@@ -91,11 +81,7 @@ pub const EFFECTS: Effects = (
 /// If no body were like that.
 pub fn part() -> Result<Load, InvalidPayload> {
     let moments = [3.0e-3, 0.0, 0.0, 3.467e-3, 0.0, 1.667e-3];
-    let part = BodyInertia {
-        mass: 2.0,
-        com: [0.01, -0.02, 0.19],
-        inertia: moments,
-    };
+    let part = BodyInertia { mass: 2.0, com: [0.01, -0.02, 0.19], inertia: moments };
     Payload::try_new(part, 1e-6)
 }
 
@@ -160,11 +146,7 @@ impl Scene<7, 7, 7, 7> for Carry {
     fn environment(job: &Job, ticks: f32) -> Load {
         let since = |start: u32| ((ticks - start as f32) / GRIP).clamp(0.0, 1.0);
         let borne = since(CLOSES) - since(OPENS);
-        let Payload(SpatialInertia {
-            mass,
-            first_moment: moment,
-            rotational: inertia,
-        }) = job.part;
+        let Payload(SpatialInertia { mass, first_moment: moment, rotational: inertia }) = job.part;
         Payload(SpatialInertia {
             mass: mass * borne,
             first_moment: moment * borne,
@@ -236,10 +218,7 @@ impl Impedance {
         let spring = Cell::new(CartesianImpedance::try_new(SPRING).ok());
         let (gains, rest) = ([0.0; 7], State::at(READY));
         let (kp, kd, q, qd) = (gains, gains, rest.q, rest.qd);
-        let held = Held {
-            borne: &Load::default(),
-            spring: &spring,
-        };
+        let held = Held { borne: &Load::default(), spring: &spring };
         let _ = Self::torque(&Gains { kp, kd }, &rest, &Estimate { q, qd }, &held);
         spring
     }

@@ -34,14 +34,7 @@ const ANKLE_STEPS: [WayPoint<f32, 3>; 11] = [
     stop(MID_STANCE, 220),
 ];
 
-pub type Effects = (
-    Gravity,
-    Inertia,
-    Coriolis,
-    Viscous<f32, 9>,
-    Coulomb<f32, 9>,
-    Armature<f32, 9>,
-);
+pub type Effects = (Gravity, Inertia, Coriolis, Viscous<f32, 9>, Coulomb<f32, 9>, Armature<f32, 9>);
 
 /// The effects' numbers, of knee and cranks.
 ///
@@ -53,10 +46,7 @@ pub const EFFECTS: Effects = (
     Inertia,
     Coriolis,
     Viscous(at_motors([0.2, 0.05])),
-    Coulomb {
-        torque: at_motors([1.0, 0.2]),
-        width: Width::f32(0.05),
-    },
+    Coulomb { torque: at_motors([1.0, 0.2]), width: Width::f32(0.05) },
     Armature(at_motors(ROTORS)),
 );
 
@@ -93,10 +83,7 @@ impl Scene<9, 9, 9, 3> for AnkleSteps {
         &[Run::of::<SerialJoints>(PlantModel::Exact, "serial-ankle")];
 
     fn reference() -> Result<Self::Reference, TrajectoryError> {
-        let limit = |velocity, acceleration| MotionLimits {
-            velocity,
-            acceleration,
-        };
+        let limit = |velocity, acceleration| MotionLimits { velocity, acceleration };
         let limits = [limit(20.0, 150.0), limit(30.0, 250.0), limit(30.0, 250.0)];
         let y = Trajectory::new(&ANKLE_STEPS, TICK, &limits)?;
         Ok(MotorReference::new(y))

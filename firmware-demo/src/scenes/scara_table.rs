@@ -32,23 +32,14 @@ const SCARA_SERVES: [WayPoint<f32, 3>; 10] = [
     stop(ASIDE, 640),
 ];
 
-pub type Effects = (
-    Inertia,
-    Coriolis,
-    Viscous<f32, 3>,
-    Coulomb<f32, 3>,
-    Armature<f32, 3>,
-);
+pub type Effects = (Inertia, Coriolis, Viscous<f32, 3>, Coulomb<f32, 3>, Armature<f32, 3>);
 
 /// Assumed, of the order of servo motors behind harmonic drives of 50 : 1 and a belt of 15 : 1.
 pub const EFFECTS: Effects = (
     Inertia,
     Coriolis,
     Viscous([3.0, 1.5, 0.05]),
-    Coulomb {
-        torque: [8.0, 4.0, 0.4],
-        width: Width::f32(0.05),
-    },
+    Coulomb { torque: [8.0, 4.0, 0.4], width: Width::f32(0.05) },
     Armature([0.25, 0.08, 0.002]),
 );
 

@@ -87,10 +87,7 @@ pub type Effects = (
     LoadFriction<f32, 6>,
 );
 
-const DRY: Coulomb<f32, 6> = Coulomb {
-    torque: [COULOMB; 6],
-    width: Width::f32(0.05),
-};
+const DRY: Coulomb<f32, 6> = Coulomb { torque: [COULOMB; 6], width: Width::f32(0.05) };
 /// [`LoadFriction::of_motor_and_load`] of [`LOAD`] for both.
 const GEARS: LoadFriction<f32, 6> = LoadFriction {
     driving: [2.0 * LOAD / (1.0 - LOAD); 6],
@@ -99,12 +96,7 @@ const GEARS: LoadFriction<f32, 6> = LoadFriction {
 };
 
 /// The effects whose compensation lets a hand move the arm without effort at any speed.
-pub type Compensation = (
-    Gravity,
-    Viscous<f32, 6>,
-    Coulomb<f32, 6>,
-    LoadFriction<f32, 6>,
-);
+pub type Compensation = (Gravity, Viscous<f32, 6>, Coulomb<f32, 6>, LoadFriction<f32, 6>);
 
 /// The compensation of this arm; the back-EMF is viscous friction of the command, and not part of
 /// it.
@@ -131,15 +123,8 @@ impl Scene<6, 6, 6, 6> for TaughtPath {
 
     const NAME: &'static str = "so101_teach";
     const BOUND: f32 = 3e-3;
-    const EFFECTS: Effects = (
-        Gravity::EARTH,
-        Inertia,
-        Coriolis,
-        COMPENSATION.1,
-        DRY,
-        Armature([ARMATURE; 6]),
-        GEARS,
-    );
+    const EFFECTS: Effects =
+        (Gravity::EARTH, Inertia, Coriolis, COMPENSATION.1, DRY, Armature([ARMATURE; 6]), GEARS);
     const TICK: f32 = 2e-3;
     const RESOLUTION: f32 = RESOLUTION;
     const GAIN_POSE_NAME: &'static str = "half a rotor's inertia";
@@ -236,10 +221,7 @@ impl Law<6> for GravityAndFriction {
     const ACCELERATES: bool = false;
 
     fn feedforward(reference: &State<f32, 6, 6>, (): &()) -> [f32; 6] {
-        with_back_emf(
-            Engine::<So101>::rnea(reference, &COMPENSATION),
-            &reference.qd,
-        )
+        with_back_emf(Engine::<So101>::rnea(reference, &COMPENSATION), &reference.qd)
     }
 }
 
@@ -250,9 +232,6 @@ impl Law<6> for GravityOnly {
     const ACCELERATES: bool = false;
 
     fn feedforward(reference: &State<f32, 6, 6>, (): &()) -> [f32; 6] {
-        with_back_emf(
-            Engine::<So101>::rnea(reference, &Gravity::EARTH),
-            &reference.qd,
-        )
+        with_back_emf(Engine::<So101>::rnea(reference, &Gravity::EARTH), &reference.qd)
     }
 }

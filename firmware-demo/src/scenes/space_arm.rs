@@ -25,23 +25,14 @@ const REACH_OUT: [WayPoint<f32, 6>; 6] = [
 ];
 
 /// The effects on the joints; none acts on the satellite.
-pub type Effects = (
-    Inertia,
-    Coriolis,
-    Viscous<f32, 12>,
-    Coulomb<f32, 12>,
-    Armature<f32, 12>,
-);
+pub type Effects = (Inertia, Coriolis, Viscous<f32, 12>, Coulomb<f32, 12>, Armature<f32, 12>);
 
 /// Friction and rotors of strain-wave gears in cold grease.
 pub const EFFECTS: Effects = (
     Inertia,
     Coriolis,
     Viscous(SpaceArm::joints([9.0, 9.0, 7.0, 1.5, 1.5, 1.2])),
-    Coulomb {
-        torque: SpaceArm::joints([3.0, 3.0, 2.5, 0.8, 0.8, 0.6]),
-        width: Width::f32(0.05),
-    },
+    Coulomb { torque: SpaceArm::joints([3.0, 3.0, 2.5, 0.8, 0.8, 0.6]), width: Width::f32(0.05) },
     Armature(SpaceArm::joints([1.0, 1.0, 0.8, 0.15, 0.15, 0.12])),
 );
 
@@ -119,9 +110,6 @@ pub struct FixedBase;
 
 impl Law<6> for FixedBase {
     fn feedforward(reference: &State<f32, 6, 6>, (): &()) -> [f32; 6] {
-        last(&Engine::<SpaceArm>::rnea(
-            &SpaceArm::floating(reference),
-            &EFFECTS,
-        ))
+        last(&Engine::<SpaceArm>::rnea(&SpaceArm::floating(reference), &EFFECTS))
     }
 }

@@ -13,14 +13,7 @@ use crate::scene::{Noise, PlantModel, Run, Scene, TICK, rigid, speeds};
 use crate::trajectories::{HOME, PICK_AND_PLACE};
 use joint_drivers::Law;
 
-pub type Effects = (
-    Gravity,
-    Inertia,
-    Coriolis,
-    Viscous<f32, 6>,
-    Coulomb<f32, 6>,
-    Armature<f32, 6>,
-);
+pub type Effects = (Gravity, Inertia, Coriolis, Viscous<f32, 6>, Coulomb<f32, 6>, Armature<f32, 6>);
 
 /// Friction and rotors are assumed, of the order that identifications of this arm's size find: the
 /// maker publishes neither.
@@ -29,10 +22,7 @@ pub const EFFECTS: Effects = (
     Inertia,
     Coriolis,
     Viscous([12.0, 12.0, 8.0, 2.0, 2.0, 1.5]),
-    Coulomb {
-        torque: [8.0, 8.0, 6.0, 1.5, 1.5, 1.2],
-        width: Width::f32(0.05),
-    },
+    Coulomb { torque: [8.0, 8.0, 6.0, 1.5, 1.5, 1.2], width: Width::f32(0.05) },
     Armature([0.9, 0.9, 0.9, 0.25, 0.25, 0.25]),
 );
 

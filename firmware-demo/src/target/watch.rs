@@ -53,10 +53,8 @@ where
 }
 
 /// The slots of the ticks, and their queue.
-pub type Records<const N: usize> = (
-    &'static mut Slots<N, QUEUE>,
-    &'static mut Queue<'static, N, QUEUE>,
-);
+pub type Records<const N: usize> =
+    (&'static mut Slots<N, QUEUE>, &'static mut Queue<'static, N, QUEUE>);
 
 /// Runs a scene on these wires, its state and records where `place` and the caller put them.
 pub fn watch<S, const B: usize, const Q: usize, const V: usize, const N: usize>(

@@ -140,18 +140,9 @@ impl Hop {
             rate: -speed,
             ..Phase::lasting(stance)
         };
-        let land = Phase {
-            change: g,
-            push,
-            centre: touching,
-            rate: -speed,
-            ..Phase::lasting(rise)
-        };
-        let rest = Phase {
-            rest: g,
-            centre: begin.centre,
-            ..Phase::default()
-        };
+        let land =
+            Phase { change: g, push, centre: touching, rate: -speed, ..Phase::lasting(rise) };
+        let rest = Phase { rest: g, centre: begin.centre, ..Phase::default() };
         for (i, phase) in self.phases.iter_mut().enumerate() {
             let (next, ticks) = match i {
                 0 => (begin, course.rise),
@@ -160,10 +151,7 @@ impl Hop {
                 i if i % 2 == 1 => (fly, course.flight),
                 _ => (stand, course.stance),
             };
-            *phase = Phase {
-                start: self.ticks,
-                ..next
-            };
+            *phase = Phase { start: self.ticks, ..next };
             self.ticks += ticks;
         }
     }
@@ -196,12 +184,7 @@ impl Hop {
         State {
             q: [foot[0] + length * cos, 0.0, alpha, -2.0 * alpha],
             qd: [foot[1] - length * sin * rate, 0.0, rate, -2.0 * rate],
-            qdd: [
-                foot[2] - length * (sin * accel + cos * rate * rate),
-                0.0,
-                accel,
-                -2.0 * accel,
-            ],
+            qdd: [foot[2] - length * (sin * accel + cos * rate * rate), 0.0, accel, -2.0 * accel],
         }
     }
 }
@@ -210,11 +193,7 @@ impl Reference<f32, 3> for Hop {
     #[inline(always)]
     fn at(&self, tick: u32) -> State<f32, 3, 3> {
         let whole = self.whole(tick);
-        State {
-            q: last(&whole.q),
-            qd: last(&whole.qd),
-            qdd: last(&whole.qdd),
-        }
+        State { q: last(&whole.q), qd: last(&whole.qd), qdd: last(&whole.qdd) }
     }
 
     fn ticks(&self) -> u32 {

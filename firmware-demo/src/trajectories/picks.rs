@@ -28,12 +28,8 @@ const SINGLE: [[f32; 2]; 3] = {
     single
 };
 /// cos and sin of the directions from the feeder to the places of the parts: −30°, 0°, 30°, 60°.
-const PLACES: [[f32; 2]; 4] = [
-    [0.866_025_4, -0.5],
-    [1.0, 0.0],
-    [0.866_025_4, 0.5],
-    [0.5, 0.866_025_4],
-];
+const PLACES: [[f32; 2]; 4] =
+    [[0.866_025_4, -0.5], [1.0, 0.0], [0.866_025_4, 0.5], [0.5, 0.866_025_4]];
 
 /// The duration of a lift, and of lowering, ticks.
 const UP: u32 = 60;
@@ -47,22 +43,14 @@ const POINTS: usize = 1 + 6 * PLACES.len();
 
 /// The path of the platform.
 const WAY: [WayPoint<f32, 3>; POINTS] = {
-    let start = WayPoint {
-        q: FEEDER,
-        qd: [0.0; 3],
-        ticks: 0,
-    };
+    let start = WayPoint { q: FEEDER, qd: [0.0; 3], ticks: 0 };
     let (mut way, mut i) = ([start; POINTS], 0);
     while i < PLACES.len() {
         let [cos, sin] = PLACES[i];
         // The move, and the return.
         let mut k = 0;
         while k < 2 {
-            let (from, to, sign) = if k == 0 {
-                (0.0, REACH, 1.0)
-            } else {
-                (REACH, 0.0, -1.0)
-            };
+            let (from, to, sign) = if k == 0 { (0.0, REACH, 1.0) } else { (REACH, 0.0, -1.0) };
             let first = 1 + 6 * i + 3 * k;
             let speed = sign * SPEED;
             way[first] = point([cos, sin], from + sign * CORNER, LIFT, speed, UP);
@@ -103,10 +91,7 @@ impl Picks {
     /// # Errors
     /// [`TrajectoryError`] where the path exceeds these limits.
     pub fn new() -> Result<Self, TrajectoryError> {
-        let limits = MotionLimits {
-            velocity: 3.0,
-            acceleration: 98.1,
-        };
+        let limits = MotionLimits { velocity: 3.0, acceleration: 98.1 };
         let platform = Trajectory::new(&WAY, TICK, &[limits; 3])?;
         Ok(Self { platform })
     }

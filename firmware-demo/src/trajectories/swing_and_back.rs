@@ -29,11 +29,7 @@ pub fn rest_to_rest(
     ticks: u32,
     limits: &[MotionLimits<f32>; 2],
 ) -> Result<Move, TrajectoryError> {
-    let point = |q, ticks| WayPoint {
-        q,
-        qd: [0.0; 2],
-        ticks,
-    };
+    let point = |q, ticks| WayPoint { q, qd: [0.0; 2], ticks };
     Trajectory::new(&[point(from, 0), point(to, ticks)], TICK, limits)
 }
 
@@ -44,12 +40,7 @@ where
 {
     let inertia = crba(robot, modes, &q, &[0.0; 4], &Inertia);
     let omega = modes.frequencies(&inertia).ok()?;
-    let of = |mode: usize| Vibration {
-        link: "arm",
-        mode,
-        omega: omega[mode],
-        damping_ratio: 0.01,
-    };
+    let of = |mode: usize| Vibration { link: "arm", mode, omega: omega[mode], damping_ratio: 0.01 };
     Shaper::zv(&[of(0), of(1)], TICK).ok()
 }
 
@@ -67,12 +58,7 @@ pub struct SwingAndBack {
 
 impl SwingAndBack {
     pub fn new(there: Shaped<Move, f32, IMPULSES>, back: Move, pause: u32) -> Self {
-        Self {
-            there,
-            back,
-            pause,
-            modal: Cell::new((u32::MAX, State::at([0.0; 4]))),
-        }
+        Self { there, back, pause, modal: Cell::new((u32::MAX, State::at([0.0; 4]))) }
     }
 
     /// The modes before a tick: the next after the last call, the same, or the first, at which

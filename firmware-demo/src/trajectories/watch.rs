@@ -26,16 +26,10 @@ impl<R: Real> Watch<R> {
     /// The joints after t seconds.
     #[inline(always)]
     pub fn after(&self, t: R) -> State<R, 3, 3> {
-        let Ship {
-            roll, pitch, yaw, ..
-        } = &self.ship;
+        let Ship { roll, pitch, yaw, .. } = &self.ship;
         let (roll, pitch, yaw, sweep) = (roll.at(t), pitch.at(t), yaw.at(t), self.sweep.at(t));
         let joints = |k: usize| [-roll[k], -pitch[k], sweep[k] - yaw[k]];
-        State {
-            q: joints(0),
-            qd: joints(1),
-            qdd: joints(2),
-        }
+        State { q: joints(0), qd: joints(1), qdd: joints(2) }
     }
 }
 

@@ -10,17 +10,11 @@ const Y: [f64; 3] = [0.0, 1.0, 0.0];
 const Z: [f64; 3] = [0.0, 0.0, 1.0];
 
 /// The upper link, and a motor at its end.
-pub const UPPER: Beam = Beam::new(0.5, 0.8)
-    .bending([4.0, 4.0])
-    .torsion(3.0)
-    .sections([2e-5, 2e-5])
-    .tip(0.3, 1e-4);
+pub const UPPER: Beam =
+    Beam::new(0.5, 0.8).bending([4.0, 4.0]).torsion(3.0).sections([2e-5, 2e-5]).tip(0.3, 1e-4);
 /// The lower link, and a gripper at its end.
-pub const LOWER: Beam = Beam::new(0.4, 0.4)
-    .bending([1.0, 1.0])
-    .torsion(0.8)
-    .sections([1e-5, 1e-5])
-    .tip(0.1, 2e-5);
+pub const LOWER: Beam =
+    Beam::new(0.4, 0.4).bending([1.0, 1.0]).torsion(0.8).sections([1e-5, 1e-5]).tip(0.1, 2e-5);
 
 /// The link of a beam, in a `const`.
 pub const fn link(beam: &Beam, body: usize, shapes: &[Shape]) -> FlexibleLink {
@@ -40,10 +34,7 @@ const fn body(name: &'static str, parent: usize, axis: [f64; 3], beam: &Beam) ->
 const fn arm(name: &'static str, first: [f64; 3]) -> ArmModel<f64, 2> {
     ArmModel::new(
         name,
-        [
-            body("upper", BASE, first, &UPPER),
-            body("lower", 0, Y, &LOWER).xyz([0.5, 0.0, 0.0]),
-        ],
+        [body("upper", BASE, first, &UPPER), body("lower", 0, Y, &LOWER).xyz([0.5, 0.0, 0.0])],
     )
 }
 
@@ -78,16 +69,8 @@ impl Robot<2, 2, 2> for Spatial {
 pub const SPATIAL: Modes<f64, 6> = Modes::new(
     &Spatial::MODEL,
     &[
-        link(
-            &UPPER,
-            0,
-            &[Shape::BendY(1), Shape::BendZ(1), Shape::Twist(1)],
-        ),
-        link(
-            &LOWER,
-            1,
-            &[Shape::BendZ(1), Shape::BendZ(2), Shape::BendY(1)],
-        ),
+        link(&UPPER, 0, &[Shape::BendY(1), Shape::BendZ(1), Shape::Twist(1)]),
+        link(&LOWER, 1, &[Shape::BendZ(1), Shape::BendZ(2), Shape::BendY(1)]),
     ],
 );
 
@@ -105,10 +88,8 @@ impl Numbers {
     }
 
     pub fn draw(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
+        self.0 =
+            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
     }
 

@@ -111,10 +111,7 @@ pub fn sag<const M: usize>(beam: &Beam, recorded: &Static) -> [f64; 2] {
     let rest = ModalFeedforward::at_rest(&one.0, &modes, &[0.0], &(RIGID_BODY, Elasticity));
     let tip: f64 = rest.expect("stiffness").bent.q.iter().sum();
     let whole = recorded.x_deflection_slope[3][1];
-    [
-        tip / recorded.tip_of_modes[M - 1] - 1.0,
-        (tip / whole - 1.0).abs(),
-    ]
+    [tip / recorded.tip_of_modes[M - 1] - 1.0, (tip / whole - 1.0).abs()]
 }
 
 /// Tip and torque at the recorded times, of M modes.

@@ -23,10 +23,7 @@ use glam::DVec3;
 struct Tree;
 
 const fn of(beam: &Beam, name: &'static str, parent: usize, joint: Joint<f64>) -> Body {
-    Body::new(name, parent, joint)
-        .mass(beam.mass())
-        .com(beam.com())
-        .inertia(beam.inertia())
+    Body::new(name, parent, joint).mass(beam.mass()).com(beam.com()).inertia(beam.inertia())
 }
 
 const fn lump(name: &'static str, parent: usize, joint: Joint<f64>) -> Body {
@@ -51,9 +48,7 @@ impl Robot<9, 7, 7> for Tree {
                 .rpy([0.3, 0.5, -0.8]),
             lump("screw", 3, Joint::helical([0.0, 0.0, 1.0], 0.05)).xyz([0.4, 0.0, 0.02]),
             lump("last", 4, Joint::prismatic([1.0, 0.0, 0.0])).xyz([0.1, 0.1, 0.0]),
-            lump("flange", 2, Joint::fixed())
-                .xyz([0.52, 0.01, -0.02])
-                .rpy([0.1, 0.7, -0.4]),
+            lump("flange", 2, Joint::fixed()).xyz([0.52, 0.01, -0.02]).rpy([0.1, 0.7, -0.4]),
             lump("wrist", 7, Joint::revolute([1.0, 0.0, 0.0])).xyz([0.05, 0.0, 0.03]),
         ],
     );
@@ -63,11 +58,7 @@ impl BendingRobot<9, 7, 7, 5> for Tree {
     const MODES: Modes<f64, 5> = Modes::new(
         &Self::MODEL,
         &[
-            link(
-                &UPPER,
-                2,
-                &[Shape::BendY(1), Shape::BendZ(1), Shape::Twist(1)],
-            ),
+            link(&UPPER, 2, &[Shape::BendY(1), Shape::BendZ(1), Shape::Twist(1)]),
             link(&LOWER, 3, &[Shape::BendZ(1), Shape::BendY(1)]),
         ],
     );
@@ -155,10 +146,7 @@ where
         let engine = Bending::<Engine<T>>::rnea(&state, &bent, scene);
         worst = f64::max(worst, apart(&engine, &core));
         worst = f64::max(worst, inertia_apart::<T, E, B, V, M>(&state, &bent, scene));
-        let free = |modes| JointsAndModes::<f64, V, M> {
-            joints: [0.0; V],
-            modes,
-        };
+        let free = |modes| JointsAndModes::<f64, V, M> { joints: [0.0; V], modes };
         let core = Bending::<Core<T>>::modal_dynamics(&state, &bent, scene);
         let engine = Bending::<Engine<T>>::modal_dynamics(&state, &bent, scene);
         let [core, engine] = [core, engine].map(|found| free(found.expect("an inertia")));
@@ -314,20 +302,13 @@ fn the_engine_names_modes_that_are_not_finite() {
 #[test]
 fn the_engine_does_not_read_a_coordinate_without_effect() {
     let (scene, bent) = (RIGID_BODY, State::at([]));
-    let state = State {
-        q: [f64::NAN, 0.3, 0.1],
-        qd: [1.0; 3],
-        qdd: [2.0; 3],
-    };
+    let state = State { q: [f64::NAN, 0.3, 0.1], qd: [1.0; 3], qdd: [2.0; 3] };
     let mut feedforward = ModalFeedforward { bent };
     let tau = Bending::<Engine<Scara>>::tick(&mut feedforward, &state, &scene, 1e-3);
     let tau = tau.expect("finite torques");
     let found = Bending::<Engine<Scara>>::forward_dynamics(&state, &bent, &tau, &scene);
     let found = found.expect("finite accelerations").joints;
-    assert!(
-        found.iter().all(|qdd| (qdd - 2.0).abs() < 1e-12),
-        "{found:?}"
-    );
+    assert!(found.iter().all(|qdd| (qdd - 2.0).abs() < 1e-12), "{found:?}");
     let core = Bending::<Core<Scara>>::forward_dynamics(&state, &bent, &tau, &scene);
     assert_eq!(core, Err(FlexibleError::Joint(0)));
 }

@@ -15,10 +15,7 @@ fn dynamics<T: BendingRobot<2, 2, 2, M>, const M: usize>(name: &str) {
     let recorded = &recording().dynamics[name];
     let energies = kinetic::<f64, M>(recorded, &T::MODEL, &T::MODES);
     for (k, (energy, recorded)) in energies.iter().zip(&recorded.kinetic).enumerate() {
-        assert!(
-            (energy / recorded - 1.0).abs() < 1e-12,
-            "{name} {k}: {energy}"
-        );
+        assert!((energy / recorded - 1.0).abs() < 1e-12, "{name} {k}: {energy}");
     }
     let by_core = |q: &State<f64, 2, 2>, eta: &_| Bending::<Core<T>>::rnea(q, eta, &RIGID_BODY);
     compared(name, inverse(recorded, by_core));
@@ -31,18 +28,10 @@ fn compared(name: &str, [mut tau, of_modes]: [Vec<f64>; 2]) {
     let joints = error(tau.iter().zip(recorded.tau.iter().flatten()));
     let modal = error(of_modes.iter().zip(recorded.modal.iter().flatten()));
     println!("{name}: joints {joints:.1e}, modes {modal:.1e} of full scale");
-    assert!(
-        joints < 1e-13 && modal < 1e-13,
-        "{name}: {joints:.1e} {modal:.1e}"
-    );
+    assert!(joints < 1e-13 && modal < 1e-13, "{name}: {joints:.1e} {modal:.1e}");
     // A difference of a part in 10⁹ is found.
     let first = &mut tau[0];
-    *first += 1e-9
-        * recorded
-            .tau
-            .iter()
-            .flatten()
-            .fold(0.0, |a, b| f64::max(a, b.abs()));
+    *first += 1e-9 * recorded.tau.iter().flatten().fold(0.0, |a, b| f64::max(a, b.abs()));
     assert!(error(tau.iter().zip(recorded.tau.iter().flatten())) > 5e-10);
 }
 
@@ -57,10 +46,7 @@ fn beams() -> [(&'static str, Beam); 4] {
         ("upper", UPPER),
         ("fore", LOWER),
         ("plain", Beam::new(1.0, 1.0).bending([1.0, 1.0])),
-        (
-            "heavy",
-            Beam::new(1.0, 1.0).bending([1.0, 1.0]).tip(10.0, 0.0),
-        ),
+        ("heavy", Beam::new(1.0, 1.0).bending([1.0, 1.0]).tip(10.0, 0.0)),
     ]
 }
 
@@ -86,9 +72,7 @@ fn frequencies_and_slopes_of_beams_are_those_of_finite_elements() {
     }
     for (name, beam) in beams().into_iter().take(2) {
         let of = &recorded.torsion[name];
-        let link = beam
-            .link(0, &[1, 2, 3, 4].map(Shape::Twist))
-            .expect("a rod");
+        let link = beam.link(0, &[1, 2, 3, 4].map(Shape::Twist)).expect("a rod");
         for k in 0..4 {
             let [omega, mass] = vibration(&link, k);
             worst = f64::max(worst, (omega / of.omega[k] - 1.0).abs());
@@ -116,10 +100,7 @@ fn static_sag_converges_to_the_beams_as_modes_are_added() {
         for (m, [same, rest]) in all.into_iter().enumerate() {
             let _ = write!(page, " {rest:.1e}");
             assert!(same.abs() < 1e-10, "{name}, {m} modes: {same:.1e}");
-            assert!(
-                m < 2 || rest < all[m - 2][1],
-                "{name}, {m} modes: {rest:.1e}"
-            );
+            assert!(m < 2 || rest < all[m - 2][1], "{name}, {m} modes: {rest:.1e}");
         }
         page.push('\n');
         assert!(all[0][1] < 3e-3 && all[5][1] < 1e-6, "{name}");
@@ -146,10 +127,7 @@ fn a_bare_beam_needs_more_modes_for_its_sag() {
         };
         let [one, two] = [sag::<1>(&beam, &whole)[1], sag::<2>(&beam, &whole)[1]];
         println!("sag by one mode {one:.2e}, by two {two:.2e}");
-        assert!(
-            of_one.contains(&one) && of_two.contains(&two),
-            "{one:.2e}, {two:.2e}"
-        );
+        assert!(of_one.contains(&one) && of_two.contains(&two), "{one:.2e}, {two:.2e}");
     }
 }
 
@@ -160,17 +138,10 @@ fn a_beam_of_infinite_stiffness_has_no_modes() {
     // Finite properties of which the modes' stiffness is not.
     let overflowing = Beam::new(1e-3, 0.8).bending([1e308; 2]);
     for beam in [rigid, endless, overflowing] {
-        assert_eq!(
-            beam.link(0, &[Shape::BendZ(1)]),
-            Err(ModeProblem::NotFinite),
-            "{beam:?}"
-        );
+        assert_eq!(beam.link(0, &[Shape::BendZ(1)]), Err(ModeProblem::NotFinite), "{beam:?}");
     }
     let twisted = UPPER.sections([1e-5; 2]).torsion(f64::INFINITY);
-    assert_eq!(
-        twisted.link(0, &[Shape::Twist(1)]),
-        Err(ModeProblem::NotFinite)
-    );
+    assert_eq!(twisted.link(0, &[Shape::Twist(1)]), Err(ModeProblem::NotFinite));
 }
 
 // With the same modes they differ by less than 10⁻¹⁰.
@@ -195,8 +166,5 @@ fn forced_motion_converges_to_finite_elements_with_more_modes() {
         assert!(tip < 1e-10 && torque < 1e-10, "{m}: {tip:.1e} {torque:.1e}");
         truncation.push(whole);
     }
-    assert!(
-        truncation.windows(2).all(|pair| pair[1] < pair[0]),
-        "{truncation:?}"
-    );
+    assert!(truncation.windows(2).all(|pair| pair[1] < pair[0]), "{truncation:?}");
 }

@@ -24,12 +24,8 @@ struct Run {
 
 fn run(reference: &impl Reference<f32, 2>, modes: &Modes<f32, 4>, knows_modes: bool) -> Run {
     let robot = Static::<TwoLink>::NEW;
-    let mut plant = BendingPlant::new(
-        Calibrated::<TwoLink, f32, 2, 2, 2>::nominal(),
-        *modes,
-        EFFECTS,
-        START,
-    );
+    let mut plant =
+        BendingPlant::new(Calibrated::<TwoLink, f32, 2, 2, 2>::nominal(), *modes, EFFECTS, START);
     let mut modal =
         ModalFeedforward::at_rest(&robot, &MODES_2, &START, &EFFECTS).expect("stiffness");
     let gains = Gains::from_inertia(&BendingArm::inertia(&State::at([0.0; 4])), OMEGA_N, ZETA);
@@ -37,16 +33,11 @@ fn run(reference: &impl Reference<f32, 2>, modes: &Modes<f32, 4>, knows_modes: b
     for tick in 0..reference.ticks() + 700 {
         let wanted = reference.at(tick);
         let feedforward = if knows_modes {
-            modal
-                .tick(&robot, &MODES_2, &wanted, &EFFECTS, TICK)
-                .expect("finite")
+            modal.tick(&robot, &MODES_2, &wanted, &EFFECTS, TICK).expect("finite")
         } else {
             <RigidLinks as Law<2, _>>::feedforward(&wanted, &modal.bent)
         };
-        let joints = Estimate {
-            q: plant.joints.q,
-            qd: plant.joints.qd,
-        };
+        let joints = Estimate { q: plant.joints.q, qd: plant.joints.qd };
         let correction = feedback(&gains, &wanted, &joints);
         let tau = [0, 1].map(|j| feedforward[j] + correction[j]);
         for j in 0..2 {
@@ -63,14 +54,9 @@ fn run(reference: &impl Reference<f32, 2>, modes: &Modes<f32, 4>, knows_modes: b
             Simulated::<(), 2>::step(&mut plant, &tau, &(), TICK / STEPS as f32).expect("a step");
         }
     }
-    let vibration = range.iter().fold(0.0, |worst, [low, high]| {
-        f32::max(worst, 0.5 * (high - low))
-    });
-    Run {
-        error,
-        vibration,
-        torque,
-    }
+    let vibration =
+        range.iter().fold(0.0, |worst, [low, high]| f32::max(worst, 0.5 * (high - low)));
+    Run { error, vibration, torque }
 }
 
 // It is compared with rigid feedforward.
@@ -95,10 +81,7 @@ fn a_shaped_reference_leaves_a_tenth_of_the_vibration() {
         println!("unshaped {plain:?}, shaped {without:?}");
         let limits = BendingArm::limits().map(|limit| limit.torque);
         assert!((0..2).all(|j| plain.torque[j] < limits[j]), "{plain:?}");
-        assert!(
-            without.vibration < most * plain.vibration,
-            "{plain:?} {without:?}"
-        );
+        assert!(without.vibration < most * plain.vibration, "{plain:?} {without:?}");
     }
 }
 

@@ -98,10 +98,8 @@ const RANDOM_32: ErrorBounds = ErrorBounds {
     double: [4e-15, 4e-12, 1e-12, 8e-16, 2e-15],
 };
 
-const STRAIGHT_64: ErrorBounds = ErrorBounds {
-    single: [6e-7, 3e0, 3e-1, 8e-9, 3e-6],
-    double: [6e-16, 3e-9, 4e-10, 0.0, 4e-15],
-};
+const STRAIGHT_64: ErrorBounds =
+    ErrorBounds { single: [6e-7, 3e0, 3e-1, 8e-9, 3e-6], double: [6e-16, 3e-9, 4e-10, 0.0, 4e-15] };
 
 const RANDOM_64: ErrorBounds = ErrorBounds {
     single: [7e-6, 3e-2, 8e-3, 8e-7, 6e-7],

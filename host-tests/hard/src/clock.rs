@@ -81,9 +81,7 @@ fn wrap() -> Vec<Row> {
             let raw = (turns * COUNTS).round() as i32 & 0x3fff;
             full &= counter.update(raw as u16).is_ok();
             let q = [counter.angle()];
-            let status = controller
-                .tick(Ok(&q), &State::at(q), |_, _| [R::ZERO])
-                .status;
+            let status = controller.tick(Ok(&q), &State::at(q), |_, _| [R::ZERO]).status;
             full &= status.mode == Mode::Full;
             let qd = controller.estimate().qd;
             let angle = f64::from(raw) / COUNTS * std::f64::consts::TAU;
@@ -102,17 +100,8 @@ fn wrap() -> Vec<Row> {
             worst,
             bound,
         ));
-        rows.push(Row::claim(
-            "no fault, and the turns are counted",
-            name::<R>(),
-            full && turned,
-        ));
-        rows.push(Row::naive(
-            "a difference of angles, rad/s",
-            name::<R>(),
-            naive,
-            bound,
-        ));
+        rows.push(Row::claim("no fault, and the turns are counted", name::<R>(), full && turned));
+        rows.push(Row::naive("a difference of angles, rad/s", name::<R>(), naive, bound));
     }
     let mut rows = Vec::new();
     for direction in [1.0, -1.0] {
@@ -136,11 +125,7 @@ fn disturbed<R: Real>(
         bench.advance(TICK);
     }
     wrong(&mut bench, &mut |bench| {
-        measured = [
-            larger(measured[0], bench.effort()),
-            larger(measured[1], bench.error()),
-            0.0,
-        ];
+        measured = [larger(measured[0], bench.effort()), larger(measured[1], bench.error()), 0.0];
     });
     if bench.mode() == Mode::Stopped {
         bench.tick(None);
@@ -149,11 +134,7 @@ fn disturbed<R: Real>(
     for tick in 0..1000 {
         bench.tick(None);
         let error = bench.error();
-        measured = [
-            larger(measured[0], bench.effort()),
-            larger(measured[1], error),
-            measured[2],
-        ];
+        measured = [larger(measured[0], bench.effort()), larger(measured[1], error), measured[2]];
         if error > settled || bench.arm.q.iter().any(|q| !q.is_finite()) {
             measured[2] = f64::from(tick + 1);
         }
@@ -192,12 +173,7 @@ fn jitter() -> Vec<Row> {
                 effort,
                 1.0,
             ));
-            rows.push(Row::stated(
-                format!("{what}: off at most, rad"),
-                name::<R>(),
-                off,
-                most,
-            ));
+            rows.push(Row::stated(format!("{what}: off at most, rad"), name::<R>(), off, most));
             rows.push(Row::stated(
                 format!("{what}: ticks till it tracks within 1 mrad"),
                 name::<R>(),

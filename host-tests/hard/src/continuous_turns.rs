@@ -42,13 +42,7 @@ fn recover<R: Real>(held: u32) -> ([f64; 3], [R; 6]) {
             measured[1] = f64::from(tick);
         }
         let beyond = |(aim, q): (&R, &R)| (aim.to_f64() - q.to_f64()) / HELD_OFF;
-        measured[2] = bench
-            .aim
-            .q
-            .iter()
-            .zip(&bench.arm.q)
-            .map(beyond)
-            .fold(measured[2], larger);
+        measured[2] = bench.aim.q.iter().zip(&bench.arm.q).map(beyond).fold(measured[2], larger);
     }
     (measured, bench.arm.q)
 }
@@ -77,17 +71,10 @@ fn saturation() -> Vec<Row> {
             name::<R>(),
             first[0] > 0.999,
         ));
-        rows.push(Row::measured(
-            "ticks till within 1 mrad",
-            name::<R>(),
-            first[1],
-            400.0,
-        ));
+        rows.push(Row::measured("ticks till within 1 mrad", name::<R>(), first[1], 400.0));
         rows.push(Row::stated("overshoot", name::<R>(), first[2], OVERSHOOT));
-        let same = [1600, 6400]
-            .map(recover::<R>)
-            .iter()
-            .all(|other| (other.0, other.1) == (first, place));
+        let same =
+            [1600, 6400].map(recover::<R>).iter().all(|other| (other.0, other.1) == (first, place));
         rows.push(Row::claim(
             "after 1600 and 6400 ticks at the limit: the same bits",
             name::<R>(),

@@ -48,36 +48,25 @@ pub const CASES: &[Case] = &[
 ];
 
 fn impossible() -> Vec<Row> {
-    let (fat, points) = (
-        arm(22, "triangle inequality broken"),
-        arm(22, "point masses"),
-    );
+    let (fat, points) = (arm(22, "triangle inequality broken"), arm(22, "point masses"));
     let mut rows = against_oracle(&fat, &FAT);
     rows.extend(against_oracle(&points, &POINTS));
     let excess = |checked: Result<(), ModelError>| match checked {
-        Err(ModelError {
-            body: "wrist_3",
-            problem: Problem::Triangle(by),
-            ..
-        }) => (by - EXCESS).abs(),
+        Err(ModelError { body: "wrist_3", problem: Problem::Triangle(by), .. }) => {
+            (by - EXCESS).abs()
+        }
         _ => f64::INFINITY,
     };
     let name = "check: the excess of the triangle inequality";
     // Rounded about the frame's origin, and taken back to the centre of mass.
     let bound = |epsilon: f64| 64.0 * epsilon;
-    let (f32s, f64s) = (
-        excess(fat.single.check(1e-5)),
-        excess(described(22, &fat.name).check(1e-5)),
-    );
+    let (f32s, f64s) =
+        (excess(fat.single.check(1e-5)), excess(described(22, &fat.name).check(1e-5)));
     rows.push(Row::stated(name, "f32", f32s, bound(f32::EPSILON.into())));
     rows.push(Row::stated(name, "f64", f64s, bound(f64::EPSILON)));
     let name = "check: point masses accepted";
     rows.push(Row::claim(name, "f32", points.single.check(0.0).is_ok()));
-    rows.push(Row::claim(
-        name,
-        "f64",
-        described(22, &points.name).check(0.0).is_ok(),
-    ));
+    rows.push(Row::claim(name, "f64", described(22, &points.name).check(0.0).is_ok()));
     rows
 }
 
@@ -129,11 +118,7 @@ fn refuses<R: Real>(arm: &ArmModel<R, 1>, named: bool, scalar: &'static str, row
 fn of_scalar<R: Real>(scalar: &'static str, rows: &mut Vec<Row>) {
     use dynamics_core::scalar::{Matrix, Vector};
     let mut rod = Calibrated::<Rod, R, 1, 1, 1>::nominal();
-    rows.push(Row::claim(
-        "check: symmetric, accepted",
-        scalar,
-        rod.check(1e-5).is_ok(),
-    ));
+    rows.push(Row::claim("check: symmetric, accepted", scalar, rod.check(1e-5).is_ok()));
     for inertia in rod.inertias() {
         let [mut x, y, z] = inertia.rotational.cols();
         x += R::Vec3::new(R::ZERO, R::from_f64(0.02), R::ZERO);
@@ -144,17 +129,10 @@ fn of_scalar<R: Real>(scalar: &'static str, rows: &mut Vec<Row>) {
     rows.push(Row::claim("check: asymmetric, named", scalar, named));
     let finite = |x: [R; 1]| x[0].is_finite();
     let arm = rod.model();
-    let state = State {
-        qdd: [R::ONE],
-        ..State::at([R::from_f64(0.4)])
-    };
+    let state = State { qdd: [R::ONE], ..State::at([R::from_f64(0.4)]) };
     let tau = rnea(arm, &state, &RIGID_BODY);
     let bounded = finite(tau) && aba(arm, &state, &tau, &RIGID_BODY).is_ok_and(finite);
-    rows.push(Row::claim(
-        "asymmetric all the same: finite",
-        scalar,
-        bounded,
-    ));
+    rows.push(Row::claim("asymmetric all the same: finite", scalar, bounded));
 }
 
 fn arm_about(axis: [f64; 3]) -> Result<ArmModel<f64, 1>, ModelError> {
@@ -163,18 +141,10 @@ fn arm_about(axis: [f64; 3]) -> Result<ArmModel<f64, 1>, ModelError> {
 }
 
 fn axes() -> Vec<Row> {
-    let at = |q| State {
-        qd: [1.5],
-        qdd: [2.0],
-        ..State::at([q])
-    };
+    let at = |q| State { qd: [1.5], qdd: [2.0], ..State::at([q]) };
     let tau = |axis| arm_about(axis).map(|arm| rnea(&arm, &at(0.4), &RIGID_BODY));
     let single = |axis| {
-        let state = State {
-            q: [0.4_f32],
-            qd: [1.5],
-            qdd: [2.0],
-        };
+        let state = State { q: [0.4_f32], qd: [1.5], qdd: [2.0] };
         arm_about(axis).map(|arm| rnea(&arm.to_f32(), &state, &RIGID_BODY))
     };
     let mut rows = Vec::new();

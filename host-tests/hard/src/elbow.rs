@@ -66,10 +66,7 @@ fn matrix(q: f64) -> [f64; 3] {
 fn torques(state: &State<f64, 2, 2>) -> [f64; 2] {
     let ([_, q], [v, w], [x, y]) = (state.q, state.qd, state.qdd);
     let ([a, b, d], h) = (matrix(q), 0.5 * q.sin());
-    [
-        a * x + b * y - h * (2.0 * v * w + w * w),
-        b * x + d * y + h * v * v,
-    ]
+    [a * x + b * y - h * (2.0 * v * w + w * w), b * x + d * y + h * v * v]
 }
 
 /// Λ⁻¹ in base axes, xx, xy, yy.
@@ -96,11 +93,8 @@ fn inertia(q: [f64; 2]) -> ([f64; 3], f64) {
     };
     let (stiff, light) = (reciprocal(det / most), reciprocal(most));
     let (s, c) = (0.5 * (2.0 * xy).atan2(xx - yy)).sin_cos();
-    let damped = [
-        light * c * c + stiff * s * s,
-        (light - stiff) * c * s,
-        light * s * s + stiff * c * c,
-    ];
+    let damped =
+        [light * c * c + stiff * s * s, (light - stiff) * c * s, light * s * s + stiff * c * c];
     (damped, 1.0 / threshold)
 }
 
@@ -118,31 +112,18 @@ fn task<R: Real>(arm: &Elbow<R>, q: &[R; 2], damping: f64) -> OperationalSpace<R
 /// Errors of RNEA, LᵀDL, ABA, Λ⁻¹ by bodies and by M, and Λ, at an elbow's angle.
 fn errors<R: Real>(arm: &Elbow<R>, q: f32) -> [f64; 6] {
     let real = |x: f32| R::select(f64::from(x), x);
-    let given = State {
-        q: [0.4, q],
-        qd: [1.5, -2.25],
-        qdd: [3.0, -7.5_f32],
-    };
+    let given = State { q: [0.4, q], qd: [1.5, -2.25], qdd: [3.0, -7.5_f32] };
     let wide = super::setup::widened(&given);
-    let state = State {
-        q: given.q.map(real),
-        qd: given.qd.map(real),
-        qdd: given.qdd.map(real),
-    };
+    let state = State { q: given.q.map(real), qd: given.qd.map(real), qdd: given.qdd.map(real) };
     let truth = torques(&wide);
     let tau: [R; 2] = truth.map(R::from_f64);
     let [a, b, d] = matrix(wide.q[1]);
     let [t, u] = [0, 1].map(|i| tau[i].to_f64() - truth[i]);
     let det = a * d - b * b;
-    let qdd = [
-        wide.qdd[0] + (d * t - b * u) / det,
-        wide.qdd[1] + (a * u - b * t) / det,
-    ];
+    let qdd = [wide.qdd[0] + (d * t - b * u) / det, wide.qdd[1] + (a * u - b * t) / det];
     let worst = |found: &[R], truth: &[f64], scale: f64| {
         let each = found.iter().zip(truth);
-        each.fold(0.0, |worst, (x, truth)| {
-            larger(worst, (x.to_f64() - truth).abs() / scale)
-        })
+        each.fold(0.0, |worst, (x, truth)| larger(worst, (x.to_f64() - truth).abs() / scale))
     };
     let full = |truth: &[f64]| truth.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
     let [xx, xy, yy] = lightness(wide.q);
@@ -154,16 +135,8 @@ fn errors<R: Real>(arm: &Elbow<R>, q: f32) -> [f64; 6] {
     let task = task(arm, &state.q, DAMPING);
     [
         worst(&rnea(arm, &state, &RIGID_BODY), &truth, full(&truth)),
-        worst(
-            &forward_dynamics(arm, &state, &tau, &RIGID_BODY).expect("M > 0"),
-            &qdd,
-            full(&qdd),
-        ),
-        worst(
-            &aba(arm, &state, &tau, &RIGID_BODY).expect("M > 0"),
-            &qdd,
-            full(&qdd),
-        ),
+        worst(&forward_dynamics(arm, &state, &tau, &RIGID_BODY).expect("M > 0"), &qdd, full(&qdd)),
+        worst(&aba(arm, &state, &tau, &RIGID_BODY).expect("M > 0"), &qdd, full(&qdd)),
         worst(bodies.along(&across()).as_flattened(), &light, full(&light)),
         worst(task.mobility.as_flattened(), &light, full(&light)),
         worst(task.inertia.as_flattened(), &heavy, cap),
@@ -171,13 +144,7 @@ fn errors<R: Real>(arm: &Elbow<R>, q: f32) -> [f64; 6] {
 }
 
 fn poses() -> Vec<Row> {
-    let quantities = [
-        "RNEA",
-        "CRBA + LᵀDL",
-        "ABA",
-        "OSIM⁻¹ by bodies",
-        "OSIM⁻¹ by J M⁻¹ Jᵀ",
-    ];
+    let quantities = ["RNEA", "CRBA + LᵀDL", "ABA", "OSIM⁻¹ by bodies", "OSIM⁻¹ by J M⁻¹ Jᵀ"];
     let (double, mut rows) = (elbow(), Vec::new());
     let single = double.to_f32();
     let (mut worst, mut most) = ([[0.0; 6]; 2], 0.0);
@@ -190,10 +157,7 @@ fn poses() -> Vec<Row> {
         }
         let [a, b, d] = matrix(f64::from(q));
         let (trace, det) = (a + d, a * d - b * b);
-        most = larger(
-            most,
-            (trace + (trace * trace - 4.0 * det).sqrt()).powi(2) / (4.0 * det),
-        );
+        most = larger(most, (trace + (trace * trace - 4.0 * det).sqrt()).powi(2) / (4.0 * det));
         let name = format!("OSIM, damped, σ_min = {name}");
         rows.push(Row::stated(
             name.clone(),
@@ -201,18 +165,12 @@ fn poses() -> Vec<Row> {
             measured[0][5],
             4.0 * f64::from(f32::EPSILON) / DAMPING,
         ));
-        rows.push(Row::stated(
-            name,
-            "f64",
-            measured[1][5],
-            4.0 * f64::EPSILON / DAMPING,
-        ));
+        rows.push(Row::stated(name, "f64", measured[1][5], 4.0 * f64::EPSILON / DAMPING));
     }
     for (k, quantity) in quantities.into_iter().enumerate() {
-        for (scalar, error, bound) in [
-            ("f32", worst[0][k], SINGLE[k]),
-            ("f64", worst[1][k], DOUBLE[k]),
-        ] {
+        for (scalar, error, bound) in
+            [("f32", worst[0][k], SINGLE[k]), ("f64", worst[1][k], DOUBLE[k])]
+        {
             let row = Row::measured(quantity, scalar, error, bound);
             rows.push(if k == 0 { row } else { row.of_condition(most) });
         }
@@ -271,24 +229,9 @@ fn sweep() -> Vec<Row> {
     vec![
         Row::stated("force, damped", "f32", f32s.error, e32),
         Row::stated("force, damped", "f64", f64s.error, e64),
-        Row::stated(
-            "largest step between neighbours",
-            "f32",
-            f32s.step,
-            truth.step + 2.0 * e32,
-        ),
-        Row::stated(
-            "largest step between neighbours",
-            "f64",
-            f64s.step,
-            truth.step + 2.0 * e64,
-        ),
-        Row::naive(
-            "naive: Λ undamped, largest step",
-            "f32",
-            plain.step,
-            truth.step + 2.0 * e32,
-        ),
+        Row::stated("largest step between neighbours", "f32", f32s.step, truth.step + 2.0 * e32),
+        Row::stated("largest step between neighbours", "f64", f64s.step, truth.step + 2.0 * e64),
+        Row::naive("naive: Λ undamped, largest step", "f32", plain.step, truth.step + 2.0 * e32),
         Row::naive(
             "naive: cut off below the threshold, largest step",
             "f32",

@@ -69,9 +69,7 @@ where
         normalise(&T::MODEL, &mut q).expect("no random quaternion is zero");
         let mut state = State::<R, Q, V>::at(q.map(R::from_f64));
         let pose = dynamics_core::algorithms::poses(model, &state.q)[0];
-        let g = pose
-            .rot
-            .transpose_mul(R::Vec3::new(R::ZERO, R::ZERO, R::from_f64(-G)));
+        let g = pose.rot.transpose_mul(R::Vec3::new(R::ZERO, R::ZERO, R::from_f64(-G)));
         for (qdd, g) in state.qdd[3..6].iter_mut().zip(g.array()) {
             *qdd = g;
         }
@@ -82,44 +80,26 @@ where
         };
         let none = [R::from_f64(f64::NAN); V];
         let torque = far(rnea(model, &state, &RIGID_BODY), &free) / (mass * G);
-        let by_bodies = far(
-            aba(model, &state, &free, &RIGID_BODY).unwrap_or(none),
-            &state.qdd,
-        ) / G;
-        let by_matrix = far(
-            forward_dynamics(model, &state, &free, &RIGID_BODY).unwrap_or(none),
-            &state.qdd,
-        ) / G;
+        let by_bodies = far(aba(model, &state, &free, &RIGID_BODY).unwrap_or(none), &state.qdd) / G;
+        let by_matrix =
+            far(forward_dynamics(model, &state, &free, &RIGID_BODY).unwrap_or(none), &state.qdd)
+                / G;
         for (worst, error) in worst.iter_mut().zip([torque, by_bodies, by_matrix]) {
             *worst = if error <= *worst { *worst } else { error };
         }
     }
     let mut state = State::<R, Q, V>::at(neutral(model));
     for _ in 0..1000 {
-        let step = semi_implicit(
-            model,
-            &mut state,
-            &[R::ZERO; V],
-            &RIGID_BODY,
-            R::from_f64(1e-3),
-        );
+        let step = semi_implicit(model, &mut state, &[R::ZERO; V], &RIGID_BODY, R::from_f64(1e-3));
         step.expect("M is positive definite");
     }
-    let speed = state.qd[6..]
-        .iter()
-        .map(|qd| qd.to_f64().abs())
-        .fold(0.0, larger);
+    let speed = state.qd[6..].iter().map(|qd| qd.to_f64().abs()).fold(0.0, larger);
     let what = |what: &str| format!("{}: {what}", T::MODEL.name);
     let rows = [
         Row::stated(what("rnea"), name::<R>(), worst[0], R::EPSILON.to_f64()),
         Row::stated(what("aba"), name::<R>(), worst[1], 0.0),
         Row::measured(what("crba + ltdl"), name::<R>(), worst[2], by_factors),
-        Row::stated(
-            what("joints' speed after 1 s of fall, rad/s"),
-            name::<R>(),
-            speed,
-            0.0,
-        ),
+        Row::stated(what("joints' speed after 1 s of fall, rad/s"), name::<R>(), speed, 0.0),
     ];
     rows.into()
 }
@@ -145,11 +125,7 @@ where
         let (nothing, none) = ([R::ZERO; V], [R::from_f64(f64::NAN); V]);
         let (empty, weightless) = (
             (Inertia, Coriolis),
-            (
-                Gravity::<dynamics_core::effects::Down>::new(0.0),
-                Inertia,
-                Coriolis,
-            ),
+            (Gravity::<dynamics_core::effects::Down>::new(0.0), Inertia, Coriolis),
         );
         let all = [
             Core::<T>::rnea(&state, &empty),

@@ -35,11 +35,7 @@ fn states<R: Real>(problem: usize) -> impl Iterator<Item = State<R, N, N>> {
     let cast = |values: [f64; N]| values.map(R::from_f64);
     SINGLE[problem].states.iter().map(move |numbers| {
         let wide = widened(&state(numbers));
-        State {
-            q: cast(wide.q),
-            qd: cast(wide.qd),
-            qdd: cast(wide.qdd),
-        }
+        State { q: cast(wide.q), qd: cast(wide.qd), qdd: cast(wide.qdd) }
     })
 }
 
@@ -47,10 +43,7 @@ fn states<R: Real>(problem: usize) -> impl Iterator<Item = State<R, N, N>> {
 fn differ<R: Real>(pairs: &[([R; N], [R; N])]) -> f64 {
     let mut worst = 0.0;
     for joint in 0..N {
-        let scale = pairs
-            .iter()
-            .map(|(core, _)| core[joint].to_f64().abs())
-            .fold(0.0, f64::max);
+        let scale = pairs.iter().map(|(core, _)| core[joint].to_f64().abs()).fold(0.0, f64::max);
         for (core, engine) in pairs {
             let off = (core[joint].to_f64() - engine[joint].to_f64()).abs();
             worst = larger(worst, if off == 0.0 { 0.0 } else { off / scale });
@@ -64,19 +57,11 @@ fn inverse<R: Real, const K: usize>(rows: &mut Vec<Row>, bound: f64, problems: &
     for &problem in problems {
         let scene = scene::<R, N>(&SINGLE[problem].extras);
         let both = |state| {
-            (
-                Core::<Hard<K>>::rnea(&state, &scene),
-                Engine::<Hard<K>>::rnea(&state, &scene),
-            )
+            (Core::<Hard<K>>::rnea(&state, &scene), Engine::<Hard<K>>::rnea(&state, &scene))
         };
         let worst = differ(&states::<R>(problem).map(both).collect::<Vec<_>>());
         let bound = bound * R::EPSILON.to_f64();
-        rows.push(Row::stated(
-            what("rnea", problem),
-            name::<R>(),
-            worst,
-            bound,
-        ));
+        rows.push(Row::stated(what("rnea", problem), name::<R>(), worst, bound));
     }
 }
 
@@ -94,11 +79,9 @@ fn forward<const K: usize>(rows: &mut Vec<Row>, problems: &[(usize, f64)]) {
             pairs.extend(core.ok().zip(engine.ok()));
         }
         let row = match refused {
-            (same, true) => Row::claim(
-                what("forward: the same joint is refused", problem),
-                "f32",
-                same,
-            ),
+            (same, true) => {
+                Row::claim(what("forward: the same joint is refused", problem), "f32", same)
+            }
             _ => Row::measured(what("forward", problem), "f32", differ(&pairs), bound),
         };
         rows.push(row);
@@ -106,10 +89,7 @@ fn forward<const K: usize>(rows: &mut Vec<Row>, problems: &[(usize, f64)]) {
 }
 
 fn what(what: &str, problem: usize) -> String {
-    format!(
-        "{what}, case {}, {}",
-        SINGLE[problem].case, SINGLE[problem].name
-    )
+    format!("{what}, case {}, {}", SINGLE[problem].case, SINGLE[problem].name)
 }
 
 fn engine() -> Vec<Row> {

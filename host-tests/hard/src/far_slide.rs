@@ -57,11 +57,7 @@ const STATES: [State<f32, 2, 2>; 4] = [
 ];
 
 const fn state(turn: f32, stroke: f32) -> State<f32, 2, 2> {
-    State {
-        q: [turn, stroke],
-        qd: [0.01 * turn, 0.5],
-        qdd: [0.001 * turn, 40.0 * turn],
-    }
+    State { q: [turn, stroke], qd: [0.01 * turn, 0.5], qdd: [0.001 * turn, 40.0 * turn] }
 }
 
 /// Torque and force of one state.
@@ -78,10 +74,7 @@ fn closed_form(state: &State<f64, 2, 2>) -> [f64; 2] {
 fn errors<R: Real>(arm: &ArmModel<R, 2>, offset: f64) -> [f64; 5] {
     let real = |x: f32| R::select(f64::from(x), x);
     let [k, at] = [STIFFNESS, offset].map(R::from_f64);
-    let spring = Spring {
-        stiffness: [R::ZERO, k],
-        rest: [R::ZERO, at],
-    };
+    let spring = Spring { stiffness: [R::ZERO, k], rest: [R::ZERO, at] };
     let scene = (RIGID_BODY, spring);
     let (o, e) = (R::ZERO, R::ONE);
     let across =
@@ -89,11 +82,8 @@ fn errors<R: Real>(arm: &ArmModel<R, 2>, offset: f64) -> [f64; 5] {
     let mut worst = [0.0; 5];
     for given in &STATES {
         let wide = super::setup::widened(given);
-        let mut state = State {
-            q: given.q.map(real),
-            qd: given.qd.map(real),
-            qdd: given.qdd.map(real),
-        };
+        let mut state =
+            State { q: given.q.map(real), qd: given.qd.map(real), qdd: given.qdd.map(real) };
         // As a program that measures from afar would store it.
         state.q[1] = R::from_f64(offset + wide.q[1]);
         let truth = closed_form(&wide);
@@ -118,9 +108,7 @@ fn errors<R: Real>(arm: &ArmModel<R, 2>, offset: f64) -> [f64; 5] {
         let bodies = osim_inverse(arm, &state.q, 1, frame::Local, &scene).expect("M > 0");
         let damping = Damping::relative(R::ZERO);
         let task = operational_space(arm, &state.q, (1, frame::Local), &across, &scene, damping);
-        for (k, found) in [bodies.along(&across), task.expect("M > 0").mobility]
-            .iter()
-            .enumerate()
+        for (k, found) in [bodies.along(&across), task.expect("M > 0").mobility].iter().enumerate()
         {
             for (found, truth) in found.as_flattened().iter().zip(truth.as_flattened()) {
                 worst[3 + k] = larger(worst[3 + k], (found.to_f64() - truth).abs() * MASS);
@@ -131,13 +119,7 @@ fn errors<R: Real>(arm: &ArmModel<R, 2>, offset: f64) -> [f64; 5] {
 }
 
 fn slide() -> Vec<Row> {
-    let quantities = [
-        "RNEA",
-        "CRBA + LᵀDL",
-        "ABA",
-        "OSIM⁻¹ by bodies",
-        "OSIM⁻¹ by J M⁻¹ Jᵀ",
-    ];
+    let quantities = ["RNEA", "CRBA + LᵀDL", "ABA", "OSIM⁻¹ by bodies", "OSIM⁻¹ by J M⁻¹ Jᵀ"];
     let (single, double) = (errors(&table(0.0).to_f32(), 0.0), errors(&table(0.0), 0.0));
     let mut rows = Vec::new();
     for (k, quantity) in quantities.into_iter().enumerate() {
@@ -145,12 +127,7 @@ fn slide() -> Vec<Row> {
         rows.push(Row::measured(quantity, "f64", double[k], DOUBLE[k]));
     }
     let far = errors(&table(FAR).to_f32(), FAR);
-    rows.push(Row::naive(
-        "naive: RNEA with the offset in q",
-        "f32",
-        far[0],
-        SINGLE[0],
-    ));
+    rows.push(Row::naive("naive: RNEA with the offset in q", "f32", far[0], SINGLE[0]));
     rows
 }
 

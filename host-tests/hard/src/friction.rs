@@ -59,34 +59,17 @@ fn rest() -> Vec<Row> {
 /// Smooth Coulomb friction creeps.
 fn creep<R: Real>(rows: &mut Vec<Row>, width: f64) {
     let of = R::from_f64;
-    let dry = Coulomb {
-        torque: [of(4.0)],
-        width: Width::new(of(width)),
-    };
+    let dry = Coulomb { torque: [of(4.0)], width: Width::new(of(width)) };
     let (mut state, mut back) = (State::at([R::ZERO]), 0.0_f64);
     for _ in 0..2000 {
         let before = state.qd[0].to_f64();
-        linearly_implicit(
-            &sledge(2.0),
-            &mut state,
-            &[of(3.6)],
-            &mut (Inertia, dry),
-            of(1e-3),
-        )
-        .expect("M is positive definite");
+        linearly_implicit(&sledge(2.0), &mut state, &[of(3.6)], &mut (Inertia, dry), of(1e-3))
+            .expect("M is positive definite");
         back = larger(back, before - state.qd[0].to_f64());
     }
     let want = width * 2.0 * (0.9_f64.asin() / 3.0).sin();
-    let (error, bound) = (
-        state.qd[0].to_f64() / want - 1.0,
-        30.0 * R::EPSILON.to_f64(),
-    );
-    rows.push(Row::stated(
-        format!("width {width:.0e}: creep"),
-        name::<R>(),
-        error.abs(),
-        bound,
-    ));
+    let (error, bound) = (state.qd[0].to_f64() / want - 1.0, 30.0 * R::EPSILON.to_f64());
+    rows.push(Row::stated(format!("width {width:.0e}: creep"), name::<R>(), error.abs(), bound));
     rows.push(Row::stated(
         format!("width {width:.0e}: chatter, of the creep"),
         name::<R>(),
@@ -112,35 +95,17 @@ fn holds<R: Real>(rows: &mut Vec<Row>, h: f64) {
     let slid = presliding * STIFFNESS / STICTION;
     let crept = (state.q[0].to_f64() - presliding).abs() / presliding;
     let what = |what: &str| format!("LuGre, h = {h:.0e}: {what}");
-    rows.push(Row::stated(
-        what("presliding, F_s/σ₀"),
-        name::<R>(),
-        slid,
-        2.5,
-    ));
+    rows.push(Row::stated(what("presliding, F_s/σ₀"), name::<R>(), slid, 2.5));
     // Without inertia; the swing adds 4 %.
     let off = (slid + 0.1_f64.ln()).abs() / slid;
-    rows.push(Row::measured(
-        what("presliding against −ln 0.1"),
-        name::<R>(),
-        off,
-        0.06,
-    ));
-    rows.push(Row::stated(
-        what("creep in 10 s, of the presliding"),
-        name::<R>(),
-        crept,
-        0.01,
-    ));
+    rows.push(Row::measured(what("presliding against −ln 0.1"), name::<R>(), off, 0.06));
+    rows.push(Row::stated(what("creep in 10 s, of the presliding"), name::<R>(), crept, 0.01));
 }
 
 fn through_zero() -> Vec<Row> {
     fn run<R: Real>(rows: &mut Vec<Row>, powers: std::ops::Range<i32>) {
         let of = R::from_f64;
-        let dry = Coulomb {
-            torque: [of(4.0)],
-            width: Width::new(of(0.02)),
-        };
+        let dry = Coulomb { torque: [of(4.0)], width: Width::new(of(0.02)) };
         let stribeck = Stribeck {
             excess: [of(2.0)],
             stribeck_speed: Width::new(of(0.05)),
@@ -168,21 +133,11 @@ fn through_zero() -> Vec<Row> {
             // 3/2 F/w is the steepest slope there is.
             let steepest = [0.5, 4.0 * 75.0, 2.0 * 75.0]
                 .map(|slope| slope * v.to_f64() * (1.0 + 1e-6) + 1e-44);
-            continuous &= ahead
-                .iter()
-                .zip(steepest)
-                .all(|(tau, most)| tau.to_f64() <= most);
+            continuous &= ahead.iter().zip(steepest).all(|(tau, most)| tau.to_f64() <= most);
         }
-        let still = [
-            torque(&dry, R::ZERO),
-            torque(&stribeck, R::ZERO),
-            torque(&lugre::<R>(), R::ZERO),
-        ];
-        rows.push(Row::claim(
-            "odd: viscous, Coulomb, Stribeck, LuGre",
-            name::<R>(),
-            odd,
-        ));
+        let still =
+            [torque(&dry, R::ZERO), torque(&stribeck, R::ZERO), torque(&lugre::<R>(), R::ZERO)];
+        rows.push(Row::claim("odd: viscous, Coulomb, Stribeck, LuGre", name::<R>(), odd));
         rows.push(Row::claim(
             "dissipative: these and Coulomb of two directions",
             name::<R>(),

@@ -72,11 +72,8 @@ fn away(t: f64) -> f64 {
 /// Twelve seconds, with the slowest fully damped mode in rad/s.
 fn simulate<R: Real>(arm: &ArmModel<R, 6>, slowest: f64) -> Option<Outcome> {
     let real = R::from_f64;
-    let config = ImpedanceConfig {
-        stiffness: STIFFNESS.map(real),
-        zeta: real(0.7),
-        slowest: real(slowest),
-    };
+    let config =
+        ImpedanceConfig { stiffness: STIFFNESS.map(real), zeta: real(0.7), slowest: real(slowest) };
     let mut impedance = CartesianImpedance::try_new(config).ok()?;
     let rotors = Armature([real(0.3); 6]);
     let directions = TaskFrame::<R>::BASE.turn_and_place(R::ONE);
@@ -85,24 +82,14 @@ fn simulate<R: Real>(arm: &ArmModel<R, 6>, slowest: f64) -> Option<Outcome> {
     let [x, y, z] = start.pos.array().map(R::to_f64);
     let reach = (x * x + y * y + z * z).sqrt();
     let outward = start.pos * real(AWAY / reach);
-    let (mut last, mut out) = (
-        None,
-        Outcome {
-            torque: 0.0,
-            step: 0.0,
-            elbow: 9.0,
-            named: true,
-            ..Outcome::BROKEN
-        },
-    );
+    let (mut last, mut out) =
+        (None, Outcome { torque: 0.0, step: 0.0, elbow: 9.0, named: true, ..Outcome::BROKEN });
     for k in 0..12_000 {
         let mut goal = start;
         goal.pos += outward * real(away(f64::from(k) * TICK));
         let tip = kinematics(arm, &state, &());
-        let (off, v) = (
-            pose_error(&tip.poses[5], &goal),
-            tip.velocity(5, frame::LocalWorldAligned),
-        );
+        let (off, v) =
+            (pose_error(&tip.poses[5], &goal), tip.velocity(5, frame::LocalWorldAligned));
         let deviation = TaskDeviation {
             position: directions.map(|d| off.dot(d)),
             velocity: directions.map(|d| -v.dot(d)),
@@ -112,9 +99,7 @@ fn simulate<R: Real>(arm: &ArmModel<R, 6>, slowest: f64) -> Option<Outcome> {
         let solve = |tau: &_| solve(arm, &factors, tau);
         let bias = rnea(arm, &State::at(state.q), &Gravity::EARTH);
         let posture = state.qd.map(|qd| -(real(6.0) * qd));
-        let command = impedance
-            .torque(&rows, solve, &deviation, &bias, &posture)
-            .ok()?;
+        let command = impedance.torque(&rows, solve, &deviation, &bias, &posture).ok()?;
         let (tau, elbow) = (command.tau.map(R::to_f64), state.q[2].to_f64().abs());
         for (tau, limit) in tau.iter().zip(LIMITS) {
             out.torque = larger(out.torque, tau.abs() / limit);
@@ -125,11 +110,7 @@ fn simulate<R: Real>(arm: &ArmModel<R, 6>, slowest: f64) -> Option<Outcome> {
             }
         }
         let regular = command.conditioning == Conditioning::Regular;
-        out.named &= if elbow < 0.02 {
-            !regular
-        } else {
-            regular | (elbow < 1.0)
-        };
+        out.named &= if elbow < 0.02 { !regular } else { regular | (elbow < 1.0) };
         out.elbow = out.elbow.min(elbow);
         let speed = state.qd.map(|qd| qd.to_f64().abs());
         if k == 5_999 {
@@ -146,39 +127,16 @@ fn simulate<R: Real>(arm: &ArmModel<R, 6>, slowest: f64) -> Option<Outcome> {
 fn run() -> Vec<Row> {
     let (double, mut rows) = (Ur5e::MODEL, Vec::new());
     let single = double.to_f32();
-    let outcomes = [
-        ("f32", simulate(&single, 2.0)),
-        ("f64", simulate(&double, 2.0)),
-    ];
+    let outcomes = [("f32", simulate(&single, 2.0)), ("f64", simulate(&double, 2.0))];
     for (scalar, outcome) in outcomes {
         let out = outcome.unwrap_or(Outcome::BROKEN);
         rows.extend([
-            Row::stated(
-                "largest torque, of the drive's limit",
-                scalar,
-                out.torque,
-                1.0,
-            ),
-            Row::measured(
-                "largest change of a torque in a tick, N·m",
-                scalar,
-                out.step,
-                STEP,
-            ),
-            Row::stated(
-                "angle of the elbow from straight, rad",
-                scalar,
-                out.elbow,
-                0.02,
-            ),
+            Row::stated("largest torque, of the drive's limit", scalar, out.torque, 1.0),
+            Row::measured("largest change of a torque in a tick, N·m", scalar, out.step, STEP),
+            Row::stated("angle of the elbow from straight, rad", scalar, out.elbow, 0.02),
             Row::claim("the status names the singularity", scalar, out.named),
             Row::stated("speed out of reach, rad/s", scalar, out.speed, 1e-3),
-            Row::measured(
-                "distance from the goal after its return, m",
-                scalar,
-                out.off,
-                OFF,
-            ),
+            Row::measured("distance from the goal after its return, m", scalar, out.off, OFF),
         ]);
     }
     let naive = simulate(&single, 1e-3).unwrap_or(Outcome::BROKEN);

@@ -58,12 +58,7 @@ fn under(
         let tau = like.tau(&truth, k);
         (
             answers_to(&turning(&setup.single), state, &tau, scenes.0),
-            answers_to(
-                &turning(&setup.double),
-                &widened(state),
-                &tau.map(f64::from),
-                scenes.1,
-            ),
+            answers_to(&turning(&setup.double), &widened(state), &tau.map(f64::from), scenes.1),
         )
     });
     each.collect()
@@ -74,13 +69,7 @@ fn turned_with_gravity(setup: &Setup<N>, r: DMat3) -> (Setup<N>, Scene<f32, N>, 
     let mut turned = setup.clone();
     let first = &mut turned.double.links[0].placement;
     (first.rot, first.pos) = (first.rot * r.transpose(), r * first.pos);
-    let turned = Setup::new(
-        44,
-        "turned",
-        &turned.double,
-        setup.extras,
-        setup.states.clone(),
-    );
+    let turned = Setup::new(44, "turned", &turned.double, setup.extras, setup.states.clone());
     let mut single: Scene<f32, N> = scene(&setup.extras);
     let mut double: Scene<f64, N> = scene(&setup.extras);
     double.0.0 = r * double.0.0;
@@ -120,19 +109,12 @@ fn turned() -> Vec<Row> {
 fn renumbered() -> Vec<Row> {
     let one = arm(45, "tree");
     let mut rows = against_oracle(&one, &TREE);
-    rows.extend(against_oracle(
-        &arm(45, "tree, numbered otherwise"),
-        &RENUMBERED,
-    ));
+    rows.extend(against_oracle(&arm(45, "tree, numbered otherwise"), &RENUMBERED));
     let mut other = arm(45, "tree, numbered otherwise");
     other.states = one
         .states
         .iter()
-        .map(|s| State {
-            q: permuted(s.q),
-            qd: permuted(s.qd),
-            qdd: permuted(s.qdd),
-        })
+        .map(|s| State { q: permuted(s.q), qd: permuted(s.qd), qdd: permuted(s.qdd) })
         .collect();
     let (truth, single, double) = (one.truth(), scene(&one.extras), scene(&one.extras));
     let a = one.answers(&truth);
@@ -175,14 +157,8 @@ fn both<R: Real>(a: &[Answers<R, N>], b: &[Answers<R, N>]) -> [f64; 3] {
     let solved = |qdd: Result<[R; N], _>| qdd.unwrap_or_else(|_| panic!("M > 0"));
     [
         apart(a.iter().map(|a| permuted(a.rnea)), b.iter().map(|b| b.rnea)),
-        apart(
-            a.iter().map(|a| permuted(solved(a.forward))),
-            b.iter().map(|b| solved(b.forward)),
-        ),
-        apart(
-            a.iter().map(|a| permuted(solved(a.aba))),
-            b.iter().map(|b| solved(b.aba)),
-        ),
+        apart(a.iter().map(|a| permuted(solved(a.forward))), b.iter().map(|b| solved(b.forward))),
+        apart(a.iter().map(|a| permuted(solved(a.aba))), b.iter().map(|b| solved(b.aba))),
     ]
 }
 
@@ -195,11 +171,7 @@ fn rounded() -> Vec<Row> {
     literal.double = literally_in_f64(&setup.double, &setup.single);
     for (name, setup, bound) in [
         ("orthonormal", &setup, None),
-        (
-            "as f32 rounds them",
-            &literal,
-            Some(6.0 * condition * f64::from(f32::EPSILON) / 2.0),
-        ),
+        ("as f32 rounds them", &literal, Some(6.0 * condition * f64::from(f32::EPSILON) / 2.0)),
     ] {
         let answers = setup.answers(&truth);
         let solved = |qdd: Result<[f64; N], _>| qdd.unwrap_or_else(|_| panic!("M > 0"));
@@ -217,9 +189,7 @@ fn rounded() -> Vec<Row> {
                 by_joints(answers.iter().map(|(_, a)| a.forward), &truth.states, |t| {
                     t.qdd.as_deref()
                 }),
-                by_joints(answers.iter().map(|(_, a)| a.aba), &truth.states, |t| {
-                    t.qdd.as_deref()
-                }),
+                by_joints(answers.iter().map(|(_, a)| a.aba), &truth.states, |t| t.qdd.as_deref()),
             ];
             for (quantity, error) in ["CRBA + LᵀDL", "ABA"].into_iter().zip(errors) {
                 let name = format!("{quantity}, rotations as f32 rounds them");

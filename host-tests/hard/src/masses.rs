@@ -99,27 +99,18 @@ fn massless_tip() -> Vec<Row> {
     let setup = arm(5, "massless terminal link");
     let truth = setup.truth();
     let answers = setup.answers(&truth);
-    let single = by_joints(
-        answers.iter().map(|(a, _)| Ok(a.rnea)),
-        &truth.states,
-        |t| Some(&t.rnea),
-    );
-    let double = by_joints(
-        answers.iter().map(|(_, a)| Ok(a.rnea)),
-        &truth.states,
-        |t| Some(&t.rnea),
-    );
+    let single =
+        by_joints(answers.iter().map(|(a, _)| Ok(a.rnea)), &truth.states, |t| Some(&t.rnea));
+    let double =
+        by_joints(answers.iter().map(|(_, a)| Ok(a.rnea)), &truth.states, |t| Some(&t.rnea));
     let mut rows = vec![
         Row::measured("RNEA", "f32", single, 5e-7),
         Row::measured("RNEA", "f64", double, 1e-15),
     ];
     let named = |e: Option<NotPositiveDefinite>| e.is_some_and(|e| e.joint == 5);
-    for (quantity, ask) in [
-        ("CRBA + LᵀDL", 0_usize),
-        ("ABA", 1),
-        ("OSIM⁻¹ by bodies", 2),
-        ("OSIM⁻¹ by J M⁻¹ Jᵀ", 3),
-    ] {
+    for (quantity, ask) in
+        [("CRBA + LᵀDL", 0_usize), ("ABA", 1), ("OSIM⁻¹ by bodies", 2), ("OSIM⁻¹ by J M⁻¹ Jᵀ", 3)]
+    {
         let single = answers.iter().all(|(a, _)| named(refusals(a)[ask]));
         let double = answers.iter().all(|(_, a)| named(refusals(a)[ask]));
         let quantity = format!("{quantity}: joint 5 is named");
@@ -143,12 +134,8 @@ pub(super) fn refusals<R, const K: usize>(
 
 fn armature() -> Vec<Row> {
     let mut rows = Vec::new();
-    for name in [
-        "armature 10⁻⁸",
-        "armature 10⁻⁶",
-        "armature 10⁻⁴",
-        "armature 10⁻²",
-    ] {
+    for name in ["armature 10⁻⁸", "armature 10⁻⁶", "armature 10⁻⁴", "armature 10⁻²"]
+    {
         rows.extend(against_oracle(&arm(6, name), &ARMATURE));
     }
     let setup = arm(6, "armature 10⁻⁸");

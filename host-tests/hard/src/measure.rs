@@ -8,13 +8,8 @@ use host_tests::hard::Row;
 use host_tests::measured::larger;
 
 /// The quantities, in the order of [`ErrorBounds`].
-const QUANTITIES: [&str; 5] = [
-    "RNEA",
-    "CRBA + LᵀDL",
-    "ABA",
-    "OSIM⁻¹ by bodies",
-    "OSIM⁻¹ by J M⁻¹ Jᵀ",
-];
+const QUANTITIES: [&str; 5] =
+    ["RNEA", "CRBA + LᵀDL", "ABA", "OSIM⁻¹ by bodies", "OSIM⁻¹ by J M⁻¹ Jᵀ"];
 
 /// The bounds of RNEA, CRBA + LᵀDL, ABA, and the inverse of the operational-space inertia by bodies
 /// and by M.
@@ -38,10 +33,7 @@ pub fn against_oracle<const N: usize>(setup: &Setup<N>, bounds: &ErrorBounds) ->
     let mut rows = Vec::new();
     for (k, quantity) in QUANTITIES.into_iter().enumerate() {
         let name = format!("{quantity}, {}", setup.name);
-        let pairs = [
-            ("f32", single[k], bounds.single[k]),
-            ("f64", double[k], bounds.double[k]),
-        ];
+        let pairs = [("f32", single[k], bounds.single[k]), ("f64", double[k], bounds.double[k])];
         for (scalar, error, bound) in pairs {
             let row = Row::measured(name.clone(), scalar, error, bound);
             rows.push(match truth.condition {
@@ -59,12 +51,8 @@ fn errors<'a, R: Real, const N: usize>(
     truth: &[TrueState],
 ) -> [f64; 5] {
     [
-        by_joints(answers.clone().map(|a| Ok(a.rnea)), truth, |t| {
-            Some(&t.rnea)
-        }),
-        by_joints(answers.clone().map(|a| a.forward), truth, |t| {
-            t.qdd.as_deref()
-        }),
+        by_joints(answers.clone().map(|a| Ok(a.rnea)), truth, |t| Some(&t.rnea)),
+        by_joints(answers.clone().map(|a| a.forward), truth, |t| t.qdd.as_deref()),
         by_joints(answers.clone().map(|a| a.aba), truth, |t| t.qdd.as_deref()),
         of_matrices(answers.clone().map(|a| a.mobility), truth),
         of_matrices(answers.map(|a| a.by_matrix), truth),

@@ -16,10 +16,7 @@ pub fn floored<R: Real, const N: usize>(
     scene: &Scene<R, N>,
     floor: f64,
 ) -> [R; N] {
-    let still = State {
-        qdd: [R::ZERO; N],
-        ..*state
-    };
+    let still = State { qdd: [R::ZERO; N], ..*state };
     let arm = turning(arm);
     let bias = rnea(&arm, &still, scene);
     let m = crba(&arm, &state.q, scene);
@@ -88,19 +85,11 @@ fn about_origin<R: Real>(inertia: &SpatialInertia<R>, x: &Xform<R>) -> SpatialIn
     let turned = e.transpose() * inertia.rotational * e;
     let inertia_there =
         turned - crossed::<R>(p) * crossed::<R>(h) - crossed::<R>(moment) * crossed::<R>(p);
-    SpatialInertia {
-        mass: inertia.mass,
-        first_moment: moment,
-        rotational: inertia_there,
-    }
+    SpatialInertia { mass: inertia.mass, first_moment: moment, rotational: inertia_there }
 }
 
 /// \[v\]×
 fn crossed<R: Real>(v: R::Vec3) -> R::Mat3 {
     let ([x, y, z], o) = (v.array(), R::ZERO);
-    R::Mat3::from_cols(
-        R::Vec3::new(o, z, -y),
-        R::Vec3::new(-z, o, x),
-        R::Vec3::new(y, -x, o),
-    )
+    R::Mat3::from_cols(R::Vec3::new(o, z, -y), R::Vec3::new(-z, o, x), R::Vec3::new(y, -x, o))
 }

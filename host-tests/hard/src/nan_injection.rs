@@ -95,22 +95,9 @@ fn functions<R: Real>(rows: &mut Vec<Row>, scalar: &'static str) {
             same &= outputs(&clean, &tau) == before;
         }
     }
-    rows.push(Row::claim(
-        "dynamics afterwards: the same bits",
-        scalar,
-        same,
-    ));
-    rows.push(Row::claim(
-        "dynamics: what is no number is never made one",
-        scalar,
-        reported,
-    ));
-    rows.push(Row::stated(
-        "dynamics: a subnormal against zero",
-        scalar,
-        small,
-        1e-30,
-    ));
+    rows.push(Row::claim("dynamics afterwards: the same bits", scalar, same));
+    rows.push(Row::claim("dynamics: what is no number is never made one", scalar, reported));
+    rows.push(Row::stated("dynamics: a subnormal against zero", scalar, small, 1e-30));
 }
 
 /// The controller: each command is within limits, that the fault is named, and how soon all
@@ -137,20 +124,12 @@ fn controller<R: Real>(rows: &mut Vec<Row>, scalar: &'static str) {
     let (mut effort, mut named, mut full) = (0.0_f64, true, true);
     // The first entries are those of inputs that are no numbers, the second of those that are.
     let (mut off, mut late) = ([0.0_f64; 2], [0; 2]);
-    for (input, joint) in INPUTS
-        .into_iter()
-        .flat_map(|input| (0..6).map(move |joint| (input, joint)))
+    for (input, joint) in
+        INPUTS.into_iter().flat_map(|input| (0..6).map(move |joint| (input, joint)))
     {
         for value in values::<R>() {
             let kind = usize::from(value.is_finite());
-            let (mut bench, poison) = (
-                start,
-                Some(Poison {
-                    input,
-                    joint,
-                    value,
-                }),
-            );
+            let (mut bench, poison) = (start, Some(Poison { input, joint, value }));
             for (tick, (torque, q)) in whole.iter().enumerate() {
                 let command = step(&mut bench, poison.filter(|_| tick == 0));
                 effort = larger(effort, bench.effort());
@@ -172,12 +151,7 @@ fn controller<R: Real>(rows: &mut Vec<Row>, scalar: &'static str) {
             }
         }
     }
-    rows.push(Row::stated(
-        "controller: torque, of what is allowed",
-        scalar,
-        effort,
-        1.0,
-    ));
+    rows.push(Row::stated("controller: torque, of what is allowed", scalar, effort, 1.0));
     rows.push(Row::claim(
         "controller: the fault is named, in its tick and no other",
         scalar,

@@ -55,9 +55,7 @@ fn twofold(rng: &mut TestRng) -> ArmModel<f64, 4> {
         "twofold",
         [
             body(BASE, [0.3, 0.4, 1.0]),
-            Body::new("nothing", 0, Joint::revolute(axis))
-                .xyz(place)
-                .rpy(place),
+            Body::new("nothing", 0, Joint::revolute(axis)).xyz(place).rpy(place),
             body(1, axis).xyz(axis.map(|a: f64| a * along)),
             body(2, [0.1, 1.0, 0.2]).xyz(place).rpy(place),
         ],
@@ -87,12 +85,7 @@ fn coincident() -> Vec<Row> {
         Row::measured("RNEA", "f32", single, 4e-7),
         Row::measured("RNEA", "f64", double, 1e-15),
     ];
-    let quantities = [
-        "CRBA + LᵀDL",
-        "ABA",
-        "OSIM⁻¹ by bodies",
-        "OSIM⁻¹ by J M⁻¹ Jᵀ",
-    ];
+    let quantities = ["CRBA + LᵀDL", "ABA", "OSIM⁻¹ by bodies", "OSIM⁻¹ by J M⁻¹ Jᵀ"];
     for (k, quantity) in quantities.into_iter().enumerate() {
         let single = answers.iter().all(|(a, _)| refusals(a)[k].is_some());
         let double = answers.iter().all(|(_, a)| refusals(a)[k].is_some());

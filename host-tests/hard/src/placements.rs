@@ -82,22 +82,13 @@ fn same_bits(name: &str, other: &Setup<N>, factors: [f64; 3]) -> Vec<Row> {
 fn far_base() -> Vec<Row> {
     let setup = arm(13, "base 10⁴ m away");
     let mut rows = against_oracle(&setup, &FAR);
-    rows.extend(same_bits(
-        "everything: the same bits as at the origin",
-        &setup,
-        [1.0; 3],
-    ));
+    rows.extend(same_bits("everything: the same bits as at the origin", &setup, [1.0; 3]));
     let truth = setup.truth();
     let g = glam::Vec3::new(0.0, 0.0, -GRAVITY as f32);
-    let single = setup
-        .states
-        .iter()
-        .map(|s| Ok(absolute(&setup.single, s, g)));
+    let single = setup.states.iter().map(|s| Ok(absolute(&setup.single, s, g)));
     let single = by_joints(single, &truth.states, |t| Some(&t.rnea));
-    let double = setup
-        .states
-        .iter()
-        .map(|s| Ok(absolute(&setup.double, &widened(s), g.as_dvec3())));
+    let double =
+        setup.states.iter().map(|s| Ok(absolute(&setup.double, &widened(s), g.as_dvec3())));
     let double = by_joints(double, &truth.states, |t| Some(&t.rnea));
     let name = "naive: RNEA in absolute coordinates";
     rows.push(Row::naive(name, "f32", single, FAR.single[0]));
@@ -135,27 +126,14 @@ fn frames() -> Vec<Row> {
     let general = reframed();
     let mut rows = against_oracle(&general, &GENERAL);
     let plain = plain();
-    let (a, b) = (
-        plain.answers(&plain.truth()),
-        general.answers(&general.truth()),
-    );
+    let (a, b) = (plain.answers(&plain.truth()), general.answers(&general.truth()));
     let ulps = |error: f64, ulp: f64| error / ulp;
     let single = apart(a.iter().map(|a| a.0.rnea), b.iter().map(|b| b.0.rnea));
     let double = apart(a.iter().map(|a| a.1.rnea), b.iter().map(|b| b.1.rnea));
     let name = "RNEA, one against the other, in ulp of full scale";
-    rows.push(Row::stated(
-        name,
-        "f32",
-        ulps(single, f32::EPSILON.into()),
-        4.0,
-    ));
+    rows.push(Row::stated(name, "f32", ulps(single, f32::EPSILON.into()), 4.0));
     // Its f64 twin has f32's numbers: as far apart.
-    rows.push(Row::stated(
-        name,
-        "f64",
-        ulps(double, f32::EPSILON.into()),
-        4.0,
-    ));
+    rows.push(Row::stated(name, "f64", ulps(double, f32::EPSILON.into()), 4.0));
     rows
 }
 

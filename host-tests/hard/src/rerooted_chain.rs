@@ -14,16 +14,8 @@ type Chain<R> = Model<R, 3, 9, 8>;
 /// The places of the joints in the bodies on either side, and their axes, which are the same in
 /// both at q = 0.
 const HINGES: [(DVec3, DVec3, DVec3); 2] = [
-    (
-        DVec3::new(0.3, 0.1, -0.05),
-        DVec3::new(-0.1, 0.05, 0.02),
-        DVec3::Y,
-    ),
-    (
-        DVec3::new(0.2, -0.15, 0.1),
-        DVec3::new(-0.05, 0.1, 0.15),
-        DVec3::Z,
-    ),
+    (DVec3::new(0.3, 0.1, -0.05), DVec3::new(-0.1, 0.05, 0.02), DVec3::Y),
+    (DVec3::new(0.2, -0.15, 0.1), DVec3::new(-0.05, 0.1, 0.15), DVec3::Z),
 ];
 
 /// The body, its joint's axis through the origin that the joint has in it: `at` is that of its
@@ -88,10 +80,7 @@ impl Motion {
     fn free(&self) -> ([f64; 7], [f64; 6]) {
         let (q, back) = (DQuat::from_mat3(&self.r), self.r.transpose());
         let (w, v) = (back * self.w, back * self.v);
-        (
-            [q.x, q.y, q.z, q.w, self.p.x, self.p.y, self.p.z],
-            [w.x, w.y, w.z, v.x, v.y, v.z],
-        )
+        ([q.x, q.y, q.z, q.w, self.p.x, self.p.y, self.p.z], [w.x, w.y, w.z, v.x, v.y, v.z])
     }
 }
 
@@ -114,16 +103,10 @@ fn motions(turn: f64) -> [State<f64, 9, 8>; 2] {
         let (q, qd) = root.free();
         State {
             q: std::array::from_fn(|i| {
-                [x[0], y[0]]
-                    .get(i.wrapping_sub(7))
-                    .copied()
-                    .unwrap_or_else(|| q[i])
+                [x[0], y[0]].get(i.wrapping_sub(7)).copied().unwrap_or_else(|| q[i])
             }),
             qd: std::array::from_fn(|i| {
-                [x[1], y[1]]
-                    .get(i.wrapping_sub(6))
-                    .copied()
-                    .unwrap_or_else(|| qd[i])
+                [x[1], y[1]].get(i.wrapping_sub(6)).copied().unwrap_or_else(|| qd[i])
             }),
             qdd: [0.0; 8],
         }
@@ -176,18 +159,8 @@ pub(super) fn rows() -> Vec<Row> {
     let mut rows = Vec::new();
     for (way, quantity) in ["CRBA + LᵀDL", "ABA"].into_iter().enumerate() {
         let name = format!("{quantity} of inner joints, one root against the other");
-        rows.push(Row::measured(
-            name.clone(),
-            "f32",
-            worst[way][0] / full,
-            BOUNDS[way][0],
-        ));
-        rows.push(Row::measured(
-            name,
-            "f64",
-            worst[way][1] / full,
-            BOUNDS[way][1],
-        ));
+        rows.push(Row::measured(name.clone(), "f32", worst[way][0] / full, BOUNDS[way][0]));
+        rows.push(Row::measured(name, "f64", worst[way][1] / full, BOUNDS[way][1]));
     }
     rows
 }

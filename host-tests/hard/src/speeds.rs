@@ -58,25 +58,11 @@ fn million() -> Vec<Row> {
     let far = counters.map(|counters| counters.map(|counter| counter.angle()));
     let same = setup.states.iter().enumerate().all(|(k, state)| {
         let joints = state.q.iter().enumerate();
-        joints
-            .into_iter()
-            .all(|(i, q)| counters[k][i].within_turn::<f32>() == *q)
+        joints.into_iter().all(|(i, q)| counters[k][i].within_turn::<f32>() == *q)
     });
-    rows.push(Row::claim(
-        "encoder: the remainder, to the bit",
-        "f32",
-        same,
-    ));
-    rows.push(Row::claim(
-        "gate without limits: out of range",
-        "f32",
-        refused(1e6_f32),
-    ));
-    rows.push(Row::claim(
-        "gate without limits: out of range",
-        "f64",
-        refused(1e6_f64),
-    ));
+    rows.push(Row::claim("encoder: the remainder, to the bit", "f32", same));
+    rows.push(Row::claim("gate without limits: out of range", "f32", refused(1e6_f32)));
+    rows.push(Row::claim("gate without limits: out of range", "f64", refused(1e6_f64)));
 
     let truth = setup.truth();
     let scene = scene(&setup.extras);
@@ -104,13 +90,8 @@ fn counter(counts: i32) -> MultiTurnEncoder<12> {
 /// Whether a gate of a joint without limits refuses a position as out of bounds.
 fn refused<R: Real>(q: R) -> bool {
     let (far, some) = (R::ONE / R::ZERO, R::from_f64(100.0));
-    let limits = SafetyLimits {
-        torque: [some],
-        rate: [some],
-        speed: [some],
-        lower: [-far],
-        upper: [far],
-    };
+    let limits =
+        SafetyLimits { torque: [some], rate: [some], speed: [some], lower: [-far], upper: [far] };
     let mut controller = MotionController::<R, 1>::new(MotionControllerConfig {
         supervisor: SupervisorConfig {
             limits,

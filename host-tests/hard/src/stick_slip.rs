@@ -17,12 +17,7 @@ pub const CASES: &[Case] = &[Case {
 }];
 
 fn belt() -> Vec<Row> {
-    let belt = Belt {
-        sliding: 4.0,
-        excess: 3.0,
-        speed: 1e-4,
-        width: 2e-6,
-    };
+    let belt = Belt { sliding: 4.0, excess: 3.0, speed: 1e-4, width: 2e-6 };
     let omega = (Belt::STIFFNESS / Belt::MASS).sqrt();
     let (a, v) = (belt.excess / Belt::STIFFNESS, Belt::SPEED);
     let period = 2.0 * a / v + 2.0 / omega * (std::f64::consts::PI - (a * omega / v).atan());
@@ -30,18 +25,8 @@ fn belt() -> Vec<Row> {
     let mut rows = Vec::new();
     for (scalar, cycle) in [("f32", belt.run::<f32>()), ("f64", belt.run::<f64>())] {
         let [time, stretch] = cycle.period_and_height();
-        rows.push(Row::measured(
-            "period",
-            scalar,
-            (time / period - 1.0).abs(),
-            1e-2,
-        ));
-        rows.push(Row::measured(
-            "greatest stretch",
-            scalar,
-            (stretch / height - 1.0).abs(),
-            1e-2,
-        ));
+        rows.push(Row::measured("period", scalar, (time / period - 1.0).abs(), 1e-2));
+        rows.push(Row::measured("greatest stretch", scalar, (stretch / height - 1.0).abs(), 1e-2));
     }
     rows
 }

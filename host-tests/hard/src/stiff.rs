@@ -72,10 +72,7 @@ fn spring() -> Vec<Row> {
     fn run<R: Real>(rows: &mut Vec<Row>, epsilon: f64) {
         let wheel = Body::new("wheel", BASE, Joint::revolute([0.0, 0.0, 1.0]));
         let wheel = model::<R>(wheel.inertia([0.0, 0.0, 0.0, 0.0, 0.0, INERTIA]));
-        let spring = Spring {
-            stiffness: [R::from_f64(STIFFNESS)],
-            rest: [R::ZERO],
-        };
+        let spring = Spring { stiffness: [R::from_f64(STIFFNESS)], rest: [R::ZERO] };
         let (mut state, mut worst) = (State::at([R::from_f64(0.1)]), 0.0_f64);
         let (start, step_inv) = (state.q[0].to_f64(), H * (STIFFNESS / INERTIA).sqrt());
         let step = |state: &mut State<R, 1, 1>, tau: f64| {
@@ -104,21 +101,11 @@ fn spring() -> Vec<Row> {
             step(&mut state, 1.0);
         }
         let rest = relative(state.q[0].to_f64(), 1.0 / STIFFNESS);
-        rows.push(Row::stated(
-            "at rest under 1 N·m",
-            name::<R>(),
-            rest,
-            4.0 * epsilon,
-        ));
+        rows.push(Row::stated("at rest under 1 N·m", name::<R>(), rest, 4.0 * epsilon));
         let mut naive = State::at([R::from_f64(0.1)]);
         for _ in 0..8 {
-            let step = semi_implicit(
-                &wheel,
-                &mut naive,
-                &[R::ZERO],
-                &(Inertia, spring),
-                R::from_f64(H),
-            );
+            let step =
+                semi_implicit(&wheel, &mut naive, &[R::ZERO], &(Inertia, spring), R::from_f64(H));
             step.expect("M is positive definite");
         }
         let blown = naive.q[0].to_f64().abs() / start;
@@ -137,10 +124,7 @@ fn spring() -> Vec<Row> {
 
 fn damper() -> Vec<Row> {
     fn run<R: Real>(rows: &mut Vec<Row>, x: f64) {
-        let (sledge, scene) = (
-            sledge::<R>(),
-            (Inertia, Viscous([R::from_f64(x * 2.0 / H)])),
-        );
+        let (sledge, scene) = (sledge::<R>(), (Inertia, Viscous([R::from_f64(x * 2.0 / H)])));
         let (mut state, mut naive) = (State::at([R::ZERO]), State::at([R::ZERO]));
         (state.qd, naive.qd) = ([R::ONE], [R::ONE]);
         let (mut worst, mut blown) = (0.0_f64, 0.0_f64);
@@ -157,12 +141,7 @@ fn damper() -> Vec<Row> {
             blown = (naive.qd[0].to_f64() - (-x * f64::from(n)).exp()).abs();
         }
         let bound = 10.0 * (1.0 + x) * R::EPSILON.to_f64();
-        rows.push(Row::stated(
-            format!("c·h/M = {x}"),
-            name::<R>(),
-            worst,
-            bound,
-        ));
+        rows.push(Row::stated(format!("c·h/M = {x}"), name::<R>(), worst, bound));
         let what = format!("c·h/M = {x}, an explicit step, in first speeds");
         rows.push(Row::naive(what, name::<R>(), blown, 0.1));
     }
@@ -196,42 +175,20 @@ fn flexible() -> Vec<Row> {
         blown = place;
     }
     let gap = (blown[1] - blown[0]).abs() * 1e7 / (LINK * FORCE / (LINK + ROTOR));
-    rows.push(Row::naive(
-        "k = 1e7, an explicit step: force of the spring",
-        "f64",
-        gap,
-        2.0,
-    ));
+    rows.push(Row::naive("k = 1e7, an explicit step: force of the spring", "f64", gap, 2.0));
     rows
 }
 
 /// A motor that drives a sledge through the joint.
 fn driven<R: Real>(rows: &mut Vec<Row>, k: f64) {
     let of = R::from_f64;
-    let joints = ElasticJoints {
-        stiffness: [of(k)],
-        rotor: [of(ROTOR)],
-        friction: [R::ZERO],
-    };
-    let (mut link, mut motor) = (
-        State::at([R::ZERO]),
-        MotorState {
-            position: [R::ZERO],
-            velocity: [R::ZERO],
-        },
-    );
+    let joints = ElasticJoints { stiffness: [of(k)], rotor: [of(ROTOR)], friction: [R::ZERO] };
+    let (mut link, mut motor) =
+        (State::at([R::ZERO]), MotorState { position: [R::ZERO], velocity: [R::ZERO] });
     let (sledge, h) = (sledge::<R>(), of(H));
     for _ in 0..1000 {
-        elastic_step(
-            &sledge,
-            &joints,
-            &mut link,
-            &mut motor,
-            &[of(FORCE)],
-            &mut (Inertia,),
-            h,
-        )
-        .expect("M is positive definite");
+        elastic_step(&sledge, &joints, &mut link, &mut motor, &[of(FORCE)], &mut (Inertia,), h)
+            .expect("M is positive definite");
     }
     let a = FORCE / (LINK + ROTOR);
     let stretch = LINK * a / k;
@@ -246,28 +203,15 @@ fn driven<R: Real>(rows: &mut Vec<Row>, k: f64) {
     ));
     let force = relative(theta - q, stretch);
     let theory = 2.0 * R::EPSILON.to_f64() * centre / stretch;
-    rows.push(Row::stated(
-        format!("k = {k:.0e}: force of the spring"),
-        name::<R>(),
-        force,
-        theory,
-    ));
+    rows.push(Row::stated(format!("k = {k:.0e}: force of the spring"), name::<R>(), force, theory));
 }
 
 /// The motors' commands for an arm at rest in f32: its weight, and angles ahead by weight over
 /// stiffness.
 fn held(rows: &mut Vec<Row>, k: f32) {
-    let joints = ElasticJoints {
-        stiffness: [k; 6],
-        rotor: [0.5; 6],
-        friction: [0.0; 6],
-    };
+    let joints = ElasticJoints { stiffness: [k; 6], rotor: [0.5; 6], friction: [0.0; 6] };
     let q = [0.3, -1.2, 1.5, 0.3, 0.5, 0.1];
-    let rest = ElasticReference {
-        state: State::at(q),
-        jerk: [0.0; 6],
-        snap: [0.0; 6],
-    };
+    let rest = ElasticReference { state: State::at(q), jerk: [0.0; 6], snap: [0.0; 6] };
     let motors = elastic_inverse_dynamics(&Ur5e::MODEL_F32, &joints, &rest, &RIGID_BODY)
         .expect("every joint is single");
     let weight = rnea(&Ur5e::MODEL, &State::at(q.map(f64::from)), &RIGID_BODY);
@@ -280,16 +224,6 @@ fn held(rows: &mut Vec<Row>, k: f32) {
     }
     let epsilon = f64::from(f32::EPSILON);
     let what = |what: &str| format!("k = {k:.0e}: UR5e at rest, {what}");
-    rows.push(Row::stated(
-        what("torques of its motors"),
-        "f32",
-        torque,
-        4.0 * epsilon,
-    ));
-    rows.push(Row::stated(
-        what("angles of its motors, rad"),
-        "f32",
-        ahead,
-        epsilon,
-    ));
+    rows.push(Row::stated(what("torques of its motors"), "f32", torque, 4.0 * epsilon));
+    rows.push(Row::stated(what("angles of its motors, rad"), "f32", ahead, epsilon));
 }

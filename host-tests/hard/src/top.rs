@@ -43,20 +43,12 @@ fn top() -> Vec<Row> {
     for (how, bounds) in INTEGRATORS.iter().zip([[5e-2; 2], [5e-3; 2], [1e-5, 1e-6]]) {
         let h = if how.order == 1 { 1e-4 } else { 1e-3 };
         let axis = |h| precession::<f64>(&model, &start, how, h, LEAN, TURN);
-        let (single, double) = (
-            precession::<f32>(&model, &start, how, h, LEAN, TURN),
-            axis(h),
-        );
+        let (single, double) = (precession::<f32>(&model, &start, how, h, LEAN, TURN), axis(h));
         let what = format!("{}: axis", how.name);
         rows.push(Row::measured(what.as_str(), "f32", single, bounds[0]));
         rows.push(Row::measured(what, "f64", double, bounds[1]));
         let off = ((double / axis(0.5 * h)).log2() - f64::from(how.order)).abs();
-        rows.push(Row::stated(
-            format!("{}: its order", how.name),
-            "f64",
-            off,
-            0.2,
-        ));
+        rows.push(Row::stated(format!("{}: its order", how.name), "f64", off, 0.2));
     }
     rows
 }
@@ -77,16 +69,11 @@ fn accelerations<R: Real>(
     let by_matrix = forward_dynamics(&model, &start, &free, &RIGID_BODY).unwrap_or(none);
     let (most, bound) = (start.qdd[0].to_f64(), 4.0 * R::EPSILON.to_f64());
     let errors = [
-        (
-            "rnea",
-            far(rnea(&model, &start, &RIGID_BODY), free) / weight,
-        ),
+        ("rnea", far(rnea(&model, &start, &RIGID_BODY), free) / weight),
         ("aba", far(by_bodies, start.qdd) / most),
         ("crba + ltdl", far(by_matrix, start.qdd) / most),
     ];
-    errors
-        .map(|(what, error)| Row::stated(what, name::<R>(), error, bound))
-        .into()
+    errors.map(|(what, error)| Row::stated(what, name::<R>(), error, bound)).into()
 }
 
 /// The largest distance of the axis from its closed form, in 2 s.
@@ -102,9 +89,7 @@ fn precession<R: Real>(
     for step in 1..=(2.0 / h).round() as u32 {
         let scene = &mut (Gravity::EARTH, Inertia, Coriolis);
         how.step(&model, &mut state, &[R::ZERO; 3], scene, R::from_f64(h));
-        let axis = poses(&model, &state.q)[0].rot.cols()[2]
-            .array()
-            .map(R::to_f64);
+        let axis = poses(&model, &state.q)[0].rot.cols()[2].array().map(R::to_f64);
         let (sin, cos) = (turn * h * f64::from(step)).sin_cos();
         let want = DVec3::new(lean.sin() * sin, -lean.sin() * cos, lean.cos());
         worst = larger(worst, (DVec3::from(axis) - want).length());

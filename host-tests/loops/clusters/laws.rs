@@ -67,10 +67,7 @@ where
         let again = Clustered::<Core<T>>::aba(y, &tau, &scene).expect("it moves inertia");
         worst.inverse = worst.inverse.max(apart(&again, &y.qdd) / 10.0);
 
-        let still = State {
-            qdd: [0.0; Y],
-            ..*y
-        };
+        let still = State { qdd: [0.0; Y], ..*y };
         let bias = Clustered::<Core<T>>::rnea(&still, &scene).expect("it closes");
         let m = motion.inertia(&Core::<T>::crba(motion.configuration(), &scene));
         let given: [f64; Y] = core::array::from_fn(|i| 1.0 + 0.5 * i as f64);
@@ -85,11 +82,7 @@ where
         let power =
             |tau: &[f64], qd: &[f64]| tau.iter().zip(qd).map(|(tau, qd)| tau * qd).sum::<f64>();
         let (mine, its) = (power(&tau, &y.qd), power(&of_tree, &tree.qd));
-        let size = of_tree
-            .iter()
-            .zip(&tree.qd)
-            .map(|(tau, qd)| (tau * qd).abs())
-            .sum::<f64>();
+        let size = of_tree.iter().zip(&tree.qd).map(|(tau, qd)| (tau * qd).abs()).sum::<f64>();
         worst.power = worst.power.max((mine - its).abs() / size);
         let energy = algorithms::kinetic_energy(&Static::<T>::NEW, motion.state(), &scene);
         let mine = 0.5 * power(&m.mul_vec(&y.qd), &y.qd);
@@ -97,15 +90,10 @@ where
         let rows: [_; Y] = core::array::from_fn(|i| *m.row(i).expect("a row"));
         let size = largest(rows.as_flattened());
         for (i, row) in rows.iter().enumerate() {
-            let unit = State {
-                qdd: core::array::from_fn(|k| f64::from(i == k)),
-                ..*y
-            };
+            let unit = State { qdd: core::array::from_fn(|k| f64::from(i == k)), ..*y };
             let column = Clustered::<Core<T>>::rnea(&unit, &scene).expect("it closes");
             let difference: [f64; Y] = core::array::from_fn(|k| column[k] - bias[k]);
-            worst.columns = worst
-                .columns
-                .max(apart(&difference, row) / (size + largest(&bias)));
+            worst.columns = worst.columns.max(apart(&difference, row) / (size + largest(&bias)));
         }
     }
     println!("{}: {worst:?}", T::MODEL.name);
@@ -172,12 +160,7 @@ where
         worst[1] = worst[1].max(apart(&core, &single.map(f64::from)));
     }
     let worst = worst.map(|error| error / size);
-    println!(
-        "{}: engine {:.1e}, f32 {:.1e}",
-        T::MODEL.name,
-        worst[0],
-        worst[1]
-    );
+    println!("{}: engine {:.1e}, f32 {:.1e}", T::MODEL.name, worst[0], worst[1]);
     worst
 }
 
@@ -225,9 +208,5 @@ fn the_engines_forward_dynamics_invert_inverse_dynamics() {
         engine_forward::<AnkleLeg, 9, 9, 3>(&ankle_states()),
         engine_forward::<DeltaRobot, 12, 12, 3>(&delta_states()),
     ];
-    hold(
-        "engine's FD",
-        all.iter().copied().fold(0.0, f64::max),
-        2e-13,
-    );
+    hold("engine's FD", all.iter().copied().fold(0.0, f64::max), 2e-13);
 }

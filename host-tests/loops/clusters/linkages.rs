@@ -42,11 +42,7 @@ where
             let term = |(weight, at): (&f64, &[[f64; N]; 2])| {
                 // Angles of closed forms are within ±π.
                 let (turn, change) = (core::f64::consts::TAU, at[order][i] - centre[i]);
-                let turns = if order == 0 {
-                    (change / turn).round()
-                } else {
-                    0.0
-                };
+                let turns = if order == 0 { (change / turn).round() } else { 0.0 };
                 weight * (change - turn * turns)
             };
             weights.iter().zip(&at).map(term).sum::<f64>() / (60.0 * h)
@@ -71,12 +67,7 @@ fn rates_are_derivatives<T, const B: usize, const N: usize, const Y: usize>(
         worst[1] = worst[1].max(apart(&accel, &tree.qdd) / scale(&accel));
         assert_eq!(motion.singular(), None);
     }
-    println!(
-        "{}: rate {:.1e}, acceleration {:.1e}",
-        T::MODEL.name,
-        worst[0],
-        worst[1]
-    );
+    println!("{}: rate {:.1e}, acceleration {:.1e}", T::MODEL.name, worst[0], worst[1]);
     assert!(worst[0] < 1e-10 && worst[1] < 1e-10, "{worst:?}");
 }
 
@@ -128,10 +119,7 @@ fn loops_are_closed() {
     let [rod, other] = [0.22, 0.2].map(|length| DVec3::X * length);
     closed::<FiveBarLeg, 5, 5, 5, 3, 3>(&five_bar_states(), [(2, rod), (4, other)]);
     for (rod, body) in firmware_demo::robots::RODS.iter().zip([5, 8]) {
-        let joined = [
-            (2, DVec3::from_array(rod.foot)),
-            (body, DVec3::Z * -rod.length),
-        ];
+        let joined = [(2, DVec3::from_array(rod.foot)), (body, DVec3::Z * -rod.length)];
         closed::<AnkleLeg, 9, 9, 9, 3, 3>(&ankle_states(), joined);
         let universal = [(1, joined[0].1), (body - 2 - (body - 5) / 3, joined[1].1)];
         closed::<UniversalAnkle, 6, 9, 9, 3, 3>(&ankle_states(), universal);
@@ -139,10 +127,7 @@ fn loops_are_closed() {
     }
     for (side, body) in [2, 5, 8].into_iter().enumerate() {
         let (sin, cos) = (side as f64 * core::f64::consts::TAU / 3.0).sin_cos();
-        let joined = [
-            (11, DVec3::new(0.05 * cos, 0.05 * sin, 0.0)),
-            (body, DVec3::Z * -0.45),
-        ];
+        let joined = [(11, DVec3::new(0.05 * cos, 0.05 * sin, 0.0)), (body, DVec3::Z * -0.45)];
         closed::<DeltaRobot, 12, 12, 12, 3, 3>(&delta_states(), joined);
     }
     for (leg, body) in LEGS.iter().zip([8, 11, 14, 17, 20, 23]) {
@@ -195,23 +180,10 @@ fn leg_forces_of_a_nonfinite_motion_are_refused() {
         let y = Stewart::coordinates(&Pose { rot, pos }, of(omega, v), of(alpha, a));
         let forces =
             y.map(|y| Clustered::<Engine<StewartPlatform>>::rnea_of_motors(&y, &RIGID_BODY));
-        forces.map(|forces| {
-            forces
-                .map(|forces| forces.tau)
-                .map_err(|error| error.problem)
-        })
+        forces.map(|forces| forces.map(|forces| forces.tau).map_err(|error| error.problem))
     };
     let one = 0.1 * DVec3::ONE;
-    let moving = [
-        DVec3::Z * 0.8,
-        DVec3::X,
-        DVec3::Y,
-        DVec3::Z,
-        one,
-        one,
-        one,
-        one,
-    ];
+    let moving = [DVec3::Z * 0.8, DVec3::X, DVec3::Y, DVec3::Z, one, one, one, one];
     assert!(matches!(forces(moving), Ok(Ok(_))));
     for (bad, i, k) in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY]
         .into_iter()
@@ -222,10 +194,7 @@ fn leg_forces_of_a_nonfinite_motion_are_refused() {
         let mut of = moving;
         of[i][k] = bad;
         let refused = forces(of);
-        assert!(
-            matches!(refused, Err(_) | Ok(Err(_))),
-            "{bad} at {i}, {k}: {refused:?}"
-        );
+        assert!(matches!(refused, Err(_) | Ok(Err(_))), "{bad} at {i}, {k}: {refused:?}");
     }
 }
 
@@ -244,14 +213,8 @@ fn five_bar_zeros_shift_only_its_coordinates() {
     for (i, zero) in ZEROS.into_iter().enumerate() {
         let (sin, cos) = zero.sin_cos();
         let (angle, coordinate) = (&plain.q[i], &shifted.q[i]);
-        assert!(
-            (angle.sin * cos - angle.cos * sin - coordinate.sin).abs() < 1e-15,
-            "{i}"
-        );
-        assert!(
-            (angle.cos * cos + angle.sin * sin - coordinate.cos).abs() < 1e-15,
-            "{i}"
-        );
+        assert!((angle.sin * cos - angle.cos * sin - coordinate.sin).abs() < 1e-15, "{i}");
+        assert!((angle.cos * cos + angle.sin * sin - coordinate.cos).abs() < 1e-15, "{i}");
     }
     assert!(apart(plain.g.as_flattened(), shifted.g.as_flattened()) < 1e-14);
 }

@@ -46,11 +46,7 @@ where
         let work = |tau: &[f64; Y], qd: &[f64; Y]| -> f64 {
             tau.iter().zip(qd).map(|(tau, qd)| tau * qd).sum()
         };
-        let size: f64 = at_y
-            .iter()
-            .zip(&y.qd)
-            .map(|(tau, qd)| (tau * qd).abs())
-            .sum();
+        let size: f64 = at_y.iter().zip(&y.qd).map(|(tau, qd)| (tau * qd).abs()).sum();
         for at_motors in [
             Clustered::<Core<T>>::rnea_of_motors(y, &scene),
             Clustered::<Engine<T>>::rnea_of_motors(y, &scene),
@@ -87,10 +83,8 @@ where
 
 #[test]
 fn motor_power_and_rates_are_those_of_the_coordinates() {
-    let all = [
-        errors::<AnkleLeg, 9, 3>(&ankle_states()),
-        errors::<DeltaRobot, 12, 3>(&delta_states()),
-    ];
+    let all =
+        [errors::<AnkleLeg, 9, 3>(&ankle_states()), errors::<DeltaRobot, 12, 3>(&delta_states())];
     let worst = |of: fn(&Errors) -> f64| all.iter().map(of).fold(0.0, f64::max);
     hold("power of motors", worst(|e| e.power), 1e-14);
     hold("motors' rates", worst(|e| e.rates), 5e-9);

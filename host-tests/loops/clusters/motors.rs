@@ -13,9 +13,7 @@ use loop_tests::clusters::hold;
 const Z: [f64; 3] = [0.0, 0.0, 1.0];
 
 const fn bar(name: &'static str, parent: usize, x: f64) -> Body {
-    Body::new(name, parent, Joint::revolute(Z))
-        .xyz([x, 0.0, 0.0])
-        .mass(1.0)
+    Body::new(name, parent, Joint::revolute(Z)).xyz([x, 0.0, 0.0]).mass(1.0)
 }
 
 /// A four-bar with the motor at its rocker.
@@ -24,10 +22,7 @@ struct Rocked;
 impl Robot<3, 3, 3> for Rocked {
     const MODEL: ArmModel<f64, 3> = {
         let coupler = bar("coupler", 0, 0.2);
-        Model::new(
-            "rocked",
-            [bar("crank", BASE, 0.0), coupler, bar("rocker", BASE, 0.6)],
-        )
+        Model::new("rocked", [bar("crank", BASE, 0.0), coupler, bar("rocker", BASE, 0.6)])
     };
 }
 
@@ -44,26 +39,16 @@ struct Coupled;
 impl Robot<4, 4, 4> for Coupled {
     const MODEL: ArmModel<f64, 4> = {
         let [left, right] = [bar("left", BASE, 0.0), bar("right", BASE, 0.1)];
-        Model::new(
-            "coupled",
-            [
-                left,
-                bar("left_rod", 0, 0.12),
-                right,
-                bar("right_rod", 2, 0.11),
-            ],
-        )
+        Model::new("coupled", [left, bar("left_rod", 0, 0.12), right, bar("right_rod", 2, 0.11)])
     };
 }
 
 impl ClusteredRobot<4, 4, 4, 2, 2> for Coupled {
     type Clusters = (Driven<FiveBar, 4, 2>,);
-    const CLUSTERS: Self::Clusters = (Driven::new(
-        "coupled",
-        FiveBar::new(0.1, [0.12, 0.2], [0.11, 0.21], Branch::Positive),
-    )
-    .actuated([0, 1])
-    .damped_below([0.02, 0.05]),);
+    const CLUSTERS: Self::Clusters =
+        (Driven::new("coupled", FiveBar::new(0.1, [0.12, 0.2], [0.11, 0.21], Branch::Positive))
+            .actuated([0, 1])
+            .damped_below([0.02, 0.05]),);
     const COORDINATES: &'static [&'static [usize]] = &[&[0, 1, 2, 3]];
 }
 
@@ -97,9 +82,7 @@ impl<const Y: usize> Sweep<Y> {
     {
         let y = State::at((self.at)(parameter).map(R::from_f64));
         let motion = Clustered::<Core<T>>::motion(&y).expect("it closes");
-        let found = motion
-            .to_motors(&self.tau.map(R::from_f64))
-            .expect("finite");
+        let found = motion.to_motors(&self.tau.map(R::from_f64)).expect("finite");
         // G_aᵀ by its columns, the torques at y of unit torques, in f64 of the same coordinates.
         let y = State::at(y.q.map(Real::to_f64));
         let motion = Clustered::<Core<T>>::motion(&y).expect("it closes");
@@ -107,15 +90,10 @@ impl<const Y: usize> Sweep<Y> {
             .map(|k| motion.from_motors(&core::array::from_fn(|i| f64::from(u8::from(i == k)))))
             .collect();
         let scaled = |i: usize, k: usize| columns[k][i] / self.rates[i];
-        let inverse = inverse::<Y>(&core::array::from_fn(|i| {
-            core::array::from_fn(|k| scaled(i, k))
-        }));
-        let exact = inverse.map(|row| {
-            row.iter()
-                .enumerate()
-                .map(|(i, x)| x * self.tau[i] / self.rates[i])
-                .sum()
-        });
+        let inverse =
+            inverse::<Y>(&core::array::from_fn(|i| core::array::from_fn(|k| scaled(i, k))));
+        let exact = inverse
+            .map(|row| row.iter().enumerate().map(|(i, x)| x * self.tau[i] / self.rates[i]).sum());
         let squares = inverse.iter().flatten().map(|x| x * x);
         (found, exact, squares.sum::<f64>().sqrt().recip())
     }
@@ -127,12 +105,7 @@ impl<const Y: usize> Sweep<Y> {
     {
         let rates = self.tau.iter().zip(self.rates);
         let bound = norm(&rates.map(|(tau, rate)| tau / rate).collect::<Vec<_>>());
-        let mut all = Found {
-            step: 0.0,
-            largest: 0.0,
-            undamped: 0.0,
-            error: 0.0,
-        };
+        let mut all = Found { step: 0.0, largest: 0.0, undamped: 0.0, error: 0.0 };
         let (mut counts, [low, high]) = ([0; 2], self.range);
         let at = |k: i32| low + (high - low) * f64::from(k) / 20_000.0;
         let mut borders = Vec::new();
@@ -142,20 +115,14 @@ impl<const Y: usize> Sweep<Y> {
             let tau = found.tau.map(Real::to_f64);
             assert!(tau.iter().all(|tau| tau.is_finite()));
             let damped = found.singular.is_some();
-            assert!(
-                damped == (distance < 1.0) || (distance - 1.0).abs() < slack,
-                "{distance}"
-            );
+            assert!(damped == (distance < 1.0) || (distance - 1.0).abs() < slack, "{distance}");
             counts[usize::from(damped)] += 1;
             all.largest = all.largest.max(norm(&tau) / bound);
             if distance > 0.0 {
                 all.undamped = all.undamped.max(norm(&exact) / bound);
             }
             if !damped {
-                let errors = tau
-                    .iter()
-                    .zip(&exact)
-                    .map(|(a, b)| (a - b).abs() / norm(&exact));
+                let errors = tau.iter().zip(&exact).map(|(a, b)| (a - b).abs() / norm(&exact));
                 all.error = all.error.max(errors.fold(0.0, f64::max));
             }
             if before.is_some_and(|before| before != damped) {
@@ -163,10 +130,7 @@ impl<const Y: usize> Sweep<Y> {
             }
             before = Some(damped);
         }
-        assert!(
-            counts[0] > 10 && counts[1] > 10 && borders.len() >= 2,
-            "{counts:?} {borders:?}"
-        );
+        assert!(counts[0] > 10 && counts[1] > 10 && borders.len() >= 2, "{counts:?} {borders:?}");
         for [mut one, mut other] in borders {
             let get = |x| {
                 let (found, ..) = self.torques::<R, T, V>(x);
@@ -175,11 +139,7 @@ impl<const Y: usize> Sweep<Y> {
             let first = get(one).0;
             while (other - one).abs() > f64::from(f32::EPSILON) {
                 let middle = 0.5 * (one + other);
-                if get(middle).0 == first {
-                    one = middle
-                } else {
-                    other = middle
-                }
+                if get(middle).0 == first { one = middle } else { other = middle }
             }
             let ((_, a), (_, b)) = (get(one), get(other));
             let size = norm(&b);
@@ -196,23 +156,16 @@ fn norm(x: &[f64]) -> f64 {
 
 /// By Gauss and Jordan with row pivots; not finite where the matrix is singular.
 fn inverse<const N: usize>(a: &[[f64; N]; N]) -> [[f64; N]; N] {
-    let (mut a, mut inverse) = (
-        *a,
-        core::array::from_fn(|i| core::array::from_fn(|j| f64::from(u8::from(i == j)))),
-    );
+    let (mut a, mut inverse) =
+        (*a, core::array::from_fn(|i| core::array::from_fn(|j| f64::from(u8::from(i == j)))));
     for k in 0..N {
-        let largest = (k..N)
-            .max_by(|&i, &j| a[i][k].abs().total_cmp(&a[j][k].abs()))
-            .expect("a row");
+        let largest =
+            (k..N).max_by(|&i, &j| a[i][k].abs().total_cmp(&a[j][k].abs())).expect("a row");
         a.swap(k, largest);
         inverse.swap(k, largest);
         let (pivot, row, own): (f64, [f64; N], [f64; N]) = (a[k][k], a[k], inverse[k]);
         for i in 0..N {
-            let factor = if i == k {
-                1.0 - 1.0 / pivot
-            } else {
-                a[i][k] / pivot
-            };
+            let factor = if i == k { 1.0 - 1.0 / pivot } else { a[i][k] / pivot };
             for j in 0..N {
                 a[i][j] -= factor * row[j];
                 inverse[i][j] -= factor * own[j];
@@ -222,19 +175,10 @@ fn inverse<const N: usize>(a: &[[f64; N]; N]) -> [[f64; N]; N] {
     inverse
 }
 
-const DEAD: Sweep<1> = Sweep {
-    at: |y| [y],
-    range: [0.2, 1.4],
-    tau: [3.0],
-    rates: [DEAD_POINT],
-};
+const DEAD: Sweep<1> = Sweep { at: |y| [y], range: [0.2, 1.4], tau: [3.0], rates: [DEAD_POINT] };
 
-const COUPLED: Sweep<2> = Sweep {
-    at: |y| [2.0, y],
-    range: [-3.0, 3.0],
-    tau: [3.0, -2.0],
-    rates: [0.02, 0.05],
-};
+const COUPLED: Sweep<2> =
+    Sweep { at: |y| [2.0, y], range: [-3.0, 3.0], tau: [3.0, -2.0], rates: [0.02, 0.05] };
 
 /// The platform beside its centre, turned about the vertical.
 const FICHTER: Sweep<6> = Sweep {
@@ -254,16 +198,8 @@ fn checked<R: Real>([steps, errors]: [f64; 2], slack: f64, scalar: &str) {
         assert!(found.largest < 1.0 && found.undamped > 1.0);
     }
     let most = |of: fn(&Found) -> f64| all.iter().map(of).fold(0.0, f64::max);
-    hold(
-        &format!("step where the damping ends, {scalar}"),
-        most(|found| found.step),
-        steps,
-    );
-    hold(
-        &format!("torque beyond the damping, {scalar}"),
-        most(|found| found.error),
-        errors,
-    );
+    hold(&format!("step where the damping ends, {scalar}"), most(|found| found.step), steps);
+    hold(&format!("torque beyond the damping, {scalar}"), most(|found| found.error), errors);
 }
 
 // They are continuous, and the dead point is named.

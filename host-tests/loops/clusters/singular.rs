@@ -39,10 +39,7 @@ fn named_and_bounded<R: Real>() {
             assert!(motion.singular && motion.is_finite(), "{motion:?}");
             // |G| ≤ crank · coupler … / (h damped), h ≥ 0 and h⁻¹ ≤ 1 / √σ of the longer link.
             let bound = 2.0 / R::select(1e-9, 256.0 * f32::EPSILON).to_f64().sqrt();
-            assert!(
-                motion.g.iter().all(|[g]| g.to_f64().abs() < bound),
-                "{motion:?}"
-            );
+            assert!(motion.g.iter().all(|[g]| g.to_f64().abs() < bound), "{motion:?}");
         }
         // Away from it there is no status, and the loop is closed by its rates.
         let away = at::<R, _, 3>(&linkage, y + 0.05).expect("it closes");
@@ -96,9 +93,7 @@ fn beyond_the_damping<R: Real>() -> [f64; 3] {
         // The coupler of a parallelogram keeps its direction, and the rocker turns as the crank.
         let [_, [coupler], [rocker]] = motion.g.map(|row| row.map(R::to_f64));
         let [_, b1, b2] = motion.bias.map(|b| b.to_f64().abs() / 4.0);
-        worst[0] = worst[0]
-            .max((coupler + 1.0).abs())
-            .max((rocker - 1.0).abs());
+        worst[0] = worst[0].max((coupler + 1.0).abs()).max((rocker - 1.0).abs());
         worst[1] = worst[1].max(b1).max(b2);
     }
     [worst[0], worst[1], beyond]
@@ -134,10 +129,7 @@ fn cannot_close<R: Real>() {
         at::<R, _, 2>(&belt, 1e30).is_err(),
         R::EPSILON == R::from_f64(f64::from(f32::EPSILON))
     );
-    assert_eq!(
-        at::<R, _, 2>(&belt, f64::NAN).map(|_| ()),
-        Err(ClusterProblem::NotFinite)
-    );
+    assert_eq!(at::<R, _, 2>(&belt, f64::NAN).map(|_| ()), Err(ClusterProblem::NotFinite));
 
     const FIVE: FiveBar = FiveBar::new(0.1, [0.1, 0.1], [0.1, 0.1], Branch::Positive);
     let apart = [PI, 0.0].map(|y| JointCoordinate::revolute(R::from_f64(y)));
@@ -153,33 +145,17 @@ fn a_linkage_that_cannot_close_is_an_error() {
 
 #[test]
 fn errors_name_the_cluster() {
-    let bent = |y: f64| State {
-        q: [0.1, y, 0.0],
-        qd: [1.0; 3],
-        qdd: [1.0; 3],
-    };
+    let bent = |y: f64| State { q: [0.1, y, 0.0], qd: [1.0; 3], qdd: [1.0; 3] };
     let expected: ClusterError =
         Clustered::<Core<FourBarLeg>>::rnea(&bent(2.0), &RIGID_BODY).expect_err("too far");
-    assert_eq!(
-        (expected.cluster, expected.problem),
-        ("knee", ClusterProblem::CannotClose)
-    );
-    assert_eq!(
-        expected.to_string(),
-        "cluster `knee`: the links do not reach each other"
-    );
-    assert_eq!(
-        Clustered::<Engine<FourBarLeg>>::rnea(&bent(2.0), &RIGID_BODY),
-        Err(expected)
-    );
+    assert_eq!((expected.cluster, expected.problem), ("knee", ClusterProblem::CannotClose));
+    assert_eq!(expected.to_string(), "cluster `knee`: the links do not reach each other");
+    assert_eq!(Clustered::<Engine<FourBarLeg>>::rnea(&bent(2.0), &RIGID_BODY), Err(expected));
     let forward = Clustered::<Core<FourBarLeg>>::aba(&bent(2.0), &[0.0; 3], &RIGID_BODY);
     assert_eq!(forward, Err(ForwardError::Cluster(expected)));
     let nan =
         Clustered::<Core<FourBarLeg>>::rnea(&bent(f64::NAN), &RIGID_BODY).expect_err("no number");
-    assert_eq!(
-        (nan.cluster, nan.problem),
-        ("knee", ClusterProblem::NotFinite)
-    );
+    assert_eq!((nan.cluster, nan.problem), ("knee", ClusterProblem::NotFinite));
 }
 
 /// A four-bar whose links have no mass but the rocker's.
@@ -221,14 +197,8 @@ impl Robot<3, 3, 3> for Rocking {
             "rocking",
             [
                 Body::new("crank", BASE, z).mass(1.0).com([0.1, 0.0, 0.0]),
-                Body::new("coupler", 0, z)
-                    .xyz([0.2, 0.0, 0.0])
-                    .mass(1.0)
-                    .com([0.1, 0.0, 0.0]),
-                Body::new("rocker", BASE, z)
-                    .xyz([0.3, 0.0, 0.0])
-                    .mass(1.0)
-                    .com([0.05, 0.0, 0.0]),
+                Body::new("coupler", 0, z).xyz([0.2, 0.0, 0.0]).mass(1.0).com([0.1, 0.0, 0.0]),
+                Body::new("rocker", BASE, z).xyz([0.3, 0.0, 0.0]).mass(1.0).com([0.05, 0.0, 0.0]),
             ],
         )
     };
@@ -245,17 +215,10 @@ fn torques_near_a_singularity_come_with_their_conditioning() {
     // Coupler and rocker in line: the law of cosines in the triangle of 0.3, 0.2 and 0.25 + 0.1.
     let end = ((0.3_f64 * 0.3 + 0.2 * 0.2 - 0.35 * 0.35) / (2.0 * 0.3 * 0.2)).acos();
     let at = |off: f64| {
-        let y = State {
-            q: [end - off],
-            qd: [2.0],
-            qdd: [10.0],
-        };
+        let y = State { q: [end - off], qd: [2.0], qdd: [10.0] };
         let found = Clustered::<Core<Rocking>>::rnea_with_status(&y, &RIGID_BODY);
         let found = found.expect("it closes");
-        assert_eq!(
-            Clustered::<Core<Rocking>>::rnea(&y, &RIGID_BODY),
-            Ok(found.tau)
-        );
+        assert_eq!(Clustered::<Core<Rocking>>::rnea(&y, &RIGID_BODY), Ok(found.tau));
         (y, found)
     };
     let (mut largest, mut errors) = (0.0_f64, Vec::new());
@@ -280,23 +243,13 @@ fn torques_near_a_singularity_come_with_their_conditioning() {
             }
             Err(error) => {
                 assert_eq!(error.cluster, "rocker");
-                assert!(
-                    error.damped || want > 0.99 * NEAR_SINGULAR,
-                    "{error} {want}"
-                );
+                assert!(error.damped || want > 0.99 * NEAR_SINGULAR, "{error} {want}");
             }
         }
     }
-    assert!(
-        largest > 1e10,
-        "a torque that no motor has: {largest:e} N·m"
-    );
+    assert!(largest > 1e10, "a torque that no motor has: {largest:e} N·m");
     let error = errors.iter().fold(0.0, |a: f64, &b| a.max(b));
-    hold(
-        "transmission of a four-bar against the sine rule",
-        error,
-        1e-13,
-    );
+    hold("transmission of a four-bar against the sine rule", error, 1e-13);
     let (_, damped) = at(1e-12);
     let error = damped.regular(NEAR_SINGULAR).expect_err("it is damped");
     assert!(error.damped && error.to_string().contains("at a singular configuration"));
@@ -304,11 +257,7 @@ fn torques_near_a_singularity_come_with_their_conditioning() {
 
 #[test]
 fn massless_links_are_accepted_but_massless_clusters_are_not() {
-    let y = State {
-        q: [0.2, 1.0],
-        qd: [1.0, 2.0],
-        qdd: [3.0, 4.0],
-    };
+    let y = State { q: [0.2, 1.0], qd: [1.0, 2.0], qdd: [3.0, 4.0] };
     let tau = Clustered::<Core<Light<1>>>::rnea(&y, &RIGID_BODY).expect("it closes");
     let again =
         Clustered::<Core<Light<1>>>::aba(&y, &tau, &RIGID_BODY).expect("the rocker has mass");
@@ -317,22 +266,13 @@ fn massless_links_are_accepted_but_massless_clusters_are_not() {
         Clustered::<Core<Light<0>>>::aba(&y, &[0.0; 2], &RIGID_BODY).expect_err("no inertia");
     let engine = Clustered::<Engine<Light<0>>>::forward_dynamics(&y, &[0.0; 2], &RIGID_BODY);
     assert_eq!(engine, Err(none));
-    let ForwardError::Cluster(error) = none else {
-        panic!("{none:?}")
-    };
-    assert_eq!(
-        (error.cluster, error.problem),
-        ("parallelogram", ClusterProblem::NoInertia)
-    );
+    let ForwardError::Cluster(error) = none else { panic!("{none:?}") };
+    assert_eq!((error.cluster, error.problem), ("parallelogram", ClusterProblem::NoInertia));
 }
 
 #[test]
 fn torque_at_a_singularity_is_finite_and_bounded() {
-    let swinging = |off| State {
-        q: [0.2, off],
-        qd: [0.0, 2.0],
-        qdd: [0.0, 10.0],
-    };
+    let swinging = |off| State { q: [0.2, off], qd: [0.0, 2.0], qdd: [0.0, 10.0] };
     for off in [0.0, 1e-9, PI, PI + 1e-9] {
         let y = swinging(off);
         let motion = Clustered::<Core<Light<1>>>::motion(&y).expect("it closes");
@@ -352,10 +292,7 @@ fn torque_at_a_singularity_is_finite_and_bounded() {
     assert_eq!((away.tau[0], away.singular), (1.0, None));
     for bad in [f64::NAN, f64::INFINITY] {
         let error = motors(1.0, bad).expect_err("no number");
-        assert_eq!(
-            (error.cluster, error.problem),
-            ("parallelogram", ClusterProblem::NotFinite)
-        );
+        assert_eq!((error.cluster, error.problem), ("parallelogram", ClusterProblem::NotFinite));
     }
 }
 
@@ -386,17 +323,10 @@ fn the_four_bar_obeys_its_closed_form_and_virtual_work() {
     hold("its derivative", worst[1], 2e-15);
 
     // A weight on the rocker of a linkage without other masses: τ = m g·dc/dφ.
-    let y = State {
-        q: [0.0, 1.1],
-        qd: [0.0; 2],
-        qdd: [0.0; 2],
-    };
+    let y = State { q: [0.0, 1.1], qd: [0.0; 2], qdd: [0.0; 2] };
     let [_, tau] = Clustered::<Core<Light<2>>>::rnea(&y, &Gravity::EARTH).expect("it closes");
     assert!(tau.abs() < 1e-15); // in a horizontal plane
-    let y = State {
-        q: [FRAC_PI_2, 1.1],
-        ..y
-    };
+    let y = State { q: [FRAC_PI_2, 1.1], ..y };
     let [_, tau] = Clustered::<Core<Light<2>>>::rnea(&y, &Gravity::EARTH).expect("it closes");
     // The plane's y is up: the rocker of a parallelogram turns as its crank.
     let expected = 2.0 * 9.81 * 0.1 * 1.1_f64.cos();
@@ -451,10 +381,7 @@ impl Robot<5, 5, 5> for Idle {
             [
                 Body::new("crank", BASE, z),
                 Body::new("coupler", 0, z).xyz([0.1, 0.0, 0.0]).mass(1.0),
-                Body::new("rocker", BASE, z)
-                    .xyz([0.3, 0.0, 0.0])
-                    .mass(1.0)
-                    .com([0.1, 0.0, 0.0]),
+                Body::new("rocker", BASE, z).xyz([0.3, 0.0, 0.0]).mass(1.0).com([0.1, 0.0, 0.0]),
                 Body::new("arm", 2, z).mass(1.0).com([0.1, 0.0, 0.0]),
                 Body::new("nothing", 3, z).xyz([0.1, 0.0, 0.0]),
             ],
@@ -472,9 +399,7 @@ impl ClusteredRobot<5, 5, 5, 3, 3> for Idle {
 fn a_joint_that_moves_nothing_is_named() {
     let y = State::at([1.0, 0.3, 0.2]);
     let error = Clustered::<Core<Idle>>::aba(&y, &[0.0; 3], &RIGID_BODY).expect_err("no inertia");
-    let ForwardError::Joint(NotPositiveDefinite { joint, .. }) = error else {
-        panic!("{error:?}")
-    };
+    let ForwardError::Joint(NotPositiveDefinite { joint, .. }) = error else { panic!("{error:?}") };
     assert_eq!(joint, 4);
 }
 
@@ -484,10 +409,7 @@ where
     T: ClusteredRobot<B, N, N, Y, Y>,
 {
     let is_error = |result: Result<[f32; Y], ClusterError>| {
-        assert_eq!(
-            result.map_err(|e| e.problem),
-            Err(ClusterProblem::NotFinite)
-        );
+        assert_eq!(result.map_err(|e| e.problem), Err(ClusterProblem::NotFinite));
     };
     for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
         for k in 0..Y {
@@ -512,11 +434,7 @@ where
 
 #[test]
 fn numbers_that_are_not_finite_are_errors() {
-    let at = |q| State {
-        q,
-        qd: [1.0; 3],
-        qdd: [1.0; 3],
-    };
+    let at = |q| State { q, qd: [1.0; 3], qdd: [1.0; 3] };
     not_finite::<FourBarLeg, 5, 5, 3>(at([0.1, 0.2, 0.3]));
     not_finite::<AnkleLeg, 9, 9, 3>(at([0.1, 0.2, 0.1]));
     not_finite::<DeltaRobot, 12, 12, 3>(at([0.1, 0.2, 0.3]));

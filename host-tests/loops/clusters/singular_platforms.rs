@@ -45,10 +45,7 @@ fn of_damped<R: Real, const M: usize, const N: usize>(
     for &i in angles {
         let JointCoordinate { sin, cos, .. } = motion.q[i];
         let length = (sin * sin + cos * cos).to_f64();
-        assert!(
-            (length - 1.0).abs() < 16.0 * R::EPSILON.to_f64(),
-            "{length}"
-        );
+        assert!((length - 1.0).abs() < 16.0 * R::EPSILON.to_f64(), "{length}");
     }
     let size = |x: &R| x.to_f64().abs();
     let g = motion.g.iter().flatten().map(size).fold(0.0, f64::max);
@@ -82,17 +79,11 @@ fn sweep<R: Real, const M: usize, const N: usize>(
 /// Demands |G| ≤ a √σ⁻ᵐ and |Ġ ẏ| ≤ b √σ⁻ⁿ of [(a, m), (b, n)] in f32 and in f64: σ is what rates
 /// are damped below.
 fn hold_both(what: &str, found: [[f64; 2]; 2], bounds: [(f64, i32); 2]) {
-    for ((scalar, found), root) in ["f32", "f64"]
-        .into_iter()
-        .zip(found)
-        .zip([damped::<f32>().sqrt(), damped::<f64>().sqrt()])
+    for ((scalar, found), root) in
+        ["f32", "f64"].into_iter().zip(found).zip([damped::<f32>().sqrt(), damped::<f64>().sqrt()])
     {
         for ((of, found), (bound, power)) in ["G", "Ġ ẏ"].into_iter().zip(found).zip(bounds) {
-            hold(
-                &format!("{of}, {what}, {scalar}"),
-                found * root.powi(power),
-                bound,
-            );
+            hold(&format!("{of}, {what}, {scalar}"), found * root.powi(power), bound);
         }
     }
 }
@@ -146,20 +137,15 @@ fn the_status_of_coplanar_rods_begins_where_rates_are_damped() {
     assert!((height2 / DAMPED.0 - 1.0).abs() < 1e-5, "{height2:e}");
     // G is continuous there.
     let [a, b] = [inside, beyond].map(|y| delta_at::<f64>(&FLAT, [y; 3]).expect("it closes").g);
-    let most = a
-        .iter()
-        .flatten()
-        .fold(0.0_f64, |most, g| most.max(g.abs()));
+    let most = a.iter().flatten().fold(0.0_f64, |most, g| most.max(g.abs()));
     let apart = a.iter().flatten().zip(b.iter().flatten());
     let apart = apart.fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
     hold("step of G where the rods' status ends", apart / most, 1e-6);
 }
 
 /// The first rod points along the axis of its crank at this posture.
-const ALONG: (Delta, [f64; 3]) = (
-    Delta::new(0.1, 0.2, 0.3, 0.05),
-    [-3.1, 1.261_066_519_608_706_3, -2.628_848_717_188_009_5],
-);
+const ALONG: (Delta, [f64; 3]) =
+    (Delta::new(0.1, 0.2, 0.3, 0.05), [-3.1, 1.261_066_519_608_706_3, -2.628_848_717_188_009_5]);
 
 fn along_its_axis<R: Real>() -> [f64; 2] {
     let (delta, [a, b, c]) = ALONG;
@@ -195,10 +181,7 @@ fn delta_cannot_close<R: Real>() {
     assert_eq!(problem(&LINE, beside), Ok(false));
 
     for bad in [f64::NAN, f64::INFINITY] {
-        assert_eq!(
-            problem(&LINE, [0.0, bad, 0.0]),
-            Err(ClusterProblem::NotFinite)
-        );
+        assert_eq!(problem(&LINE, [0.0, bad, 0.0]), Err(ClusterProblem::NotFinite));
     }
 }
 
@@ -211,11 +194,7 @@ fn a_delta_that_cannot_close_is_an_error() {
 /// A platform whose first leg is from origin to origin.
 const CENTRAL: Stewart = {
     let mut legs = LEGS;
-    legs[0] = Leg {
-        base: [0.0; 3],
-        platform: [0.0; 3],
-        length: 0.25,
-    };
+    legs[0] = Leg { base: [0.0; 3], platform: [0.0; 3], length: 0.25 };
     Stewart::new(legs)
 };
 
@@ -232,10 +211,7 @@ fn leg_along_y<R: Real>() -> [f64; 2] {
         let at = [0.8 * off, 0.5, 0.6 * off, 0.25, -0.5, 0.125];
         let motion = stewart_at::<R>(&CENTRAL, at).expect("it closes");
         let error = length(&motion) - off.hypot(0.5);
-        assert!(
-            error.abs() < 4.0 * R::EPSILON.to_f64(),
-            "{off:e}: {error:e}"
-        );
+        assert!(error.abs() < 4.0 * R::EPSILON.to_f64(), "{off:e}: {error:e}");
         motion
     })
 }
@@ -257,10 +233,7 @@ fn leg_of_no_length<R: Real>() -> [f64; 2] {
         let [g, bias] = sweep(&ANGLES, 0.2, |off| {
             let motion = at(side.map(|x| off * x));
             let error = length(&motion) - off;
-            assert!(
-                error.abs() < 2.0 * R::EPSILON.to_f64(),
-                "{off:e}: {error:e}"
-            );
+            assert!(error.abs() < 2.0 * R::EPSILON.to_f64(), "{off:e}: {error:e}");
             motion
         });
         most = [most[0].max(g), most[1].max(bias)];

@@ -8,9 +8,8 @@ use dynamics_core::state::State;
 pub fn inverse(a: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let n = a.len();
     let unit = |i| (0..n).map(move |j| f64::from(u8::from(i == j)));
-    let mut m: Vec<Vec<f64>> = (0..n)
-        .map(|i| a[i].iter().copied().chain(unit(i)).collect())
-        .collect();
+    let mut m: Vec<Vec<f64>> =
+        (0..n).map(|i| a[i].iter().copied().chain(unit(i)).collect()).collect();
     for k in 0..n {
         let largest = (k..n).max_by(|&i, &j| m[i][k].abs().total_cmp(&m[j][k].abs()));
         m.swap(k, largest.expect("a row"));
@@ -19,10 +18,7 @@ pub fn inverse(a: &[Vec<f64>]) -> Vec<Vec<f64>> {
         let row = m[k].clone();
         for (_, other) in m.iter_mut().enumerate().filter(|(i, _)| *i != k) {
             let factor = other[k];
-            other
-                .iter_mut()
-                .zip(&row)
-                .for_each(|(x, p)| *x -= factor * p);
+            other.iter_mut().zip(&row).for_each(|(x, p)| *x -= factor * p);
         }
     }
     m.into_iter().map(|row| row[n..].to_vec()).collect()
@@ -49,8 +45,7 @@ where
     let passive = (0..V).filter(|i| !loops.actuated().contains(i)).collect();
     let product = move |i: usize, j: usize| {
         let rows = k.jacobian.iter().zip(&k.size);
-        rows.map(|(row, size)| row[i] * row[j] / (size * size))
-            .sum()
+        rows.map(|(row, size)| row[i] * row[j] / (size * size)).sum()
     };
     (passive, product)
 }

@@ -73,8 +73,5 @@ pub fn loops<const L: usize, const C: usize, const A: usize>(of: &Loops<L, C, A>
 
 fn placement(end: &BodyFrame) -> Placement {
     let pose = end.pose();
-    Placement {
-        rotation: pose.rot.transpose().to_cols_array(),
-        position: pose.pos.to_array(),
-    }
+    Placement { rotation: pose.rot.transpose().to_cols_array(), position: pose.pos.to_array() }
 }

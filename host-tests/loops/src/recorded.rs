@@ -107,20 +107,9 @@ fn of_state<
     let id = inverse_dynamics(&robot, &loops, &state, &RIGID_BODY).expect("a torque");
     compare("recorded torques", &id.tau, &recorded.tau[k]);
     compare("recorded rates", &id.state.qd, &recorded.qd[k]);
-    compare(
-        "recorded dependent accelerations",
-        &id.state.qdd,
-        &recorded.qdd[k],
-    );
+    compare("recorded dependent accelerations", &id.state.qdd, &recorded.qdd[k]);
     let tau = row(&recorded.given_tau, k).map(R::from_f64);
-    let fd = forward_dynamics(
-        &robot,
-        &loops,
-        &state,
-        &tau,
-        Stabilisation::NONE,
-        &RIGID_BODY,
-    );
+    let fd = forward_dynamics(&robot, &loops, &state, &tau, Stabilisation::NONE, &RIGID_BODY);
     let qdd = fd.expect("accelerations").qdd;
     compare("recorded accelerations", &qdd, &recorded.forward[k]);
 }

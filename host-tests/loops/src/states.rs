@@ -27,19 +27,12 @@ where
     let robot = Static::<T>::NEW;
     let states = std::iter::repeat_with(|| {
         let mut guess = T::HOME;
-        for (at, off) in T::ACTUATED_Q
-            .into_iter()
-            .zip(within::<A>(&mut rng, T::RANGE))
-        {
+        for (at, off) in T::ACTUATED_Q.into_iter().zip(within::<A>(&mut rng, T::RANGE)) {
             guess[at] += off;
         }
         let closed = assemble(&robot, &T::LOOPS, &guess, Moving::Passive).expect("it closes");
         let map = coordinate_map(&robot, &T::LOOPS, &closed.q).expect("it is driven");
-        State {
-            q: closed.q,
-            qd: map.velocity(&within(&mut rng, 2.0)),
-            qdd: within(&mut rng, 10.0),
-        }
+        State { q: closed.q, qd: map.velocity(&within(&mut rng, 2.0)), qdd: within(&mut rng, 10.0) }
     });
     states.take(count).collect()
 }

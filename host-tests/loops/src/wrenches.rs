@@ -20,10 +20,7 @@ pub fn wrenches(
     let back = p_pose.rot.transpose();
     let rot = back * s_pose.rot * end.rot;
     let pos = back * (s_pose.point(end.pos) - p_pose.pos);
-    let both = [
-        (s, at_origin(end.rot, end.pos, force)),
-        (p, -at_origin(rot, pos, force)),
-    ];
+    let both = [(s, at_origin(end.rot, end.pos, force)), (p, -at_origin(rot, pos, force))];
     both.into_iter().filter(|(body, _)| *body != BASE)
 }
 

@@ -25,9 +25,7 @@ const fn bodies(ground: f64) -> [Body; 4] {
         Body::new("crank", BASE, turn).mass(1.0),
         Body::new("coupler", 0, turn).xyz([0.2, 0.0, 0.0]).mass(1.0),
         Body::new("flange", 1, Joint::fixed()).xyz([0.5, 0.0, 0.0]),
-        Body::new("rocker", BASE, turn)
-            .xyz([ground, 0.0, 0.0])
-            .mass(1.0),
+        Body::new("rocker", BASE, turn).xyz([ground, 0.0, 0.0]).mass(1.0),
     ]
 }
 
@@ -49,9 +47,7 @@ fn problem<const C: usize, const A: usize>(
     actuated: [usize; A],
 ) -> Result<(), (&'static str, LoopProblem)> {
     let loops = Loops::<1, C, A>::try_new(&tree(ground), [joint], actuated);
-    loops
-        .map(|_| ())
-        .map_err(|LoopModelError { name, problem, .. }| (name, problem))
+    loops.map(|_| ()).map_err(|LoopModelError { name, problem, .. }| (name, problem))
 }
 
 #[test]
@@ -68,36 +64,18 @@ fn impossible_loops_are_refused_by_name() {
     assert_eq!(one(0.6, pin(FLANGE, BodyFrame::new(4))), of_pin(NoBody(4)));
     assert_eq!(one(1.1, pin(FLANGE, ROCKER)), Ok(())); // stretched out
     assert_eq!(one(1.101, pin(FLANGE, ROCKER)), of_pin(OutOfReach));
-    assert_eq!(
-        one(0.6, pin(FLANGE, ROCKER.xyz([f64::NAN, 0.0, 0.0]))),
-        of_pin(NotFinite)
-    );
-    assert_eq!(
-        one(0.6, pin(FLANGE, ROCKER.rpy([0.0, 90.0, 0.0]))),
-        of_pin(Angle)
-    );
+    assert_eq!(one(0.6, pin(FLANGE, ROCKER.xyz([f64::NAN, 0.0, 0.0]))), of_pin(NotFinite));
+    assert_eq!(one(0.6, pin(FLANGE, ROCKER.rpy([0.0, 90.0, 0.0]))), of_pin(Angle));
     let without_axis = joint(Joint::revolute([0.0; 3]), [FLANGE, ROCKER]);
-    assert_eq!(
-        one(0.6, without_axis),
-        of_pin(LoopProblem::Joint(Problem::Axis))
-    );
+    assert_eq!(one(0.6, without_axis), of_pin(LoopProblem::Joint(Problem::Axis)));
     let free = joint(Joint::free(), [FLANGE, ROCKER]);
     assert_eq!(problem::<0, 3>(0.6, free, [0, 1, 2]), of_pin(Unconstrained));
 
     let of_all = |problem| Err(("linkage", problem));
     let (given, expected) = (3, 5);
-    assert_eq!(
-        problem::<3, 1>(0.6, pin(FLANGE, ROCKER), [0]),
-        of_all(Rows { expected, given })
-    );
-    assert_eq!(
-        problem::<5, 1>(0.6, pin(FLANGE, ROCKER), [3]),
-        of_all(NoCoordinate(3))
-    );
-    assert_eq!(
-        problem::<5, 2>(0.6, pin(FLANGE, ROCKER), [2, 2]),
-        of_all(ActuatedTwice(2))
-    );
+    assert_eq!(problem::<3, 1>(0.6, pin(FLANGE, ROCKER), [0]), of_all(Rows { expected, given }));
+    assert_eq!(problem::<5, 1>(0.6, pin(FLANGE, ROCKER), [3]), of_all(NoCoordinate(3)));
+    assert_eq!(problem::<5, 2>(0.6, pin(FLANGE, ROCKER), [2, 2]), of_all(ActuatedTwice(2)));
     let table = joint(Joint::planar(), [BodyFrame::new(BASE), ROCKER]);
     assert_eq!(problem::<3, 0>(0.6, table, []), Ok(()));
 }
@@ -125,10 +103,7 @@ fn an_underactuated_loop_and_its_coordinate_are_named() {
         panic!("no state");
     };
     let torque = inverse_dynamics(&Static::<Delta>::NEW, &loops, &state, &RIGID_BODY);
-    assert!(
-        torque.is_ok(),
-        "a rod's angle stands for the third crank: {torque:?}"
-    );
+    assert!(torque.is_ok(), "a rod's angle stands for the third crank: {torque:?}");
     // Both angles of the platform's attitude, which does not turn.
     let loops = Loops::<6, 18, 3>::new(&Delta::MODEL, *Delta::LOOPS.joints(), [6, 0, 1]);
     let torque = inverse_dynamics(&Static::<Delta>::NEW, &loops, &state, &RIGID_BODY);

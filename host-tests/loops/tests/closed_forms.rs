@@ -34,12 +34,7 @@ fn the_four_bar_angles_are_those_of_its_triangles() {
     let (mut errors, mut guess) = (Vec::new(), FourBar::HOME);
     for k in 0..=400 {
         guess[0] = -1.0 - f64::from(k) * core::f64::consts::TAU / 400.0; // right round
-        let closed = assemble(
-            &Static::<FourBar>::NEW,
-            &FourBar::LOOPS,
-            &guess,
-            Moving::Passive,
-        );
+        let closed = assemble(&Static::<FourBar>::NEW, &FourBar::LOOPS, &guess, Moving::Passive);
         guess = closed.expect("it closes").q;
         let [crank, coupler, rocker] = against_ground(&guess);
         for (got, want) in [coupler, rocker].into_iter().zip(angles(crank)) {
@@ -67,11 +62,7 @@ fn the_four_bar_rates_are_those_of_its_velocity_polygon() {
         errors.push((-state.qd[0] - state.qd[1] - coupler).abs());
         errors.push((-state.qd[2] - rocker).abs());
     }
-    within(
-        "rates of the four-bar linkage, rad/s",
-        largest(errors),
-        2e-13,
-    );
+    within("rates of the four-bar linkage, rad/s", largest(errors), 2e-13);
 }
 
 #[test]
@@ -79,21 +70,15 @@ fn four_bar_gravity_is_its_weights_virtual_work() {
     let mut errors = Vec::new();
     for state in closed_states::<FourBar, 3, 3, 3, 1, 5, 1>(200) {
         let at_rest = State::at(state.q);
-        let got = inverse_dynamics(
-            &Static::<FourBar>::NEW,
-            &FourBar::LOOPS,
-            &at_rest,
-            &Gravity::EARTH,
-        );
+        let got =
+            inverse_dynamics(&Static::<FourBar>::NEW, &FourBar::LOOPS, &at_rest, &Gravity::EARTH);
         let ground = against_ground(&state.q);
         let ([a, ..], [coupler, rocker]) = (FOUR_BAR, rates(ground, 1.0));
         // The rise of each centre of mass, which lies at (x, z) in its bar, with a unit rate of the
         // crank.
         let rise = |i: usize, rate: f64| {
-            let (com, (sin, cos)) = (
-                FourBar::MODEL.in_link_frame(i).1.first_moment,
-                ground[i].sin_cos(),
-            );
+            let (com, (sin, cos)) =
+                (FourBar::MODEL.in_link_frame(i).1.first_moment, ground[i].sin_cos());
             9.81 * rate * (com.x * cos - com.z * sin)
         };
         let carried = 9.81 * FourBar::MODEL.links[1].inertia.mass * a * ground[0].cos();
@@ -109,19 +94,11 @@ fn a_nearly_flat_parallelogram_has_the_flat_rank() {
     let robot = Static::<Parallelogram>::NEW;
     for off in [1e-9, 1e-8] {
         let map = coordinate_map(&robot, &Parallelogram::LOOPS, &[-off, off, -off]);
-        assert_eq!(
-            map.expect("a map").rows().rank(),
-            1,
-            "{off:e} rad from flat"
-        );
+        assert_eq!(map.expect("a map").rows().rank(), 1, "{off:e} rad from flat");
     }
     for off in [1e-5_f32, 1e-4] {
         let map = coordinate_map(&robot, &Parallelogram::LOOPS, &[-off, off, -off]);
-        assert_eq!(
-            map.expect("a map").rows().rank(),
-            1,
-            "{off:e} rad from flat, in f32"
-        );
+        assert_eq!(map.expect("a map").rows().rank(), 1, "{off:e} rad from flat, in f32");
     }
     let map = coordinate_map(&robot, &Parallelogram::LOOPS, &[-1e-2_f64, 1e-2, -1e-2]);
     assert_eq!(map.expect("not flat").rows().rank(), 2);
@@ -133,12 +110,7 @@ fn a_nearly_flat_parallelogram_has_the_flat_rank() {
 fn a_third_motor_shares_the_torque_with_the_least_norm() {
     let (mut errors, mut saved) = (Vec::new(), 0);
     for state in closed_states::<FiveBar, 4, 4, 4, 1, 5, 2>(200) {
-        let two = inverse_dynamics(
-            &Static::<FiveBar>::NEW,
-            &FiveBar::LOOPS,
-            &state,
-            &RIGID_BODY,
-        );
+        let two = inverse_dynamics(&Static::<FiveBar>::NEW, &FiveBar::LOOPS, &state, &RIGID_BODY);
         let two = two.expect("a torque");
         let three = inverse_dynamics(
             &Static::<ThreeMotors>::NEW,
@@ -177,24 +149,14 @@ fn inverse_dynamics_names_a_dead_point() {
     let crank = ((reach * reach + d * d - c * c) / (2.0 * reach * d)).acos();
     let rocker = (reach * crank.sin()).atan2(reach * crank.cos() - d);
     let dead = [-crank, 0.0, -rocker];
-    let state = State {
-        qd: [1.0, 0.0, 0.0],
-        ..State::at(dead)
-    };
+    let state = State { qd: [1.0, 0.0, 0.0], ..State::at(dead) };
     let torque = inverse_dynamics(&robot, &loops, &state, &RIGID_BODY);
     let drive = torque.expect("a damped torque").drive;
     let Drive::Singular { name, joint } = drive else {
         panic!("{drive:?}");
     };
     assert!(name == "joint" && joint < 2, "{drive:?}");
-    let motion = forward_dynamics(
-        &robot,
-        &loops,
-        &state,
-        &[1.0],
-        Stabilisation::NONE,
-        &RIGID_BODY,
-    );
+    let motion = forward_dynamics(&robot, &loops, &state, &[1.0], Stabilisation::NONE, &RIGID_BODY);
     assert_eq!(motion.expect("accelerations").rows.rank(), 2);
 }
 
@@ -204,58 +166,25 @@ fn a_parallelogram_without_damping_moves_on_near_its_flat_configuration() {
     let undamped = Parallelogram::LOOPS.damped_below(0.0);
     let mut errors = Vec::new();
     for off in [1e-1_f64, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6] {
-        let state = State {
-            qd: [1.0, -1.0, 1.0],
-            qdd: [2.0, -2.0, 2.0],
-            ..State::at([-off, off, -off])
-        };
+        let state =
+            State { qd: [1.0, -1.0, 1.0], qdd: [2.0, -2.0, 2.0], ..State::at([-off, off, -off]) };
         let id = inverse_dynamics(&robot, &undamped, &state, &RIGID_BODY);
         let (id, none) = (id.expect("a torque"), Stabilisation::NONE);
-        let fd = forward_dynamics(
-            &robot,
-            &Parallelogram::LOOPS,
-            &state,
-            &id.tau,
-            none,
-            &RIGID_BODY,
-        );
+        let fd =
+            forward_dynamics(&robot, &Parallelogram::LOOPS, &state, &id.tau, none, &RIGID_BODY);
         let qdd = fd.expect("accelerations").qdd;
         // Rounding errors grow with the inverse of the angle from flat: the error times the angle
         // is bounded.
-        let error = largest(
-            qdd.iter()
-                .zip(state.qdd)
-                .map(|(got, want)| (got - want).abs()),
-        );
+        let error = largest(qdd.iter().zip(state.qdd).map(|(got, want)| (got - want).abs()));
         errors.push(error * off);
     }
-    within(
-        "accelerations near flat, times the angle",
-        largest(errors),
-        1.5e-15,
-    );
-    let flat = State {
-        qd: [1.0, -1.0, 1.0],
-        ..State::at([0.0_f64; 3])
-    };
+    within("accelerations near flat, times the angle", largest(errors), 1.5e-15);
+    let flat = State { qd: [1.0, -1.0, 1.0], ..State::at([0.0_f64; 3]) };
     let none = Stabilisation::NONE;
-    let motion = forward_dynamics(
-        &robot,
-        &Parallelogram::LOOPS,
-        &flat,
-        &[1.0],
-        none,
-        &RIGID_BODY,
-    );
+    let motion = forward_dynamics(&robot, &Parallelogram::LOOPS, &flat, &[1.0], none, &RIGID_BODY);
     let motion = motion.expect("accelerations");
-    assert_eq!(
-        (motion.rows.rank(), motion.rows.redundant().count()),
-        (1, 4)
-    );
+    assert_eq!((motion.rows.rank(), motion.rows.redundant().count()), (1, 4));
     assert!(
-        motion
-            .rows
-            .redundant()
-            .all(|row| Parallelogram::LOOPS.name_of_row(row) == "far_corner")
+        motion.rows.redundant().all(|row| Parallelogram::LOOPS.name_of_row(row) == "far_corner")
     );
 }

@@ -43,11 +43,7 @@ fn rod_pairs_as_one_body_need_equal_torques() {
         let found = found.expect("it closes");
         assert_eq!(found.drive, Drive::Determined);
         let cranks = |of: &[f64]| [6, 11, 16].map(|i| of[i]);
-        let y = State {
-            q: cranks(&state.q[1..]),
-            qd: cranks(&state.qd),
-            qdd: cranks(&state.qdd),
-        };
+        let y = State { q: cranks(&state.q[1..]), qd: cranks(&state.qd), qdd: cranks(&state.qdd) };
         let tau = Clustered::<Core<DeltaRobot>>::rnea(&y, &RIGID_BODY).expect("it closes");
         difference.of(&tau, &found.tau);
     }
@@ -86,9 +82,7 @@ fn stewart(
         let motors = Clustered::<Core<StewartPlatform>>::motors(&y).expect("it closes");
 
         let guess = closed(&y, &motors.q);
-        let q = assemble(as_loops, &Stewart::LOOPS, &guess, Moving::Passive)
-            .expect("it closes")
-            .q;
+        let q = assemble(as_loops, &Stewart::LOOPS, &guess, Moving::Passive).expect("it closes").q;
         // The slides' lengths are those of this pose.
         assert!(apart(&q, &guess) < 1e-12, "{q:?} {guess:?}");
         let (mut qd, mut qdd) = ([0.0; 24], [0.0; 24]);
@@ -98,10 +92,7 @@ fn stewart(
         let state = State { q, qd, qdd };
         let found = inverse_dynamics(as_loops, &Stewart::LOOPS, &state, &RIGID_BODY);
         let found = found.expect("it closes");
-        assert_eq!(
-            (by_clusters.singular, found.drive),
-            (None, Drive::Determined)
-        );
+        assert_eq!((by_clusters.singular, found.drive), (None, Drive::Determined));
         difference.of(&by_clusters.tau, &found.tau);
     }
     difference.relative()
@@ -138,11 +129,7 @@ fn stewart_on(share: f64) -> f64 {
 // The legs of the cluster do not spin about themselves.
 #[test]
 fn a_stewart_platform_cluster_agrees_with_general_loops() {
-    hold(
-        "torques, legs without inertia of spin",
-        stewart_on(0.0),
-        2e-14,
-    );
+    hold("torques, legs without inertia of spin", stewart_on(0.0), 2e-14);
     hold("torques, legs that are symmetric", stewart_on(1.0), 1e-3);
     // As described, halves of legs have centres of mass 1 and 2 mm off their axes, and products of
     // inertia.

@@ -34,13 +34,7 @@ fn step<R: Real>(state: &State<R, 3, 3>, by: Stabilisation<R>, h: R) -> State<R,
             (a[i] + (b[i] + c[i]) + (b[i] + c[i]) + d[i]) * R::from_f64(1.0 / 6.0)
         })
     };
-    moved(
-        h,
-        &(
-            mean(first.0, second.0, third.0, last.0),
-            mean(first.1, second.1, third.1, last.1),
-        ),
-    )
+    moved(h, &(mean(first.0, second.0, third.0, last.0), mean(first.1, second.1, third.1, last.1)))
 }
 
 /// The largest error of position of the loop, m and rad.
@@ -94,9 +88,5 @@ fn an_open_loop_closes_by_stabilisation() {
     for _ in 0..400 {
         state = step(&state, Stabilisation::for_step(1e-3), 1e-3);
     }
-    within(
-        "what is left of an opening after 20 time constants",
-        opening(&state) / before,
-        3e-7,
-    );
+    within("what is left of an opening after 20 time constants", opening(&state) / before, 3e-7);
 }

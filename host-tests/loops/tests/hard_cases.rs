@@ -102,9 +102,7 @@ fn a_wrong_value_is_refused() {
             let tau = truth.states[2].tau.as_mut().expect("a torque");
             tau[0] *= 1.0 + 1e-14;
         }),
-        ("forward dynamics", |truth| {
-            truth.states[1].forward[2] *= 1.0 + 1e-12
-        }),
+        ("forward dynamics", |truth| truth.states[1].forward[2] *= 1.0 + 1e-12),
         ("assembly", |truth| truth.states[3].q[1] += 1e-13),
     ];
     for (quantity, change) in wrong {
@@ -112,10 +110,7 @@ fn a_wrong_value_is_refused() {
         change(&mut truth);
         let refused = refused(&setup.rows_against(&truth));
         let named = refused.iter().any(|row| row.starts_with(quantity));
-        assert!(
-            named && refused.iter().all(|row| row.contains("f64")),
-            "{refused:?}"
-        );
+        assert!(named && refused.iter().all(|row| row.contains("f64")), "{refused:?}");
     }
 }
 

@@ -48,9 +48,7 @@ fn errors<const C: usize>(joint: Joint<f64>) -> [f64; 3] {
         let model =
             tree(|name, parent, joint| random_body(&mut rng, Body::new(name, parent, joint)));
         let [p, s] = [(3, "p"), (7, "s")].map(|(body, _)| {
-            BodyFrame::new(body)
-                .xyz(within(&mut rng, 0.3))
-                .rpy(within(&mut rng, 3.0))
+            BodyFrame::new(body).xyz(within(&mut rng, 0.3)).rpy(within(&mut rng, 3.0))
         });
         let joints = [LoopJoint::new("loop", joint, [p, s])];
         let loops = Loops::<1, C, V>::new(&model, joints, core::array::from_fn(|i| i));
@@ -62,10 +60,7 @@ fn errors<const C: usize>(joint: Joint<f64>) -> [f64; 3] {
             let guess = state_of(&model, &mut rng);
             tries += 1;
             if let Ok(closed) = assemble(&model, &loops, &guess.q, Moving::All) {
-                break State {
-                    q: closed.q,
-                    ..open
-                };
+                break State { q: closed.q, ..open };
             }
             assert!(tries < MOST_TRIES, "{joint:?} does not close");
         };
@@ -82,10 +77,7 @@ fn errors<const C: usize>(joint: Joint<f64>) -> [f64; 3] {
             let (now, [later, before]) = (after(0.0), [h, -h].map(after));
             for row in 0..C {
                 let (want, got) = match k {
-                    0 => (
-                        now.velocity[row],
-                        later.position[row] - before.position[row],
-                    ),
+                    0 => (now.velocity[row], later.position[row] - before.position[row]),
                     _ => {
                         let products = now.jacobian[row].iter().zip(state.qdd).map(|(k, a)| k * a);
                         (

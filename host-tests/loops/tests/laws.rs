@@ -80,14 +80,8 @@ where
     for state in closed_states::<T, B, Q, V, L, C, A>(STATES) {
         let id = driven::<T, B, Q, V, L, C, A>(&state);
         let none = Stabilisation::NONE;
-        let fd = forward_dynamics(
-            &Static::<T>::NEW,
-            &T::LOOPS,
-            &id.state,
-            &id.tau,
-            none,
-            &RIGID_BODY,
-        );
+        let fd =
+            forward_dynamics(&Static::<T>::NEW, &T::LOOPS, &id.state, &id.tau, none, &RIGID_BODY);
         accelerations.compare(fd.expect("accelerations").qdd, id.state.qdd);
     }
     accelerations.check(T::MODEL.name, "forward of inverse dynamics", "f64");
@@ -125,11 +119,7 @@ where
                 qdd: [0.0; V],
             })
         };
-        let motors = T::LOOPS
-            .actuated()
-            .iter()
-            .zip(tau)
-            .map(|(&i, tau)| state.qd[i] * tau);
+        let motors = T::LOOPS.actuated().iter().zip(tau).map(|(&i, tau)| state.qd[i] * tau);
         power.compare([motors.sum()], [(after(h) - after(-h)) / (2.0 * h)]);
     }
     power.check(T::MODEL.name, "power of the motors", "f64");
@@ -221,14 +211,8 @@ where
         let tau: [f32; A] = want.tau.map(|x| x as f32);
         let (none_32, none) = (Stabilisation::NONE, Stabilisation::NONE);
         let got = forward_dynamics(&robot, &T::LOOPS, &single, &tau, none_32, &RIGID_BODY);
-        let want = forward_dynamics(
-            &robot,
-            &T::LOOPS,
-            &double,
-            &tau.map(Real::to_f64),
-            none,
-            &RIGID_BODY,
-        );
+        let want =
+            forward_dynamics(&robot, &T::LOOPS, &double, &tau.map(Real::to_f64), none, &RIGID_BODY);
         let (got, want) = (got.expect("accelerations"), want.expect("accelerations"));
         assert_eq!(got.rows, want.rows, "f32 finds another rank");
         accelerations.compare(got.qdd.map(f64::from), want.qdd);

@@ -19,11 +19,7 @@ where
     let recording = Recording::load(T::MODEL.name);
     let version = &recording.pinocchio;
     assert!(version.starts_with("4.1"), "{version}");
-    assert_eq!(
-        recording.machine,
-        machine::<T, B, Q, V, L, C, A>(),
-        "another machine was recorded"
-    );
+    assert_eq!(recording.machine, machine::<T, B, Q, V, L, C, A>(), "another machine was recorded");
     errors::<T, B, Q, V, L, C, A>().check();
 }
 

@@ -78,10 +78,7 @@ impl<const Q: usize, const L: usize, const C: usize, const A: usize> Sweep<Q, L,
                 // The status is there below the threshold, and nowhere else.
                 let distance = self.distance::<T, B, V>(off) / SINGULAR;
                 let damped = matches!(found.drive, Drive::Singular { .. });
-                assert!(
-                    damped == (distance < 1.0) || (distance - 1.0).abs() < slack,
-                    "{off:e}"
-                );
+                assert!(damped == (distance < 1.0) || (distance - 1.0).abs() < slack, "{off:e}");
                 counts[usize::from(damped)] += 1;
 
                 // The bound of `damped_below`, by the tree's torques.
@@ -106,10 +103,7 @@ impl<const Q: usize, const L: usize, const C: usize, const A: usize> Sweep<Q, L,
             }
         }
         assert!(counts[0] > 10 && counts[1] > 10, "{counts:?}");
-        println!(
-            "{}: {fullest:.3} of the bound, {undamped:.1} without damping",
-            T::MODEL.name
-        );
+        println!("{}: {fullest:.3} of the bound, {undamped:.1} without damping", T::MODEL.name);
         assert!(fullest < 1.0 && undamped > 1.0);
 
         // The two sides of the end of the damping.
@@ -120,18 +114,11 @@ impl<const Q: usize, const L: usize, const C: usize, const A: usize> Sweep<Q, L,
         let (mut inside, mut beyond) = (0.0, self.reach);
         while beyond - inside > beyond * f64::from(f32::EPSILON) * 4.0 {
             let middle = 0.5 * (inside + beyond);
-            if damped(middle).0 {
-                inside = middle
-            } else {
-                beyond = middle
-            }
+            if damped(middle).0 { inside = middle } else { beyond = middle }
         }
         let ((_, a), (_, b)) = (damped(inside), damped(beyond));
         let size = norm(&b.map(Real::to_f64));
-        let apart = a
-            .iter()
-            .zip(&b)
-            .map(|(&a, &b)| (a - b).to_f64().abs() / size);
+        let apart = a.iter().zip(&b).map(|(&a, &b)| (a - b).to_f64().abs() / size);
         [apart.fold(0.0, f64::max), fullest, outside]
     }
 
@@ -158,9 +145,7 @@ impl<const Q: usize, const L: usize, const C: usize, const A: usize> Sweep<Q, L,
         let actuated = self.loops.actuated();
         let part = |motors: bool| -> Vec<f64> {
             let tau = tree.iter().enumerate();
-            tau.filter(|(i, _)| actuated.contains(i) == motors)
-                .map(|(_, tau)| *tau)
-                .collect()
+            tau.filter(|(i, _)| actuated.contains(i) == motors).map(|(_, tau)| *tau).collect()
         };
         norm(&part(true)) + (2.0 * L as f64).sqrt() / SINGULAR * norm(&part(false))
     }
@@ -202,17 +187,12 @@ const DEAD: Sweep<3, 1, 5, 1> = Sweep {
 const FICHTER: Sweep<25, 6, 18, 6> = Sweep {
     loops: Stewart::LOOPS,
     at: |off| {
-        const PLATFORM: Loops<6, 18, 6> = Loops::new(
-            &Stewart::MODEL,
-            *Stewart::LOOPS.joints(),
-            [0, 1, 2, 3, 4, 5],
-        );
+        const PLATFORM: Loops<6, 18, 6> =
+            Loops::new(&Stewart::MODEL, *Stewart::LOOPS.joints(), [0, 1, 2, 3, 4, 5]);
         let (robot, mut q) = (Static::<Stewart>::NEW, Stewart::HOME);
         for yaw in [0.4, 0.8, 1.2, core::f64::consts::FRAC_PI_2 + off] {
             (q[2], q[3]) = (0.5 * yaw).sin_cos();
-            q = assemble(&robot, &PLATFORM, &q, Moving::Passive)
-                .expect("it closes")
-                .q;
+            q = assemble(&robot, &PLATFORM, &q, Moving::Passive).expect("it closes").q;
         }
         q
     },
@@ -232,16 +212,8 @@ fn torques_across_a_singular_configuration_are_named_bounded_and_continuous() {
         FICHTER.check::<f32, Stewart, 13, 24>(0.01),
     ];
     let worst = |of: &[[f64; 3]; 3], k: usize| of.iter().map(|found| found[k]).fold(0.0, f64::max);
-    within(
-        "step at the end of the damping, f64",
-        worst(&double, 0),
-        5e-6,
-    );
-    within(
-        "step at the end of the damping, f32",
-        worst(&single, 0),
-        5e-3,
-    );
+    within("step at the end of the damping, f64", worst(&double, 0), 5e-6);
+    within("step at the end of the damping, f32", worst(&single, 0), 5e-3);
     within("torque over its bound", worst(&double, 1), 0.2);
     within("torque over its bound, f32", worst(&single, 1), 0.2);
     within("torque beyond the damping, f64", worst(&double, 2), 1e-11);
@@ -264,9 +236,7 @@ fn machines_are_far_from_the_threshold_where_they_work() {
         T: Machine<B, Q, V, L, C, A>,
     {
         let states = closed_states::<T, B, Q, V, L, C, A>(200);
-        let distances = states
-            .iter()
-            .map(|s| distance::<T, B, Q, V, L, C, A>(&T::LOOPS, &s.q));
+        let distances = states.iter().map(|s| distance::<T, B, Q, V, L, C, A>(&T::LOOPS, &s.q));
         distances.fold(1.0, f64::min)
     }
     let found = [
@@ -277,8 +247,5 @@ fn machines_are_far_from_the_threshold_where_they_work() {
         least::<Stewart, 13, 25, 24, 6, 18, 6>(),
     ];
     println!("{found:.4?}");
-    assert!(
-        found.iter().all(|distance| *distance > 2.0 * SINGULAR),
-        "{found:?}"
-    );
+    assert!(found.iter().all(|distance| *distance > 2.0 * SINGULAR), "{found:?}");
 }

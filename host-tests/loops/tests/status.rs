@@ -23,10 +23,7 @@ fn forward_dynamics_says_by_how_much_its_loops_are_open() {
     let rates = [2.0, -2.0, 2.0];
     let motion = parallelogram(closed, rates);
     let closure = motion.closure(&Parallelogram::LOOPS);
-    assert!(
-        closure.position < 1e-15 && closure.velocity < 1e-14,
-        "{closure:?}"
-    );
+    assert!(closure.position < 1e-15 && closure.velocity < 1e-14, "{closure:?}");
     assert!(motion.closed(&Parallelogram::LOOPS).is_ok());
 
     // The rocker of 0.3 m is turned by δ: its end is 0.6 sin(δ/2) away. And its rate is off by 1
@@ -38,10 +35,7 @@ fn forward_dynamics_says_by_how_much_its_loops_are_open() {
         let size = motion.constraints.size[4];
         // In one direction of two in the plane.
         let most = closure.position * size;
-        assert!(
-            most <= gap * (1.0 + 1e-9) && most >= gap / 2_f64.sqrt(),
-            "{most} of {gap}"
-        );
+        assert!(most <= gap * (1.0 + 1e-9) && most >= gap / 2_f64.sqrt(), "{most} of {gap}");
         assert!(
             closure.velocity * size <= 0.3 * 1.1 && closure.velocity * size > 0.2,
             "{closure:?}"
@@ -60,11 +54,7 @@ fn forward_dynamics_says_by_how_much_its_loops_are_open() {
 
 #[test]
 fn a_parallelogram_change_point_reports_a_dropped_rank() {
-    let machine = mobility(
-        &Static::<Parallelogram>::NEW,
-        &Parallelogram::LOOPS,
-        &[0.0_f64; 3],
-    );
+    let machine = mobility(&Static::<Parallelogram>::NEW, &Parallelogram::LOOPS, &[0.0_f64; 3]);
     let flat = machine.expect("it is closed");
     assert_eq!(flat, Mobility { here: 2, usual: 1 });
     let at = |off: f64| parallelogram([-off, off, -off], [1.0, -1.0, 1.0]);
@@ -86,9 +76,7 @@ where
     T: LoopRobot<B, V, V, 1, 5, A> + Machine<B, V, V, 1, 5, A>,
 {
     let robot = Static::<T>::NEW;
-    let home = assemble(&robot, &T::LOOPS, &T::HOME, Moving::Passive)
-        .expect("it closes")
-        .q;
+    let home = assemble(&robot, &T::LOOPS, &T::HOME, Moving::Passive).expect("it closes").q;
     let of_double = mobility(&robot, &T::LOOPS, &home).expect("closed");
     let single = assemble(&robot, &T::LOOPS, &home.map(|x| x as f32), Moving::Passive);
     let of_single = mobility(&robot, &T::LOOPS, &single.expect("it closes").q).expect("closed");

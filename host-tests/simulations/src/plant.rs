@@ -63,13 +63,7 @@ pub fn arm<R: Real>(share: [R; 6]) -> ArmModel<R, 6> {
 
 /// Every other body heavier by a share, and the others lighter.
 pub fn alternating<R: Real>(off: R) -> [R; 6] {
-    core::array::from_fn(|i| {
-        if i % 2 == 0 {
-            R::ONE + off
-        } else {
-            R::ONE - off
-        }
-    })
+    core::array::from_fn(|i| if i % 2 == 0 { R::ONE + off } else { R::ONE - off })
 }
 
 /// The place and the velocity of the tip, m and m/s.
@@ -127,12 +121,7 @@ pub struct Plant<F> {
 impl<F: Effect<f32, 6, 6> + Clone> Plant<F> {
     /// At rest, with inertias off by these shares.
     pub fn new(q: [f32; 6], inertia: [f32; 6], friction: F) -> Self {
-        Self {
-            at: KahanState::at(State::at(q)),
-            pushed: [0.0; 6],
-            arm: arm(inertia),
-            friction,
-        }
+        Self { at: KahanState::at(State::at(q)), pushed: [0.0; 6], arm: arm(inertia), friction }
     }
 
     /// Moves on by `steps` linearly implicit steps of `h` seconds with compensated sums under the

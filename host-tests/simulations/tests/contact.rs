@@ -79,10 +79,7 @@ struct Cell<F> {
 
 impl<F: Effect<f32, 6, 6> + Clone> Cell<F> {
     fn new(sensing: Sensing, plant: Plant<F>) -> Self {
-        let observer = ObserverConfig {
-            bandwidth: sensing.bandwidth,
-            tick: TICK,
-        };
+        let observer = ObserverConfig { bandwidth: sensing.bandwidth, tick: TICK };
         let m = Engine::<Ur5e>::crba(&HOME, &RIGID);
         Self {
             latched: sensing.read(&plant.at.state.q),
@@ -209,25 +206,15 @@ fn pushes_at_shoulder_and_wrist_are_found_within_their_bars() {
 // The motion is the pick and place.
 #[test]
 fn a_hundred_thousand_ticks_have_no_false_alarm() {
-    let count = if cfg!(feature = "full") {
-        LAPS
-    } else {
-        LAPS / 10
-    };
+    let count = if cfg!(feature = "full") { LAPS } else { LAPS / 10 };
     let ([ticks, found], _) = laps(BITS_14, smooth, count, &[]);
-    assert!(
-        ticks >= 6_600 * count as usize && found == 0,
-        "{found} in {ticks}"
-    );
+    assert!(ticks >= 6_600 * count as usize && found == 0, "{found} in {ticks}");
 }
 
 // Stated stiction gives none.
 #[test]
 fn unstated_stiction_gives_false_alarms() {
-    let stated = Sensing {
-        sticks: true,
-        ..BITS_14
-    };
+    let stated = Sensing { sticks: true, ..BITS_14 };
     let ([_, none], _) = laps(stated, bristles, 10, &[]);
     let ([_, many], _) = laps(BITS_14, bristles, 10, &[]);
     assert!(none == 0 && many > 1000, "{none} {many}");

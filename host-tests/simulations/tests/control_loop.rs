@@ -76,10 +76,7 @@ fn stopped() -> Arm {
 #[test]
 fn after_a_reset_the_arm_goes_back_to_its_trajectory() {
     let mut arm = stopped();
-    assert_eq!(
-        arm.control.reset(&arm.trajectory),
-        Err(ResetError::NoMeasurement)
-    );
+    assert_eq!(arm.control.reset(&arm.trajectory), Err(ResetError::NoMeasurement));
     arm.corrupt(0, 0);
     arm.run(2000);
     assert_eq!(arm.control.reset(&arm.trajectory), Ok(()));
@@ -87,30 +84,16 @@ fn after_a_reset_the_arm_goes_back_to_its_trajectory() {
     for tick in 0..600 {
         let actual = arm.rig.plant.state.q;
         let telemetry = arm.tick();
-        assert_eq!(
-            (telemetry.status.mode, telemetry.status.fault),
-            (Mode::Full, None)
-        );
+        assert_eq!((telemetry.status.mode, telemetry.status.fault), (Mode::Full, None));
         // The brake opens no sooner than the torque is there.
         assert!(tick > 0 || arm.brake.0.0.get() == telemetry.status.limited);
         errors.push(Arm::error(&telemetry.reference, &actual));
         speeds.extend(arm.rig.plant.state.qd.map(f32::abs));
     }
-    within(
-        "error on the way back, rad",
-        largest(errors.iter().copied()),
-        1e-3,
-    );
-    within(
-        "error on the trajectory, rad",
-        largest(errors.split_off(400)),
-        5e-4,
-    );
+    within("error on the way back, rad", largest(errors.iter().copied()), 1e-3);
+    within("error on the trajectory, rad", largest(errors.split_off(400)), 5e-4);
     within("speed, rad/s", largest(speeds), 2.5);
-    assert_eq!(
-        arm.control.reset(&arm.trajectory),
-        Err(ResetError::NotStopped)
-    );
+    assert_eq!(arm.control.reset(&arm.trajectory), Err(ResetError::NotStopped));
 }
 
 proptest! {

@@ -59,11 +59,7 @@ fn recovery(kind: Kind) -> String {
         Reaction::RideThrough => "by itself; `reset` of a stopped arm",
         _ => "`reset`",
     };
-    if first.is_empty() {
-        itself.to_owned()
-    } else {
-        format!("{first}, then {itself}")
-    }
+    if first.is_empty() { itself.to_owned() } else { format!("{first}, then {itself}") }
 }
 
 fn row(kind: Kind, observed: &[Observed]) -> String {
@@ -103,13 +99,9 @@ fn table(observed: &[Observed]) -> String {
 
 #[test]
 fn a_table_with_a_missing_run_differs() {
-    let observed: Vec<Observed> = (0..20)
-        .flat_map(|seed| observed(seed, Setup::SOUND).expect("good"))
-        .collect();
-    let (begin, end) = (
-        "before\n<!-- faults:begin -->\n",
-        "<!-- faults:end -->\nafter\n",
-    );
+    let observed: Vec<Observed> =
+        (0..20).flat_map(|seed| observed(seed, Setup::SOUND).expect("good")).collect();
+    let (begin, end) = ("before\n<!-- faults:begin -->\n", "<!-- faults:end -->\nafter\n");
     let all = PAGE.text(&table(&observed));
     let page = format!("{begin}{all}{end}");
     assert_eq!(PAGE.parts(&page), [begin, &*all, end]);
@@ -123,9 +115,7 @@ fn injected_faults_keep_the_contract() {
     for seed in 0..RUNS {
         match observed(seed, Setup::SOUND) {
             Ok(of) => {
-                let against = of
-                    .iter()
-                    .filter_map(|one| Some((one, against_contract(one)?)));
+                let against = of.iter().filter_map(|one| Some((one, against_contract(one)?)));
                 failures.extend(against.map(|(one, what)| format!("run {seed}: {what}: {one:?}")));
                 if seed < TABLE {
                     of_table.extend(of);
@@ -136,10 +126,7 @@ fn injected_faults_keep_the_contract() {
     }
     let first: Vec<_> = failures.iter().take(12).cloned().collect();
     let (count, first) = (failures.len(), first.join("\n"));
-    assert!(
-        failures.is_empty(),
-        "{count} failures in {RUNS} runs:\n{first}"
-    );
+    assert!(failures.is_empty(), "{count} failures in {RUNS} runs:\n{first}");
     PAGE.check(&table(&of_table));
     let page = PAGE.read();
     let runs = format!("In {FULL} runs of {TICKS} ticks").replace("0000 runs", "0,000 runs");
@@ -166,29 +153,17 @@ fn each_kind_of_deviation_from_the_contract_is_found() {
     ];
     for one in wrong {
         assert!(against_contract(&one).is_some(), "{one:?}");
-        let unseen = Observed {
-            latency: None,
-            ..one
-        };
+        let unseen = Observed { latency: None, ..one };
         assert_eq!(against_contract(&unseen), None);
     }
-    let held = Observed {
-        held: true,
-        stopped: true,
-        ..bridged(Kind::Drive, 1)
-    };
+    let held = Observed { held: true, stopped: true, ..bridged(Kind::Drive, 1) };
     assert!(against_contract(&held).is_some());
 }
 
 #[test]
 fn a_supervisor_with_a_wrong_limit_is_found() {
-    let wrong = Setup {
-        limits: 1.5,
-        ..Setup::SOUND
-    };
-    let found = (0..60)
-        .filter(|&seed| observed(seed, wrong).is_err())
-        .count();
+    let wrong = Setup { limits: 1.5, ..Setup::SOUND };
+    let found = (0..60).filter(|&seed| observed(seed, wrong).is_err()).count();
     assert!(found > 5, "{found}");
 }
 
@@ -196,10 +171,7 @@ fn a_supervisor_with_a_wrong_limit_is_found() {
 fn without_the_watchdog_a_run_exceeds_a_rated_speed() {
     const RUN: u32 = 6180;
     let (_, outcome) = one(RUN, Setup::UNWATCHED, |_| ());
-    assert!(
-        matches!(outcome, Err(Violation::Speed { .. })),
-        "{outcome:?}"
-    );
+    assert!(matches!(outcome, Err(Violation::Speed { .. })), "{outcome:?}");
     let page = PAGE.read();
     let text = format!("without it, run {RUN} exceeds a rated speed");
     assert!(page.replace('\n', " ").contains(&text), "{text}");
@@ -210,10 +182,7 @@ fn a_speed_beyond_the_rated_one_is_found() {
     assert_eq!(at_speed::<Pendulum, 1>(0.99), Ok(()));
     for share in [1.01, -1.01, f32::NAN] {
         let found = at_speed::<Pendulum, 1>(share).expect_err("too fast");
-        assert!(
-            matches!(found, Violation::Speed { joint: 0, .. }),
-            "{found}"
-        );
+        assert!(matches!(found, Violation::Speed { joint: 0, .. }), "{found}");
     }
 }
 
@@ -221,11 +190,7 @@ fn a_speed_beyond_the_rated_one_is_found() {
 fn an_unknown_position_gets_no_torque_at_power_up() {
     let mut fresh = controller::<Ur5eArm, 6>(Setup::SOUND).on_brake();
     let rest = Trajectory::new(
-        &[WayPoint {
-            q: Ur5eArm::HOME,
-            qd: [0.0; 6],
-            ticks: 0,
-        }],
+        &[WayPoint { q: Ur5eArm::HOME, qd: [0.0; 6], ticks: 0 }],
         TICK,
         &[Ur5eArm::MOTION; 6],
     )

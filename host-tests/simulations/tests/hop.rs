@@ -16,10 +16,7 @@ use motion_control::Reference;
 
 fn ways() -> (Hop, Vec<State<f32, 4, 4>>) {
     let hop = Hopping::reference().unwrap();
-    (
-        hop,
-        (0..hop.ticks() + 20).map(|tick| hop.whole(tick)).collect(),
-    )
+    (hop, (0..hop.ticks() + 20).map(|tick| hop.whole(tick)).collect())
 }
 
 /// The foot's height above the ground that it just touches, m.
@@ -38,10 +35,7 @@ fn the_hops_put_no_force_on_the_rail() {
         push.push(aloft.abs());
     }
     let mut verdict = Verdict::default();
-    let worst = Worst {
-        error: largest(row),
-        full_scale: largest(push),
-    };
+    let worst = Worst { error: largest(row), full_scale: largest(push) };
     verdict.see("hop", "force on the rail", "f32", &worst);
     verdict.speak();
 }
@@ -53,14 +47,8 @@ fn hop_derivatives_agree_with_differences() {
         let [from, to] = pair else { continue };
         for j in 0..4 {
             let mean = |a: f32, b: f32| 0.5 * TICK * (a + b);
-            positions.see(
-                [(to.q[j] - from.q[j]).into()],
-                [mean(from.qd[j], to.qd[j]).into()],
-            );
-            velocities.see(
-                [(to.qd[j] - from.qd[j]).into()],
-                [mean(from.qdd[j], to.qdd[j]).into()],
-            );
+            positions.see([(to.q[j] - from.q[j]).into()], [mean(from.qd[j], to.qd[j]).into()]);
+            velocities.see([(to.qd[j] - from.qd[j]).into()], [mean(from.qdd[j], to.qdd[j]).into()]);
         }
     }
     let mut verdict = Verdict::default();
@@ -92,8 +80,7 @@ fn each_hop_rises_at_least_five_centimetres() {
             None => {}
         }
         let step = TICK / STEPS as f32;
-        rig.advance(wires, STEPS, step, |_| environment(tick))
-            .unwrap();
+        rig.advance(wires, STEPS, step, |_| environment(tick)).unwrap();
     }
     assert_eq!(flights.len(), 4, "{flights:?}");
     assert!(flights.iter().all(|&(peak, _)| peak > 0.05), "{flights:?}");
@@ -104,10 +91,7 @@ fn each_hop_rises_at_least_five_centimetres() {
 
 #[test]
 fn the_arc_cosine_is_within_its_stated_error() {
-    let mut worst = Worst {
-        error: 0.0,
-        full_scale: 1.0,
-    };
+    let mut worst = Worst { error: 0.0, full_scale: 1.0 };
     for i in 0..=99_000 {
         let x = i as f32 * 1e-5;
         worst.compare([arc_cosine(x).into()], [f64::from(x).acos()]);

@@ -28,17 +28,9 @@ where
     R: Real,
     E: Effect<R, 2, 2>,
 {
-    let robot = ModelDynamics {
-        robot: &Static::<DoublePendulum>::NEW,
-        tau: [R::ZERO; 2],
-        effects,
-    };
+    let robot = ModelDynamics { robot: &Static::<DoublePendulum>::NEW, tau: [R::ZERO; 2], effects };
     let [q, qd] = DoublePendulum::START.map(|numbers| numbers.map(R::from_f64));
-    let mut motion = KahanState::<R, 2, COMPENSATED>::at(State {
-        q,
-        qd,
-        qdd: [R::ZERO; 2],
-    });
+    let mut motion = KahanState::<R, 2, COMPENSATED>::at(State { q, qd, qdd: [R::ZERO; 2] });
     let integrator = I::start(&robot, &motion.state);
     let h = R::from_f64(1.0 / f64::from(steps));
     for _ in 0..steps {
@@ -64,20 +56,8 @@ fn integrators_are_of_their_order() {
     let order =
         |coarse: State<f64, 2, 2>, fine: State<f64, 2, 2>| (off(&coarse) / off(&fine)).log2();
     let orders = [
-        (
-            1.0,
-            order(
-                free::<Euler, f64, true>(8000),
-                free::<Euler, f64, true>(16_000),
-            ),
-        ),
-        (
-            1.0,
-            order(
-                free::<SemiImplicit, f64, true>(1000),
-                free::<SemiImplicit, f64, true>(2000),
-            ),
-        ),
+        (1.0, order(free::<Euler, f64, true>(8000), free::<Euler, f64, true>(16_000))),
+        (1.0, order(free::<SemiImplicit, f64, true>(1000), free::<SemiImplicit, f64, true>(2000))),
         (
             1.0,
             order(
@@ -85,13 +65,7 @@ fn integrators_are_of_their_order() {
                 free::<LinearlyImplicit, f64, true>(2000),
             ),
         ),
-        (
-            4.0,
-            order(
-                free::<RungeKutta, f64, true>(250),
-                free::<RungeKutta, f64, true>(500),
-            ),
-        ),
+        (4.0, order(free::<RungeKutta, f64, true>(250), free::<RungeKutta, f64, true>(500))),
         (
             4.0,
             order(
@@ -113,11 +87,7 @@ fn energy_projection_keeps_the_energy() {
         EnergyProjected<R>: Integrator<R, 2, 2>,
     {
         let energy = |q: [f64; 2], qd: [f64; 2]| {
-            let state = State {
-                q,
-                qd,
-                qdd: [0.0; 2],
-            };
+            let state = State { q, qd, qdd: [0.0; 2] };
             let kinetic = Core::<DoublePendulum>::kinetic_energy(&state, &RIGID_BODY);
             kinetic + Core::<DoublePendulum>::potential_energy(&q, &RIGID_BODY)
         };
@@ -142,10 +112,7 @@ fn compensated_addition_repairs_fine_steps() {
     let coarse = off(&free::<RungeKutta, f32, false>(1000));
     let plain = off(&free::<RungeKutta, f32, false>(50_000));
     let compensated = off(&free::<RungeKutta, f32, true>(50_000));
-    assert!(
-        plain > 2.0 * coarse,
-        "finer steps are worse: {plain:.1e}, {coarse:.1e}"
-    );
+    assert!(plain > 2.0 * coarse, "finer steps are worse: {plain:.1e}, {coarse:.1e}");
     within("compensated, of plain", compensated / plain, 0.05);
     let quantity = "compensated Runge-Kutta in fine steps";
     check("double pendulum", quantity, "f32", compensated).unwrap();
@@ -180,11 +147,7 @@ where
 {
     let energy = |state: &State<R, 2, 2>| {
         let [q, qd] = [state.q, state.qd].map(|x| x.map(R::to_f64));
-        let state = State {
-            q,
-            qd,
-            qdd: [0.0_f64; 2],
-        };
+        let state = State { q, qd, qdd: [0.0_f64; 2] };
         kinetic_energy(&TWO, &state, &RIGID_BODY) + potential_energy(&TWO, &state.q, &RIGID_BODY)
     };
     let mut state = State::at(start.map(R::from_f64));
@@ -214,16 +177,11 @@ where
 // The doc comment of `linearly_implicit` states these.
 #[test]
 fn the_energy_of_a_pendulum_drifts_little_within_an_hour() {
-    for (start, least, greatest) in [
-        ([0.5, -0.3], 0.997, 1.003),
-        ([1.5, 0.5], 0.92, 1.02),
-        ([2.5, 1.0], 0.65, 1.02),
-    ] {
+    for (start, least, greatest) in
+        [([0.5, -0.3], 0.997, 1.003), ([1.5, 0.5], 0.92, 1.02), ([2.5, 1.0], 0.65, 1.02)]
+    {
         let found = energies::<f64>(start, 3600, 1e-3);
-        assert!(
-            found[0] > least && found[1] < greatest,
-            "{start:?}: {found:?}"
-        );
+        assert!(found[0] > least && found[1] < greatest, "{start:?}: {found:?}");
     }
 }
 

@@ -18,23 +18,13 @@ use motion_control::{ContactDetector, DetectedContact, MomentumObserver, Observe
 const TICK: f64 = 1e-3;
 /// K, rad/s.
 const BANDWIDTH: f64 = 50.0;
-const CONFIG: ObserverConfig<f64> = ObserverConfig {
-    bandwidth: BANDWIDTH,
-    tick: TICK,
-};
+const CONFIG: ObserverConfig<f64> = ObserverConfig { bandwidth: BANDWIDTH, tick: TICK };
 type Friction = (Gravity, Viscous<f64, 6>, Coulomb<f64, 6>);
 const ROTORS: Armature<f64, 6> = Armature([2.0, 2.0, 2.0, 0.2, 0.2, 0.2]);
 
 fn friction() -> Friction {
-    let coulomb = Coulomb {
-        torque: [8.0, 8.0, 5.0, 2.0, 2.0, 2.0],
-        width: Width::new(0.05),
-    };
-    (
-        Gravity::EARTH,
-        Viscous([6.0, 6.0, 4.0, 1.0, 1.0, 1.0]),
-        coulomb,
-    )
+    let coulomb = Coulomb { torque: [8.0, 8.0, 5.0, 2.0, 2.0, 2.0], width: Width::new(0.05) };
+    (Gravity::EARTH, Viscous([6.0, 6.0, 4.0, 1.0, 1.0, 1.0]), coulomb)
 }
 
 /// A quarter of a tick under the torques of the drives and further effects.
@@ -56,11 +46,7 @@ enum Known {
 fn model(at: &State<f64, 6, 6>, known: Known) -> [[f64; 6]; 2] {
     let MomentumAndCoriolis { p, ct_qd } = Core::<Ur5e>::momentum_and_coriolis(at, &ROTORS);
     let load = Core::<Ur5e>::rnea(at, &friction());
-    let share = if known == Known::WithoutCoriolis {
-        0.0
-    } else {
-        1.0
-    };
+    let share = if known == Known::WithoutCoriolis { 0.0 } else { 1.0 };
     [p, core::array::from_fn(|i| share * ct_qd[i] - load[i])]
 }
 
@@ -88,13 +74,7 @@ fn run<const ORDER: usize>(
         }
         residuals.push(*observer.external_torque());
         // Gravity and friction are held, and torques at several frequencies move the arm.
-        let mut tau = Core::<Ur5e>::rnea(
-            &State {
-                qdd: [0.0; 6],
-                ..at
-            },
-            &friction(),
-        );
+        let mut tau = Core::<Ur5e>::rnea(&State { qdd: [0.0; 6], ..at }, &friction());
         for (i, tau) in tau.iter_mut().enumerate() {
             let size = [20.0, 20.0, 15.0, 3.0, 3.0, 3.0][i];
             *tau += size * (0.012 * k as f64 * (1.0 + 0.3 * i as f64)).cos();
@@ -112,25 +92,17 @@ fn run<const ORDER: usize>(
     residuals
 }
 
-const FREE: Tick = Tick {
-    measured: true,
-    external: [0.0; 6],
-};
+const FREE: Tick = Tick { measured: true, external: [0.0; 6] };
 const PUSHED: [f64; 6] = [0.0, 10.0, 0.0, -2.0, 0.0, 0.0];
 
 fn pushed(measured: bool) -> Tick {
-    Tick {
-        measured,
-        external: PUSHED,
-    }
+    Tick { measured, external: PUSHED }
 }
 
 /// The largest difference from external torques times a share.
 fn off(residual: &[f64; 6], share: f64) -> f64 {
     let pairs = residual.iter().zip(PUSHED);
-    pairs.fold(0.0, |worst, (r, pushed)| {
-        f64::max(worst, (r - share * pushed).abs())
-    })
+    pairs.fold(0.0, |worst, (r, pushed)| f64::max(worst, (r - share * pushed).abs()))
 }
 
 fn worst(residuals: &[[f64; 6]]) -> f64 {
@@ -150,10 +122,7 @@ fn a_motion_without_contact_has_no_external_torque() {
 // It appears at its own joint.
 #[test]
 fn an_external_torque_appears_with_the_stated_delay() {
-    for (k, residual) in run::<1>(300, Known::All, (), |_| pushed(true))
-        .iter()
-        .enumerate()
-    {
+    for (k, residual) in run::<1>(300, Known::All, (), |_| pushed(true)).iter().enumerate() {
         let share = 1.0 - (-BANDWIDTH * TICK * k as f64).exp();
         let off = off(residual, share);
         assert!(off < 0.01, "{k}: {off}");
@@ -162,10 +131,7 @@ fn an_external_torque_appears_with_the_stated_delay() {
 
 #[test]
 fn two_poles_respond_as_a_critically_damped_filter() {
-    for (k, residual) in run::<2>(300, Known::All, (), |_| pushed(true))
-        .iter()
-        .enumerate()
-    {
+    for (k, residual) in run::<2>(300, Known::All, (), |_| pushed(true)).iter().enumerate() {
         // The second pole filters what the first has at the end of the tick, half a tick early.
         let x = BANDWIDTH * TICK * (k as f64 + 0.5);
         let share = 1.0 - (1.0 + x) * (-x).exp();
@@ -188,11 +154,7 @@ fn lost_measurements_delay_the_external_torque_and_change_nothing_else() {
 
 #[test]
 fn friction_that_grows_with_the_load_is_no_contact() {
-    let gears = LoadFriction {
-        driving: [0.15; 6],
-        backdriving: [0.1; 6],
-        width: Width::new(0.05),
-    };
+    let gears = LoadFriction { driving: [0.15; 6], backdriving: [0.1; 6], width: Width::new(0.05) };
     let free = worst(&run::<1>(1000, Known::All, gears, |_| FREE));
     let without = worst(&run::<1>(1000, Known::WithoutGears, gears, |_| FREE));
     // N·m: the friction of a tick is that of its first velocity, also where the sign changes within
@@ -216,17 +178,12 @@ fn a_link_force_loads_no_joint_further_out() {
     let mut observer = MomentumObserver::<f64, 6>::try_new(CONFIG).expect("a good one");
     let residuals = run::<1>(300, Known::All, contact, |_| FREE);
     let last = residuals.last().expect("a tick");
-    assert!(
-        last[3].abs() > 0.5 && last[4].abs().max(last[5].abs()) < 0.01,
-        "{last:?}"
-    );
+    assert!(last[3].abs() > 0.5 && last[4].abs().max(last[5].abs()) < 0.01, "{last:?}");
     // Isolation reads the same from the observer.
     assert_eq!(observer.outermost(&[0.1; 6]), None);
     observer.update(&[0.0; 6], &[0.0; 6]).expect("finite");
     observer.drive(&[0.0; 6]);
-    observer
-        .update(&last.map(|r| TICK * r), &[0.0; 6])
-        .expect("finite");
+    observer.update(&last.map(|r| TICK * r), &[0.0; 6]).expect("finite");
     assert_eq!(observer.outermost(&[0.02; 6]), Some(3));
 }
 
@@ -237,9 +194,7 @@ fn finite_numbers_with_an_infinite_sum_are_accepted() {
     assert!(!(p + p).is_finite() && !(tau + tau).is_finite());
     observer.update(&[p; 2], &[0.0; 2]).expect("finite");
     observer.drive(&[tau; 2]);
-    observer
-        .update(&[p + TICK * tau; 2], &[0.0; 2])
-        .expect("finite");
+    observer.update(&[p + TICK * tau; 2], &[0.0; 2]).expect("finite");
     assert_eq!(observer.external_torque(), &[0.0; 2]);
 }
 
@@ -262,20 +217,8 @@ fn contacts(
     let (gravity, viscous, coulomb) = friction();
     for k in 0..600 {
         let MomentumAndCoriolis { p, ct_qd } = Core::<Ur5e>::momentum_and_coriolis(&at, &ROTORS);
-        let weight = Core::<Ur5e>::rnea(
-            &State {
-                qdd: [0.0; 6],
-                ..at
-            },
-            &gravity,
-        );
-        let resistance = Core::<Ur5e>::rnea(
-            &State {
-                qdd: [0.0; 6],
-                ..at
-            },
-            &(viscous, coulomb),
-        );
+        let weight = Core::<Ur5e>::rnea(&State { qdd: [0.0; 6], ..at }, &gravity);
+        let resistance = Core::<Ur5e>::rnea(&State { qdd: [0.0; 6], ..at }, &(viscous, coulomb));
         let effects = (gravity, Inertia, Coriolis, ROTORS);
         let bodies = Core::<Ur5e>::rnea(&State { qdd, ..at }, &effects);
         let share = |x: f64| 1.0 + x;
@@ -306,10 +249,7 @@ fn contacts(
     found
 }
 
-const STATED: Wrong = Wrong {
-    bodies: 0.03,
-    friction: 0.1,
-};
+const STATED: Wrong = Wrong { bodies: 0.03, friction: 0.1 };
 
 #[test]
 fn a_model_within_its_stated_error_shows_no_contact() {
@@ -318,10 +258,7 @@ fn a_model_within_its_stated_error_shows_no_contact() {
         assert_eq!(found, []);
     }
     // One that is worse does.
-    let worse = Wrong {
-        bodies: 0.0,
-        friction: 0.4,
-    };
+    let worse = Wrong { bodies: 0.0, friction: 0.4 };
     assert!(!contacts(STATED, worse, None).is_empty());
 }
 

@@ -48,18 +48,11 @@ fn the_arm_runs_undisturbed_to_the_end_of_its_reference() {
     let mut largest = 0.0_f32;
     let digest = replay.run(ticks, |replay| {
         let telemetry = replay.tick();
-        largest = telemetry
-            .torque
-            .into_iter()
-            .map(f32::abs)
-            .fold(largest, f32::max);
+        largest = telemetry.torque.into_iter().map(f32::abs).fold(largest, f32::max);
         telemetry
     });
     assert_eq!(ticks, 6700);
-    assert_ne!(
-        digest.expect("every tick under the full law"),
-        Digest::EMPTY
-    );
+    assert_ne!(digest.expect("every tick under the full law"), Digest::EMPTY);
     assert!(largest > 50.0, "the shoulder bears the arm: {largest} N·m");
 }
 

@@ -21,26 +21,12 @@ use host_tests::measured::largest;
 type Floating<R> = State<R, 13, 12>;
 
 /// The scene's effects in this scalar.
-fn acting<R: Real>() -> (
-    Inertia,
-    Coriolis,
-    Viscous<R, 12>,
-    Coulomb<R, 12>,
-    Armature<R, 12>,
-) {
+fn acting<R: Real>() -> (Inertia, Coriolis, Viscous<R, 12>, Coulomb<R, 12>, Armature<R, 12>) {
     let (inertia, coriolis, viscous, coulomb, rotors) = EFFECTS;
     let cast = |x: f32| R::from_f64(f64::from(x));
-    let coulomb = Coulomb {
-        torque: coulomb.torque.map(cast),
-        width: Width::new(cast(coulomb.width.get())),
-    };
-    (
-        inertia,
-        coriolis,
-        Viscous(viscous.0.map(cast)),
-        coulomb,
-        Armature(rotors.0.map(cast)),
-    )
+    let coulomb =
+        Coulomb { torque: coulomb.torque.map(cast), width: Width::new(cast(coulomb.width.get())) };
+    (inertia, coriolis, Viscous(viscous.0.map(cast)), coulomb, Armature(rotors.0.map(cast)))
 }
 
 /// 60 s of the scene's way, again and again, under its feed-forward and feedback, in `steps` steps
@@ -61,10 +47,7 @@ fn drift<R: Real>(steps: u32, mut step: impl FnMut(&[f32; 6], R) -> Floating<R>)
         let wanted = way.at(tick % (way.ticks() + 1));
         let mut tau = ReachOut::inverse(&wanted, &(), &EFFECTS);
         for j in 0..6 {
-            let (off, slow) = (
-                f64::from(wanted.q[j]) - q[j],
-                f64::from(wanted.qd[j]) - qd[j],
-            );
+            let (off, slow) = (f64::from(wanted.q[j]) - q[j], f64::from(wanted.qd[j]) - qd[j]);
             tau[j] += inertia[j] * (400.0 * off + 40.0 * slow) as f32;
         }
         let mut state = step(&tau, h);
@@ -86,14 +69,8 @@ fn drift<R: Real>(steps: u32, mut step: impl FnMut(&[f32; 6], R) -> Floating<R>)
 fn plain<R: Real>(steps: u32) -> f64 {
     let (mut effects, mut state) = (acting::<R>(), start::<R>());
     drift::<R>(steps, |tau, h| {
-        linearly_implicit(
-            &Static::<SpaceArm>::NEW,
-            &mut state,
-            &wide(tau),
-            &mut effects,
-            h,
-        )
-        .unwrap();
+        linearly_implicit(&Static::<SpaceArm>::NEW, &mut state, &wide(tau), &mut effects, h)
+            .unwrap();
         state
     })
 }
@@ -119,18 +96,8 @@ fn plain_steps_lose_momentum_at_first_order() {
     let single = [1, 2, 4].map(plain::<f32>);
     assert!(single[0] > single[1] && single[1] > single[2], "{single:?}");
     let mut verdict = Verdict::default();
-    verdict.see(
-        "space arm",
-        "momentum lost by plain steps",
-        "f64",
-        &share(double[2]),
-    );
-    verdict.see(
-        "space arm",
-        "momentum lost by plain steps",
-        "f32",
-        &share(single[2]),
-    );
+    verdict.see("space arm", "momentum lost by plain steps", "f64", &share(double[2]));
+    verdict.see("space arm", "momentum lost by plain steps", "f32", &share(single[2]));
     verdict.speak();
 }
 
@@ -159,10 +126,7 @@ fn momentum_preserving_steps_lose_no_momentum() {
 }
 
 fn share(error: f64) -> Worst {
-    Worst {
-        error,
-        full_scale: 1.0,
-    }
+    Worst { error, full_scale: 1.0 }
 }
 
 /// The ship's attitude, and the foot of its mast in the world.
@@ -204,11 +168,7 @@ fn the_inertial_unit_measures_the_masts_motion() {
 
 #[test]
 fn the_watch_keeps_the_camera_level_and_on_its_sweep() {
-    let watch = Watch::<f64> {
-        ship: Ship::patrol_boat(),
-        sweep: Swing::of(1.0, 8.0),
-        ticks: 0,
-    };
+    let watch = Watch::<f64> { ship: Ship::patrol_boat(), sweep: Swing::of(1.0, 8.0), ticks: 0 };
     let (mut level, mut rates) = (Worst::default(), Worst::default());
     for second in 0..60 {
         let t = f64::from(second) * 0.97;

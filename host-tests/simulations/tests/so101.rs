@@ -88,19 +88,13 @@ fn effort<E: Effect<f32, 6, 6>>(exact: bool, effects: &E) -> f64 {
     let reference = TaughtPath::reference().expect("within the limits");
     let mut servos = plant(exact);
     // Slow enough that steps of the encoder are no motion.
-    let mut observer = Observer::<f32, 6>::new(ObserverConfig {
-        bandwidth: 30.0,
-        tick: TaughtPath::TICK,
-    });
+    let mut observer =
+        Observer::<f32, 6>::new(ObserverConfig { bandwidth: 30.0, tick: TaughtPath::TICK });
     observer.reset(&SO101_START);
     let (mut sum, mut count) = (0.0, 0.0);
     for tick in 0..SLOWER * reference.ticks() {
         let measured = observer.update(&servos.encoder_positions(), &[0.0; 6]);
-        let state = State {
-            q: measured.q,
-            qd: measured.qd,
-            qdd: [0.0; 6],
-        };
+        let state = State { q: measured.q, qd: measured.qd, qdd: [0.0; 6] };
         let most = MAX_DUTY * STALL;
         let command = with_back_emf(Engine::<So101>::rnea(&state, effects), &state.qd)
             .map(|u| u.clamp(-most, most));
@@ -129,10 +123,7 @@ fn friction_compensation_reduces_the_hands_effort() {
     for exact in [true, false] {
         let gravity = effort(exact, &Gravity::EARTH);
         let friction = effort(exact, &COMPENSATION);
-        assert!(
-            friction <= 0.7 * gravity,
-            "{exact}: {friction} of {gravity} N·m"
-        );
+        assert!(friction <= 0.7 * gravity, "{exact}: {friction} of {gravity} N·m");
     }
 }
 

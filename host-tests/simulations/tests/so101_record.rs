@@ -40,10 +40,8 @@ fn record() -> String {
 /// The description of the arm with each number of its bodies 30 % more or less, and without
 /// friction.
 fn described() -> Robot {
-    let file = concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/../../tools/robot-import/tests/urdf/so101.urdf"
-    );
+    let file =
+        concat!(env!("CARGO_MANIFEST_DIR"), "/../../tools/robot-import/tests/urdf/so101.urdf");
     let mut robot = Robot::read(Path::new(file), None, &Selection::default()).expect("a robot");
     let mut factors = [0.7, 1.3, 1.3, 0.7, 1.3, 0.7, 0.7].into_iter().cycle();
     for body in &mut robot.imported.tree.bodies {
@@ -60,11 +58,8 @@ fn described() -> Robot {
 fn torques(robot: &Robot, found: &Found, at: &State<f64, 6, 6>) -> [f64; 6] {
     let mut tree = robot.imported.tree.clone();
     for (body, own) in tree.bodies.iter_mut().zip(&found.bodies) {
-        body.inertia = MassProperties {
-            mass: own.after.mass,
-            com: own.after.com,
-            inertia: own.after.inertia,
-        };
+        body.inertia =
+            MassProperties { mass: own.after.mass, com: own.after.com, inertia: own.after.inertia };
     }
     let arm = model::arm::<6>(&tree).expect("an arm");
     let of = |k: usize| std::array::from_fn(|j: usize| found.joints[j].after[k]);
@@ -73,15 +68,8 @@ fn torques(robot: &Robot, found: &Found, at: &State<f64, 6, 6>) -> [f64; 6] {
     };
     let width = Width::new(found.width);
     let (viscous, armature) = (Viscous(of(0)), Armature(of(2)));
-    let coulomb = Coulomb {
-        torque: of(1),
-        width,
-    };
-    let gears = LoadFriction {
-        driving: gears(0),
-        backdriving: gears(1),
-        width,
-    };
+    let coulomb = Coulomb { torque: of(1), width };
+    let gears = LoadFriction { driving: gears(0), backdriving: gears(1), width };
     rnea(&arm, at, &(RIGID_BODY, viscous, coulomb, armature, gears))
 }
 
@@ -92,11 +80,7 @@ fn errors(robot: &Robot, found: &Found) -> [[f64; 2]; 6] {
     let (mut errors, mut largest, mut count) = ([[0.0_f64; 2]; 6], [0.0_f64; 6], 0.0);
     for tick in (0..path.ticks()).step_by(9) {
         let State { q, qd, qdd } = path.at(tick);
-        let at = State {
-            q: q.map(f64::from),
-            qd: qd.map(f64::from),
-            qdd: qdd.map(f64::from),
-        };
+        let at = State { q: q.map(f64::from), qd: qd.map(f64::from), qdd: qdd.map(f64::from) };
         let truth = Core::<So101>::rnea(&at, &(RIGID_BODY, friction()));
         for (j, found) in torques(robot, found, &at).into_iter().enumerate() {
             let error = (found - truth[j]).abs();
@@ -105,12 +89,7 @@ fn errors(robot: &Robot, found: &Found) -> [[f64; 2]; 6] {
         }
         count += 1.0;
     }
-    std::array::from_fn(|j| {
-        [
-            (errors[j][0] / count).sqrt() / largest[j],
-            errors[j][1] / largest[j],
-        ]
-    })
+    std::array::from_fn(|j| [(errors[j][0] / count).sqrt() / largest[j], errors[j][1] / largest[j]])
 }
 
 #[test]

@@ -39,16 +39,9 @@ fn tick(arm: &mut Arm, last: &mut [f32; 6]) -> Mode {
         assert!(least || tau == 0.0, "{telemetry:?} after {last}");
         *last = tau;
     }
-    let numbers = [
-        telemetry.reference,
-        telemetry.estimate,
-        arm.rig.plant.state.q,
-        arm.rig.plant.state.qd,
-    ];
-    assert!(
-        numbers.iter().flatten().all(|x| x.is_finite()),
-        "{telemetry:?}"
-    );
+    let numbers =
+        [telemetry.reference, telemetry.estimate, arm.rig.plant.state.q, arm.rig.plant.state.qd];
+    assert!(numbers.iter().flatten().all(|x| x.is_finite()), "{telemetry:?}");
     let stopped = telemetry.status.mode == Mode::Stopped;
     assert!(!stopped || telemetry.torque == [0.0; 6] && arm.brake.0.0.get());
     telemetry.status.mode
@@ -56,9 +49,7 @@ fn tick(arm: &mut Arm, last: &mut [f32; 6]) -> Mode {
 
 #[test]
 fn random_failures_never_exceed_a_limit() {
-    let ticks = std::env::var("SOAK_TICKS")
-        .ok()
-        .and_then(|n| n.parse().ok());
+    let ticks = std::env::var("SOAK_TICKS").ok().and_then(|n| n.parse().ok());
     let (ticks, rng) = (ticks.unwrap_or(200_000_u64), &mut random_numbers());
     let (mut done, mut stops, mut held) = (0_u64, 0_u64, 0_u64);
     while done < ticks {

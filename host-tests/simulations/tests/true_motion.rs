@@ -28,10 +28,7 @@ fn lagrange() -> Vec<[[f64; 2]; 2]> {
         ]
     };
     let plus = |[q, qd]: [[f64; 2]; 2], [dq, dqd]: [[f64; 2]; 2], h: f64| {
-        [
-            [q[0] + h * dq[0], q[1] + h * dq[1]],
-            [qd[0] + h * dqd[0], qd[1] + h * dqd[1]],
-        ]
+        [[q[0] + h * dq[0], q[1] + h * dq[1]], [qd[0] + h * dqd[0], qd[1] + h * dqd[1]]]
     };
     let slope = |at: [[f64; 2]; 2]| [at[1], acceleration(at)];
     let mut at = DoublePendulum::START;
@@ -56,10 +53,7 @@ fn lagrange() -> Vec<[[f64; 2]; 2]> {
 #[test]
 fn true_motions_agree_with_lagrange_and_longer_steps() {
     fn apart<const N: usize>(a: &[[[f64; N]; 2]], b: &[[[f64; N]; 2]]) -> f64 {
-        let pairs = a
-            .iter()
-            .zip(b)
-            .flat_map(|(a, b)| a[0].into_iter().zip(b[0]));
+        let pairs = a.iter().zip(b).flat_map(|(a, b)| a[0].into_iter().zip(b[0]));
         largest(pairs.map(|(a, b)| (a - b).abs()))
     }
     fn coarser<T: PassiveMotion<N>, const N: usize>() -> f64 {
@@ -69,14 +63,8 @@ fn true_motions_agree_with_lagrange_and_longer_steps() {
     let pendulum = motion::true_motion::<DoublePendulum, _, 2>(&RIGID_BODY, motion::FINE);
     let errors = [
         ("true motion from Lagrange's", apart(&pendulum, &lagrange())),
-        (
-            "true motion of the pendulum at twice the step",
-            coarser::<DoublePendulum, 2>(),
-        ),
-        (
-            "true motion of the UR5e at twice the step",
-            coarser::<Ur5e, 6>(),
-        ),
+        ("true motion of the pendulum at twice the step", coarser::<DoublePendulum, 2>()),
+        ("true motion of the UR5e at twice the step", coarser::<Ur5e, 6>()),
     ];
     for (what, error) in errors {
         assert!(error <= 1e-9, "{what}: {error:.1e} rad");

@@ -52,31 +52,25 @@ impl<R: Real, const FLAGS: u32, const B: usize, const V: usize> Effect<R, B, V> 
     const ACCELERATIONS: bool = has(FLAGS, ACCELERATIONS);
     const VELOCITY_PRODUCTS: bool = has(FLAGS, VELOCITY_PRODUCTS);
     const ELASTICITY: bool = has(FLAGS, ELASTICITY);
-    const ONCE: Once = if has(FLAGS, ONCE) {
-        <Viscous<R, V> as Effect<R, B, V>>::ONCE
-    } else {
-        Once::NONE
-    };
-    const EXTERNAL_WRENCH: hook::Wrench<Self, R> = match (
-        has(FLAGS, WRENCH),
-        has(FLAGS, BODY_POSE),
-        has(FLAGS, BODY_VELOCITY),
-    ) {
-        (false, ..) => hook::Wrench::NONE,
-        (_, false, false) => hook::Wrench::constant(|_, body, fx| {
-            fx.lin += push::<R>(body);
-        }),
-        (_, true, false) => hook::Wrench::of_pose(|_, body, pose, fx| {
-            *fx += Force::new(pose.pos, push::<R>(body));
-        }),
-        (_, false, true) => hook::Wrench::of_velocity(|_, body, at, fx| {
-            *fx += Force::new(at.velocity.ang, push::<R>(body) - at.velocity.lin);
-        }),
-        (_, true, true) => hook::Wrench::of_state(|_, body, at, fx| {
-            let couple = at.pose.rot * at.velocity.ang + at.pose.pos;
-            *fx += Force::new(couple, push::<R>(body) - at.velocity.lin);
-        }),
-    };
+    const ONCE: Once =
+        if has(FLAGS, ONCE) { <Viscous<R, V> as Effect<R, B, V>>::ONCE } else { Once::NONE };
+    const EXTERNAL_WRENCH: hook::Wrench<Self, R> =
+        match (has(FLAGS, WRENCH), has(FLAGS, BODY_POSE), has(FLAGS, BODY_VELOCITY)) {
+            (false, ..) => hook::Wrench::NONE,
+            (_, false, false) => hook::Wrench::constant(|_, body, fx| {
+                fx.lin += push::<R>(body);
+            }),
+            (_, true, false) => hook::Wrench::of_pose(|_, body, pose, fx| {
+                *fx += Force::new(pose.pos, push::<R>(body));
+            }),
+            (_, false, true) => hook::Wrench::of_velocity(|_, body, at, fx| {
+                *fx += Force::new(at.velocity.ang, push::<R>(body) - at.velocity.lin);
+            }),
+            (_, true, true) => hook::Wrench::of_state(|_, body, at, fx| {
+                let couple = at.pose.rot * at.velocity.ang + at.pose.pos;
+                *fx += Force::new(couple, push::<R>(body) - at.velocity.lin);
+            }),
+        };
     const BASE: hook::Base<Self, R> = if has(FLAGS, BASE_MOTION) {
         hook::Base::moving(|_, velocity, acceleration| {
             *velocity += Motion::new(vec3::<R>(0.1, 0.4, -0.2), vec3::<R>(1.0, 0.5, -0.3));
@@ -190,10 +184,7 @@ fn idle<const FLAGS: u32>() {
 fn acting<const FLAGS: u32>() -> [f64; 3] {
     let tau = torques(&All::<FLAGS>);
     let mut more = tau.into_iter().zip(at_joints());
-    assert!(
-        more.any(|(tau, joint)| (tau - joint).abs() > 0.1),
-        "{tau:?}"
-    );
+    assert!(more.any(|(tau, joint)| (tau - joint).abs() > 0.1), "{tau:?}");
     tau
 }
 
@@ -203,18 +194,13 @@ fn absent_hooks_do_nothing() {
     idle::<ALONG_X>();
     let (none, robot) = (All::<{ ALONG_X }>, Static::<TwoHands>::NEW);
     assert_eq!(potential_energy(&robot, &MOVING.q, &none), 0.0);
-    let joints: f64 = (0..3)
-        .map(|i| (0.1 + i as f64) * MOVING.qd[i].powi(2) / 2.0)
-        .sum();
+    let joints: f64 = (0..3).map(|i| (0.1 + i as f64) * MOVING.qd[i].powi(2) / 2.0).sum();
     assert!(
         (kinetic_energy(&robot, &MOVING, &()) + joints - kinetic_energy(&robot, &MOVING, &none))
             .abs()
             < 1e-14
     );
-    assert_eq!(
-        momentum(&robot, &MOVING, &none),
-        momentum(&robot, &MOVING, &())
-    );
+    assert_eq!(momentum(&robot, &MOVING, &none), momentum(&robot, &MOVING, &()));
     let base = kinematics(&robot, &MOVING, &none);
     let rest = kinematics(&robot, &MOVING, &());
     assert_eq!(base.velocities, rest.velocities);
@@ -288,12 +274,7 @@ fn declarations(hooks: &str) -> Vec<f64> {
 
 /// The constants of a scene and the contributions of its hooks, in numbers.
 fn observed<R: Real, E: Effect<R, 6, 3> + Debug>(scene: &E) -> Vec<f64> {
-    let flags = [
-        E::ACCELERATIONS,
-        E::VELOCITY_PRODUCTS,
-        E::ELASTICITY,
-        E::ONCE != Once::NONE,
-    ];
+    let flags = [E::ACCELERATIONS, E::VELOCITY_PRODUCTS, E::ELASTICITY, E::ONCE != Once::NONE];
     let mut numbers = flags.map(|flag| f64::from(u8::from(flag))).to_vec();
     let hooks = [
         format!("{:?}", E::GRAVITY_FIELD),
@@ -326,11 +307,7 @@ fn added<R: Real, E: Effect<R, 6, 3>>(scene: &E) -> Vec<R> {
     at.pose.pos = vec3::<R>(0.3, 0.4, 0.5);
     at.velocity = Motion::new(vec3::<R>(0.1, 0.2, 0.3), vec3::<R>(0.4, 0.5, 0.6));
     hook::add_wrench(scene, 2, &at, &mut fx);
-    numbers.extend(
-        [v.ang, v.lin, a.ang, a.lin, fx.ang, fx.lin]
-            .map(Vector::array)
-            .as_flattened(),
-    );
+    numbers.extend([v.ang, v.lin, a.ang, a.lin, fx.ang, fx.lin].map(Vector::array).as_flattened());
     let at = JointState::new(of(0.3), of(-0.7));
     let (mut tau, mut derivatives) = (R::ZERO, TorqueDerivatives::default());
     let mut coupling = R::ZERO;
@@ -344,12 +321,7 @@ fn added<R: Real, E: Effect<R, 6, 3>>(scene: &E) -> Vec<R> {
         numbers.extend([magnitude, torque]);
     }
     LOADED.set(0);
-    call_hook!(
-        E::REGROUPED.load,
-        scene,
-        1,
-        &mut RegroupedInertia::default()
-    );
+    call_hook!(E::REGROUPED.load, scene, 1, &mut RegroupedInertia::default());
     numbers.push(of(LOADED.get() as f64));
     let inertia = scene.inertia(1).unwrap_or(R::ZERO);
     numbers.extend([tau, derivatives.dq, derivatives.dqd, inertia, coupling]);
@@ -403,15 +375,9 @@ fn every_forwarder_forwards_every_hook() {
 
 #[test]
 fn a_forwarder_that_is_off_forwards_nothing() {
-    assert_eq!(
-        observed::<f32, _>(&Toggle::<false>(EVERY)),
-        observed::<f32, _>(&())
-    );
+    assert_eq!(observed::<f32, _>(&Toggle::<false>(EVERY)), observed::<f32, _>(&()));
     assert_eq!(advanced(&mut Toggle::<false>(EVERY)), 0.0);
-    assert_eq!(
-        observed::<f32, _>(&Without::<_, 1>(((), EVERY))),
-        observed::<f32, _>(&())
-    );
+    assert_eq!(observed::<f32, _>(&Without::<_, 1>(((), EVERY))), observed::<f32, _>(&()));
 }
 
 #[test]
@@ -453,18 +419,13 @@ fn declared(source: &str) -> Vec<&str> {
 #[test]
 fn every_added_hook_is_forwarded_and_tested() {
     let effects = include_str!("../../../dynamics-core/src/effects/mod.rs");
-    let (_, the_trait) = effects
-        .split_once("pub trait Effect<")
-        .expect("the trait is there");
+    let (_, the_trait) = effects.split_once("pub trait Effect<").expect("the trait is there");
     let (the_trait, _) = the_trait.split_once("\n}\n").expect("its end");
     let all = declared(the_trait);
     assert!(all.len() >= 11, "{all:?}");
     let missing = |source: &str| -> Vec<&str> {
         let found = declared(source);
-        all.iter()
-            .copied()
-            .filter(|name| !found.contains(name))
-            .collect()
+        all.iter().copied().filter(|name| !found.contains(name)).collect()
     };
     let none: [&str; 0] = [];
     let forwarding = include_str!("../../../dynamics-core/src/effects/delegate.rs");

@@ -55,11 +55,8 @@ impl Robot<6, 3, 3> for TwoHands {
     );
 }
 
-const MOVING: State<f64, 3, 3> = State {
-    q: [0.3, -0.8, 0.2],
-    qd: [1.2, -0.7, 0.5],
-    qdd: [3.0, 2.0, -4.0],
-};
+const MOVING: State<f64, 3, 3> =
+    State { q: [0.3, -0.8, 0.2], qd: [1.2, -0.7, 0.5], qdd: [3.0, 2.0, -4.0] };
 
 /// The largest difference, relative to the largest number that is wanted.
 #[track_caller]

@@ -52,10 +52,7 @@ fn acts_as<E: Effect<f64, 6, 3>>(scene: &E, loads: &[(usize, SpatialInertia<f64>
 #[test]
 fn each_hand_carries_its_own_payload() {
     let (cup, plate) = (cup::<LEFT>(), plate::<RIGHT>());
-    acts_as(
-        &(RIGID_BODY, cup, plate),
-        &[(LEFT, cup.0), (RIGHT, plate.0)],
-    );
+    acts_as(&(RIGID_BODY, cup, plate), &[(LEFT, cup.0), (RIGHT, plate.0)]);
     let empty = Core::<TwoHands>::rnea(&MOVING, &RIGID_BODY);
     let laden = Core::<TwoHands>::rnea(&MOVING, &(RIGID_BODY, cup));
     assert!((laden[1] - empty[1]).abs() > 1.0);
@@ -87,13 +84,11 @@ fn payloads_of_the_same_body_add_up() {
 struct Ice(SpatialInertia<f64>);
 
 impl<const V: usize> Effect<f64, 6, V> for Ice {
-    const ADDED_INERTIA: hook::Inertia<Self, f64, 6> = hook::Inertia::on(
-        [true, true, false, true, false, false],
-        |ice, body, inertia| {
+    const ADDED_INERTIA: hook::Inertia<Self, f64, 6> =
+        hook::Inertia::on([true, true, false, true, false, false], |ice, body, inertia| {
             *inertia = *inertia + ice.0;
             inertia.mass += body as f64;
-        },
-    );
+        });
 }
 
 #[test]
@@ -112,10 +107,7 @@ fn jacobian<const BODY: usize>() {
     let engine = Engine::<TwoHands>::jacobian(&MOVING.q, OnBody::<BODY>, frame::LocalWorldAligned);
     let core = Core::<TwoHands>::jacobian(&MOVING.q, BODY, frame::LocalWorldAligned);
     let flat = |j: [dynamics_core::spatial::Motion<f64>; 3]| {
-        j.map(|s| [s.ang.to_array(), s.lin.to_array()])
-            .as_flattened()
-            .as_flattened()
-            .to_vec()
+        j.map(|s| [s.ang.to_array(), s.lin.to_array()]).as_flattened().as_flattened().to_vec()
     };
     close(&flat(engine), &flat(core), 4e-15);
 }

@@ -27,11 +27,7 @@ use super::{Aslant, payload};
 type Quantities = Vec<(&'static str, Vec<f64>)>;
 
 fn pair<R: Real>(ang: R::Vec3, lin: R::Vec3) -> Vec<f64> {
-    [ang.array(), lin.array()]
-        .as_flattened()
-        .iter()
-        .map(|x| x.to_f64())
-        .collect()
+    [ang.array(), lin.array()].as_flattened().iter().map(|x| x.to_f64()).collect()
 }
 
 fn motions<R: Real>(all: &[Motion<R>]) -> Vec<f64> {
@@ -71,15 +67,9 @@ where
         assert_eq!(ends.velocities[i], all.velocities[body]);
         assert_eq!(ends.accelerations[i], all.accelerations[body]);
     }
-    assert_eq!(
-        Engine::<T>::poses_of(&state.q, OnBody::<TIP>),
-        [all.poses[TIP]]
-    );
+    assert_eq!(Engine::<T>::poses_of(&state.q, OnBody::<TIP>), [all.poses[TIP]]);
     let centre = Engine::<T>::center_of_mass(state, scene);
-    let h = [
-        Engine::<T>::momentum(state, scene),
-        Engine::<T>::centroidal_momentum(state, scene),
-    ];
+    let h = [Engine::<T>::momentum(state, scene), Engine::<T>::centroidal_momentum(state, scene)];
     let matrix = Engine::<T>::centroidal_matrix(&state.q, scene);
     let mut found = of_frames(
         |j| match j {
@@ -100,32 +90,15 @@ where
     };
     found.extend([0, 1].map(|j| (MOBILITIES[j], triangle(mobility(j)))));
     found.extend([
-        (
-            "kinetic energy",
-            vec![Engine::<T>::kinetic_energy(state, scene).to_f64()],
-        ),
-        (
-            "potential energy",
-            vec![Engine::<T>::potential_energy(&state.q, scene).to_f64()],
-        ),
-        (
-            "centre of mass",
-            pair::<R>(centre.position, centre.velocity),
-        ),
+        ("kinetic energy", vec![Engine::<T>::kinetic_energy(state, scene).to_f64()]),
+        ("potential energy", vec![Engine::<T>::potential_energy(&state.q, scene).to_f64()]),
+        ("centre of mass", pair::<R>(centre.position, centre.velocity)),
         ("mass", vec![centre.mass.to_f64()]),
         ("momentum", pair::<R>(h[0].ang, h[0].lin)),
         ("centroidal momentum", pair::<R>(h[1].ang, h[1].lin)),
-        (
-            "centroidal matrix",
-            matrix
-                .iter()
-                .flat_map(|h| pair::<R>(h.ang, h.lin))
-                .collect(),
-        ),
+        ("centroidal matrix", matrix.iter().flat_map(|h| pair::<R>(h.ang, h.lin)).collect()),
     ]);
-    found.extend(parameters(&regressor::<R, T, E, B, Q, V, TIP>(
-        state, scene,
-    )));
+    found.extend(parameters(&regressor::<R, T, E, B, Q, V, TIP>(state, scene)));
     found
 }
 
@@ -173,20 +146,11 @@ const PARAMETERS: [&str; 10] = [
 
 /// The entries of each parameter, which differ in their units.
 fn parameters<R: Real, const B: usize, const V: usize>(y: &[[[R; 10]; B]; V]) -> Quantities {
-    let of = |k: usize| {
-        y.as_flattened()
-            .iter()
-            .map(|body| body[k].to_f64())
-            .collect()
-    };
+    let of = |k: usize| y.as_flattened().iter().map(|body| body[k].to_f64()).collect();
     (0..10).map(|k| (PARAMETERS[k], of(k))).collect()
 }
 
-const JACOBIANS: [&str; 3] = [
-    "jacobian in the body",
-    "jacobian in the world",
-    "jacobian, mixed",
-];
+const JACOBIANS: [&str; 3] = ["jacobian in the body", "jacobian in the world", "jacobian, mixed"];
 const DRIFTS: [&str; 3] = ["drift in the body", "drift in the world", "drift, mixed"];
 
 const MOBILITIES: [&str; 2] = ["mobility", "mobility in the world"];
@@ -198,8 +162,7 @@ fn triangle<R: Real>(mobility: Result<OsimInverse<R>, NotPositiveDefinite>) -> V
     let [u, v, w] = axes.map(|axis| Force::new(R::Vec3::ZERO, axis));
     let rows = mobility.expect("M is positive").along(&[x, y, z, u, v, w]);
     let rows = rows.iter().enumerate();
-    rows.flat_map(|(i, row)| row[i..].iter().map(|x| x.to_f64()))
-        .collect()
+    rows.flat_map(|(i, row)| row[i..].iter().map(|x| x.to_f64())).collect()
 }
 
 fn of_frames<R: Real, const N: usize>(
@@ -237,10 +200,7 @@ where
         tip: usize,
         frame: F,
     ) -> ([Motion<f64>; V], Motion<f64>) {
-        (
-            Core::<T>::jacobian(&state.q, tip, frame),
-            Core::<T>::bias_acceleration(state, tip, frame),
-        )
+        (Core::<T>::jacobian(&state.q, tip, frame), Core::<T>::bias_acceleration(state, tip, frame))
     }
     let robot = &Static::<T>::NEW;
     let frames = [
@@ -249,10 +209,7 @@ where
         both::<_, T, B, Q, V>(state, tip, LocalWorldAligned),
     ];
     let centre = center_of_mass(robot, state, scene);
-    let h = [
-        momentum(robot, state, scene),
-        centroidal_momentum(robot, state, scene),
-    ];
+    let h = [momentum(robot, state, scene), centroidal_momentum(robot, state, scene)];
     let matrix = centroidal_matrix(robot, &state.q, scene);
     let flat = |ang, lin| pair::<f64>(ang, lin);
     let mut found = of_frames(|j| frames[j].0, |j| frames[j].1);
@@ -261,22 +218,13 @@ where
     let mobility = Core::<T>::osim_inverse(&state.q, tip, World, scene);
     found.push((MOBILITIES[1], triangle(mobility)));
     found.extend([
-        (
-            "kinetic energy",
-            vec![Core::<T>::kinetic_energy(state, scene)],
-        ),
-        (
-            "potential energy",
-            vec![Core::<T>::potential_energy(&state.q, scene)],
-        ),
+        ("kinetic energy", vec![Core::<T>::kinetic_energy(state, scene)]),
+        ("potential energy", vec![Core::<T>::potential_energy(&state.q, scene)]),
         ("centre of mass", flat(centre.position, centre.velocity)),
         ("mass", vec![centre.mass]),
         ("momentum", flat(h[0].ang, h[0].lin)),
         ("centroidal momentum", flat(h[1].ang, h[1].lin)),
-        (
-            "centroidal matrix",
-            matrix.iter().flat_map(|h| flat(h.ang, h.lin)).collect(),
-        ),
+        ("centroidal matrix", matrix.iter().flat_map(|h| flat(h.ang, h.lin)).collect()),
     ]);
     found
 }
@@ -288,10 +236,7 @@ struct Errors(BTreeMap<&'static str, [f64; 2]>);
 impl Errors {
     fn see(&mut self, got: &Quantities, want: &Quantities) {
         for (name, want) in want {
-            let (_, got) = got
-                .iter()
-                .find(|(found, _)| found == name)
-                .expect("computed");
+            let (_, got) = got.iter().find(|(found, _)| found == name).expect("computed");
             let [scale, error] = self.0.entry(name).or_default();
             for (got, want) in got.iter().zip(want) {
                 *scale = scale.max(want.abs());
@@ -354,11 +299,8 @@ where
     let (r, mut errors) = (load(T::MODEL.name), Errors::default());
     for i in 0..r.first_states() {
         let cast = |rows| row::<V>(rows, i).map(R::from_f64);
-        let state = State {
-            q: row::<Q>(&r.q, i).map(R::from_f64),
-            qd: cast(&r.qd),
-            qdd: cast(&r.qdd),
-        };
+        let state =
+            State { q: row::<Q>(&r.q, i).map(R::from_f64), qd: cast(&r.qd), qdd: cast(&r.qdd) };
         let found = of_engine::<R, T, _, B, Q, V, TIP>(&state, &RIGID_BODY);
         errors.see(&found, &recorded(&r, i));
     }
@@ -406,10 +348,7 @@ fn odd_tree<R: Real>() {
         let scene = (field, Inertia, ship::<R>(), rotors, payload::<R, 10>());
         let found = of_engine::<R, StressRobot, _, 11, 7, 7, 8>(&state, &scene);
         let scene = (field, Inertia, ship::<f64>(), ROTORS, payload::<f64, 10>());
-        errors.see(
-            &found,
-            &of_core::<StressRobot, _, 11, 7, 7>(&exact, &scene, 8),
-        );
+        errors.see(&found, &of_core::<StressRobot, _, 11, 7, 7>(&exact, &scene, 8));
     }
     errors.judge::<R>("odd");
 }

@@ -36,11 +36,7 @@ where
     let mut worst = <[Ulps; 3]>::default();
     for _ in 0..2_000 {
         let reference = ElasticReference {
-            state: State {
-                q: random(std::f64::consts::PI),
-                qd: random(3.0),
-                qdd: random(10.0),
-            },
+            state: State { q: random(std::f64::consts::PI), qd: random(3.0), qdd: random(10.0) },
             jerk: random(50.0),
             snap: random(300.0),
         };
@@ -51,11 +47,8 @@ where
         worst[2].see(core.velocity, engine.velocity);
     }
     let [torque, angle, rate] = worst;
-    let ulps = [
-        torque.of::<R>("motor torque"),
-        angle.of::<R>("motor angle"),
-        rate.of::<R>("motor rate"),
-    ];
+    let ulps =
+        [torque.of::<R>("motor torque"), angle.of::<R>("motor angle"), rate.of::<R>("motor rate")];
     assert!(ulps.iter().all(|&ulps| ulps <= ULPS), "{ulps:?} ulp");
 }
 

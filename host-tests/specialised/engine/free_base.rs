@@ -103,10 +103,7 @@ fn joints_of_a_free_base_accelerate_as_by_hybrid_dynamics() {
         // No wrench acts on the hull, and the joints have the prescribed accelerations.
         assert_eq!(got.tau[..6], [0.0; 6]);
         assert_eq!(got.qdd[6..], state.qdd[6..]);
-        let whole = State {
-            qdd: got.qdd,
-            ..state
-        };
+        let whole = State { qdd: got.qdd, ..state };
         let tau = Core::<Hull>::rnea(&whole, &scene);
         agree(&got.tau, &tau, "inverse dynamics of all");
     }

@@ -42,22 +42,9 @@ fn every_effect<R: Real, const B: usize, const V: usize>()
         body: 12,
         wrench: Force::new(vector([1.0, 2.0, -3.0]), vector([5.0, -4.0, 2.0])),
     };
-    let spring = Spring {
-        stiffness: rising(1.0),
-        rest: rising(0.1),
-    };
+    let spring = Spring { stiffness: rising(1.0), rest: rising(0.1) };
     let (viscous, rotors) = (Viscous(rising(0.3)), Armature(rising(0.1)));
-    (
-        RIGID_BODY,
-        carried,
-        viscous,
-        spring,
-        rotors,
-        Push,
-        Drag,
-        wind,
-        payload::<R, 6>(),
-    )
+    (RIGID_BODY, carried, viscous, spring, rotors, Push, Drag, wind, payload::<R, 6>())
 }
 
 /// Inverse dynamics against Pinocchio.
@@ -84,10 +71,7 @@ where
     let scene = every_effect::<R, B, V>();
     for i in 0..STATES {
         let state = state::<R, Q, V>(&r, i);
-        let (engine, core) = (
-            Engine::<T>::rnea(&state, &scene),
-            Core::<T>::rnea(&state, &scene),
-        );
+        let (engine, core) = (Engine::<T>::rnea(&state, &scene), Core::<T>::rnea(&state, &scene));
         see(&mut errors, "engine and core", &engine, &core);
     }
     errors.check();
@@ -138,30 +122,20 @@ mod full {
         let scene = every_effect::<f64, B, V>();
         let mut calibrated = Calibrated::<T, f64, B, Q, V>::nominal();
         for inertia in calibrated.inertias() {
-            let more = [
-                0.2, 0.03, -0.02, 0.01, 0.05, 0.004, 0.06, -0.003, 0.002, 0.07,
-            ];
+            let more = [0.2, 0.03, -0.02, 0.01, 0.05, 0.004, 0.06, -0.003, 0.002, 0.07];
             *inertia = *inertia + SpatialInertia::from_parameters(more);
         }
         let set = Engine::<T>::base_parameters(&calibrated, &()).expect("finite");
         for i in 0..STATES {
             let (state, tau) = (state::<f64, Q, V>(&r, i), row::<V>(&r.tau, i));
-            let (a, b) = (
-                Engine::<T>::crba(&state.q, &scene),
-                Core::<T>::crba(&state.q, &scene),
-            );
+            let (a, b) = (Engine::<T>::crba(&state.q, &scene), Core::<T>::crba(&state.q, &scene));
             for k in 0..V {
                 let row = |m: &MassMatrix<f64, V>| std::array::from_fn::<_, V, _>(|l| m.get(k, l));
                 see(&mut errors, "engine and core, M", &row(&a), &row(&b));
             }
             let want = Core::<T>::aba(&state, &tau, &scene).expect("M is positive");
             let qdd = Engine::<T>::forward_dynamics(&state, &tau, &scene);
-            see(
-                &mut errors,
-                "engine and core, q̈ by M",
-                &qdd.expect("M is positive"),
-                &want,
-            );
+            see(&mut errors, "engine and core, q̈ by M", &qdd.expect("M is positive"), &want);
             let qdd = Engine::<T>::aba(&state, &tau, &scene).expect("M is positive");
             see(&mut errors, "engine and core, q̈", &qdd, &want);
             let (a, b) = (
@@ -174,12 +148,7 @@ mod full {
             let b = algorithms::jacobian(&T::MODEL, &state.q, 16, LocalWorldAligned);
             for (a, b) in a.iter().zip(b) {
                 for (a, b) in [(a.ang, b.ang), (a.lin, b.lin)] {
-                    see(
-                        &mut errors,
-                        "engine and core, J",
-                        &a.to_array(),
-                        &b.to_array(),
-                    );
+                    see(&mut errors, "engine and core, J", &a.to_array(), &b.to_array());
                 }
             }
             let tau = Engine::<T>::rnea(&state, &(RIGID_BODY, &set));

@@ -22,18 +22,7 @@ fn calibrated<T: Robot<B, N, N>, const B: usize, const N: usize>() -> Calibrated
     let mut arm = Calibrated::<T, f64, B, N, N>::nominal();
     for (i, inertia) in arm.inertias().enumerate() {
         let k = 1.0 + 0.1 * i as f64;
-        let more = [
-            0.2,
-            0.03 * k,
-            -0.02,
-            0.01 * k,
-            0.05,
-            0.004,
-            0.06 * k,
-            -0.003,
-            0.002,
-            0.07,
-        ];
+        let more = [0.2, 0.03 * k, -0.02, 0.01 * k, 0.05, 0.004, 0.06 * k, -0.003, 0.002, 0.07];
         *inertia = *inertia + SpatialInertia::from_parameters(more);
     }
     arm
@@ -57,39 +46,22 @@ where
         |bound: f64| -> [f64; N] { core::array::from_fn(|_| rng.random_range(-bound..bound)) };
     let (mut worst, mut sizes) = ([0.0_f64; 6], [0.0_f64; 6]);
     for _ in 0..200 {
-        let state = State {
-            q: random(3.0),
-            qd: random(3.0),
-            qdd: random(10.0),
-        };
+        let state = State { q: random(3.0), qd: random(3.0), qdd: random(10.0) };
         let still = State::at(state.q);
         let h = (
             momentum_and_coriolis(&arm, &state, scene),
             Engine::<T>::momentum_and_coriolis(&state, &loaded),
         );
-        let m = [
-            crba(&arm, &state.q, scene),
-            Engine::<T>::crba(&state.q, &loaded),
-        ];
-        let m = m.map(|m| {
-            (0..N * N)
-                .map(|k| m.get(k / N, k % N))
-                .collect::<Vec<f64>>()
-        });
-        let tau = (
-            rnea(&arm, &state, scene),
-            Engine::<T>::rnea(&state, &loaded),
-        );
+        let m = [crba(&arm, &state.q, scene), Engine::<T>::crba(&state.q, &loaded)];
+        let m = m.map(|m| (0..N * N).map(|k| m.get(k / N, k % N)).collect::<Vec<f64>>());
+        let tau = (rnea(&arm, &state, scene), Engine::<T>::rnea(&state, &loaded));
         let qdd = (
             aba(&arm, &state, &tau.0, scene).expect("M is positive definite"),
             Engine::<T>::aba(&state, &tau.0, &loaded).expect("M is positive definite"),
         );
         let pairs = [
             (tau.0.to_vec(), tau.1.to_vec()),
-            (
-                rnea(&arm, &still, scene).to_vec(),
-                Engine::<T>::rnea(&still, &loaded).to_vec(),
-            ),
+            (rnea(&arm, &still, scene).to_vec(), Engine::<T>::rnea(&still, &loaded).to_vec()),
             (m[0].clone(), m[1].clone()),
             (qdd.0.to_vec(), qdd.1.to_vec()),
             (h.0.p.to_vec(), h.1.p.to_vec()),
@@ -142,21 +114,14 @@ fn a_payload_in_the_set_is_one_in_the_scene() {
     let arm = calibrated::<StressRobot, 11, 7>();
     let load: Payload<f64, 10> = payload();
     let set = Engine::<StressRobot>::base_parameters(&arm, &load).expect("finite inertias");
-    let state = State {
-        q: [0.3; 7],
-        qd: [0.5; 7],
-        qdd: [1.0; 7],
-    };
+    let state = State { q: [0.3; 7], qd: [0.5; 7], qdd: [1.0; 7] };
     let a = Engine::<StressRobot>::rnea(&state, &(RIGID_BODY, &set));
     let b = Engine::<StressRobot>::rnea(&state, &(RIGID_BODY, loaded(&arm), load));
     let empty = Engine::<StressRobot>::rnea(&state, &(RIGID_BODY, loaded(&arm)));
     let apart = |a: [f64; 7], b: [f64; 7]| largest(a.iter().zip(b).map(|(a, b)| (a - b).abs()));
     let (same, less) = (apart(a, b), apart(a, empty));
     let full_scale = largest(a.map(f64::abs));
-    assert!(
-        same < BOUND * full_scale && less > 0.01 * full_scale,
-        "{same} {less}"
-    );
+    assert!(same < BOUND * full_scale && less > 0.01 * full_scale, "{same} {less}");
 }
 
 #[test]

@@ -29,11 +29,7 @@ impl Random {
     }
 
     pub(super) fn state<R: Real, const N: usize>(&mut self) -> State<R, N, N> {
-        State {
-            q: self.array(3.0),
-            qd: self.array(3.0),
-            qdd: self.array(10.0),
-        }
+        State { q: self.array(3.0), qd: self.array(3.0), qdd: self.array(10.0) }
     }
 }
 
@@ -114,13 +110,7 @@ fn inverted<R: Real, T, E, const B: usize, const N: usize>(
 #[test]
 fn forward_dynamics_inverts_rnea_on_an_odd_tree() {
     let quantity = "engine forward of rnea";
-    let scene = (
-        Gravity::EARTH,
-        Inertia,
-        Coriolis,
-        ROTORS,
-        payload::<_, 10>(),
-    );
+    let scene = (Gravity::EARTH, Inertia, Coriolis, ROTORS, payload::<_, 10>());
     inverted::<f64, StressRobot, _, 11, 7>(&scene, quantity, |state, tau, scene| {
         Engine::<StressRobot>::forward_dynamics(state, tau, scene)
     });
@@ -228,9 +218,7 @@ impl Robot<3, 3, 3> for Massless {
         "massless",
         [
             Body::new("rail", BASE, Joint::prismatic([1.0, 0.0, 0.0])).mass(2.0),
-            Body::new("arm", 0, Joint::revolute([0.0, 0.0, 1.0]))
-                .mass(1.0)
-                .com([0.3, 0.0, 0.0]),
+            Body::new("arm", 0, Joint::revolute([0.0, 0.0, 1.0])).mass(1.0).com([0.3, 0.0, 0.0]),
             Body::new("tip", 1, Joint::revolute([0.0, 1.0, 0.0])).xyz([0.5, 0.0, 0.0]),
         ],
     );
@@ -241,19 +229,9 @@ fn a_joint_that_moves_no_inertia_is_named() {
     let (state, tau) = (State::at([0.1, 0.2, 0.3]), [1.0; 3]);
     let error = |qdd: Result<[f64; 3], _>| qdd.expect_err("a massless tip");
     // The arm's own joint moves what the tip does not: a point on its axis would be no inertia.
-    let forward = error(Engine::<Massless>::forward_dynamics(
-        &state,
-        &tau,
-        &RIGID_BODY,
-    ));
-    assert_eq!(
-        forward,
-        error(Engine::<Massless>::aba(&state, &tau, &RIGID_BODY))
-    );
-    assert_eq!(
-        forward,
-        error(Core::<Massless>::aba(&state, &tau, &RIGID_BODY))
-    );
+    let forward = error(Engine::<Massless>::forward_dynamics(&state, &tau, &RIGID_BODY));
+    assert_eq!(forward, error(Engine::<Massless>::aba(&state, &tau, &RIGID_BODY)));
+    assert_eq!(forward, error(Core::<Massless>::aba(&state, &tau, &RIGID_BODY)));
     assert_eq!(forward.joint, 2);
     let m = Engine::<Massless>::crba(&state.q, &RIGID_BODY);
     assert_eq!(Engine::<Massless>::ltdl(&m).map(|_| ()), Err(forward));

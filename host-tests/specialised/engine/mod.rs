@@ -34,10 +34,7 @@ impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Push {
     const EXTERNAL_WRENCH: hook::Wrench<Self, R> = hook::Wrench::constant(|_, body, fx| {
         if matches!(body, 0 | 1 | 3 | 6 | 8) {
             let k = R::from_f64(2.0 + body as f64);
-            *fx += Force::new(
-                R::Vec3::new(k, -k, R::ONE),
-                R::Vec3::new(R::ONE, k, k + R::ONE),
-            );
+            *fx += Force::new(R::Vec3::new(k, -k, R::ONE), R::Vec3::new(R::ONE, k, k + R::ONE));
         }
     });
 }
@@ -78,11 +75,7 @@ where
     for i in 0..=states {
         let mut state = State::at([R::ZERO; N]);
         if i > 0 {
-            state = State {
-                q: random(std::f64::consts::PI),
-                qd: random(3.0),
-                qdd: random(10.0),
-            };
+            state = State { q: random(std::f64::consts::PI), qd: random(3.0), qdd: random(10.0) };
         }
         let core = Core::<T>::rnea(&state, scene);
         let engine = Engine::<T>::rnea(&state, scene);
@@ -202,11 +195,7 @@ fn a_payload_is_inertia_of_its_body() {
     let scene = (Gravity::EARTH, Inertia, Coriolis, payload::<f64, 6>());
     for _ in 0..100 {
         let mut random = |bound: f64| [0.0; 7].map(|_: f64| rng.random_range(-bound..bound));
-        let state = State {
-            q: random(3.0),
-            qd: random(3.0),
-            qdd: random(10.0),
-        };
+        let state = State { q: random(3.0), qd: random(3.0), qdd: random(10.0) };
         let want = rnea(&loaded, &state, &RIGID_BODY);
         let core = Core::<Panda>::rnea(&state, &scene);
         let engine = Engine::<Panda>::rnea(&state, &scene);
@@ -227,19 +216,12 @@ fn an_effect_of_velocities_adds_no_coriolis_torque() {
     let ulps = compare::<f32, StressRobot, _, 11, 7>(&scene, 10_000);
     assert!(ulps <= ULPS, "{ulps:.2} ulp");
     // The core itself: what drag adds does not depend on what else is there.
-    let state = State {
-        q: [0.3; 7],
-        qd: [1.0, -2.0, 3.0, 1.5, -1.0, 2.0, 0.5],
-        qdd: [0.0; 7],
-    };
+    let state = State { q: [0.3; 7], qd: [1.0, -2.0, 3.0, 1.5, -1.0, 2.0, 0.5], qdd: [0.0; 7] };
     let drag = Core::<StressRobot>::rnea(&state, &(Drag,));
     let with = Core::<StressRobot>::rnea(&state, &(Coriolis, Drag));
     let without = Core::<StressRobot>::rnea(&state, &(Coriolis,));
     for ((drag, with), without) in drag.iter().zip(with).zip(without) {
-        assert!(
-            (with - without - drag).abs() < 1e-12,
-            "{with} {without} {drag}"
-        );
+        assert!((with - without - drag).abs() < 1e-12, "{with} {without} {drag}");
     }
 }
 

@@ -28,10 +28,7 @@ where
     let mut worst = <[Ulps; 3]>::default();
     for _ in 0..2_000 {
         let qd = random(3.0);
-        let state = State {
-            qd,
-            ..State::at(random(std::f64::consts::PI))
-        };
+        let state = State { qd, ..State::at(random(std::f64::consts::PI)) };
         let core = Core::<T>::momentum_and_coriolis(&state, scene);
         let engine = Engine::<T>::momentum_and_coriolis(&state, scene);
         worst[0].see(core.p, engine.p);
@@ -42,11 +39,7 @@ where
         worst[2].see(core.beta, drift.beta);
     }
     let [p, ct_qd, beta] = worst;
-    let ulps = [
-        p.of::<R>("M qd"),
-        ct_qd.of::<R>("C^T qd"),
-        beta.of::<R>("drift"),
-    ];
+    let ulps = [p.of::<R>("M qd"), ct_qd.of::<R>("C^T qd"), beta.of::<R>("drift")];
     assert!(ulps.iter().all(|&ulps| ulps <= ULPS), "{ulps:?} ulp");
 }
 
@@ -65,15 +58,8 @@ fn odd_tree<R: Real>() {
     let width = Width::new(R::from_f64(0.5));
     let friction = (
         Viscous([0.7, 0.3, 0.9, 0.2, 0.4, 0.1, 0.6].map(R::from_f64)),
-        Coulomb {
-            torque: [0.5, 0.2, 0.8, 0.1, 0.3, 0.4, 0.7].map(R::from_f64),
-            width,
-        },
-        LoadFriction {
-            driving: [R::from_f64(0.2); 7],
-            backdriving: [R::from_f64(0.1); 7],
-            width,
-        },
+        Coulomb { torque: [0.5, 0.2, 0.8, 0.1, 0.3, 0.4, 0.7].map(R::from_f64), width },
+        LoadFriction { driving: [R::from_f64(0.2); 7], backdriving: [R::from_f64(0.1); 7], width },
     );
     let aslant = Gravity::<Aslant>::new(9.81);
     agree::<R, StressRobot, _, 11, 7>(&(aslant, rotors, load, friction, Push, Drag));

@@ -30,11 +30,7 @@ fn worst<R: Real, const N: usize>(
 
 fn state<R: Real, const N: usize>(recording: &Recording, i: usize) -> State<R, N, N> {
     let cast = |rows| row::<N>(rows, i).map(R::from_f64);
-    State {
-        q: cast(&recording.q),
-        qd: cast(&recording.qd),
-        qdd: cast(&recording.qdd),
-    }
+    State { q: cast(&recording.q), qd: cast(&recording.qd), qdd: cast(&recording.qdd) }
 }
 
 fn check<R>(robot: &str, quantity: &str, error: f64) {
@@ -51,9 +47,8 @@ fn inverse<R: Real, T, E, const B: usize, const N: usize>(
     T: Robot<B, N, N>,
     E: Effect<R, B, N>,
 {
-    let error = worst(rows, full_scale, |i| {
-        Engine::<T>::rnea(&state::<R, N>(recording, i), effects)
-    });
+    let error =
+        worst(rows, full_scale, |i| Engine::<T>::rnea(&state::<R, N>(recording, i), effects));
     check::<R>(T::MODEL.name, quantity, error);
 }
 

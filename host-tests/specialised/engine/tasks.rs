@@ -40,10 +40,7 @@ fn operational_spaces_are_those_of_the_core() {
     type Odd = StressRobot;
     let (mut random, mut worst, mut regular) = (Random::new(), 0.0, 0);
     let place = DVec3::AXES.map(|axis| Force::new(DVec3::ZERO, axis));
-    let (damping, scene) = (
-        Damping::relative(1e-4),
-        (RIGID_BODY, ROTORS, payload::<f64, 10>()),
-    );
+    let (damping, scene) = (Damping::relative(1e-4), (RIGID_BODY, ROTORS, payload::<f64, 10>()));
     for _ in 0..100 {
         let q = random.array::<f64, 7>(3.0);
         let tip = (OnBody::<8>, LocalWorldAligned);
@@ -65,10 +62,7 @@ fn operational_spaces_are_those_of_the_core() {
         let factors = Core::<Odd>::ltdl(&m).expect("M is positive");
         let want = OperationalSpace::new(rows, |tau| Core::<Odd>::solve(&factors, tau), damping);
         let found = found.expect("M is positive");
-        worst = largest([
-            worst,
-            difference(&numbers(&found)[2].clone(), &numbers(&want)[2]),
-        ]);
+        worst = largest([worst, difference(&numbers(&found)[2].clone(), &numbers(&want)[2])]);
     }
     assert!(regular > 90);
     check("odd", "engine operational space", "f64", worst);
@@ -79,18 +73,8 @@ fn operational_spaces_are_those_of_the_core() {
 fn hybrid_dynamics_are_those_of_the_core() {
     let (mut random, mut worst) = (Random::new(), 0.0);
     let width = Width::new(0.5);
-    let gears = LoadFriction {
-        driving: [0.2; 7],
-        backdriving: [0.1; 7],
-        width,
-    };
-    let friction = (
-        Viscous([0.7; 7]),
-        Coulomb {
-            torque: [0.5; 7],
-            width,
-        },
-    );
+    let gears = LoadFriction { driving: [0.2; 7], backdriving: [0.1; 7], width };
+    let friction = (Viscous([0.7; 7]), Coulomb { torque: [0.5; 7], width });
     let scene = (
         (Gravity::<Aslant>::new(9.81), RIGID_BODY.1, RIGID_BODY.2),
         (friction, gears, ROTORS, payload::<f64, 10>(), Push, Drag),
@@ -111,10 +95,7 @@ fn hybrid_dynamics_are_those_of_the_core() {
                 Prescribed::Acceleration(qdd) => assert_eq!(found.qdd[k], qdd),
             }
         }
-        let errors = [
-            difference(&found.tau, &want.tau),
-            difference(&found.qdd, &want.qdd),
-        ];
+        let errors = [difference(&found.tau, &want.tau), difference(&found.qdd, &want.qdd)];
         worst = largest([worst, errors[0], errors[1]]);
     }
     check("odd", "engine hybrid dynamics", "f64", worst);
@@ -126,10 +107,8 @@ fn hybrid_dynamics_are_those_of_the_core() {
 #[test]
 fn rotors_that_spin_act_as_in_the_core() {
     let (mut random, mut worst) = (Random::new(), 0.0);
-    let rotors = GyroscopicRotors {
-        inertia: [2e-3, 1.5e-3, 1e-3, 6e-4],
-        ratio: [6.0, -4.0, 9.0, 40.0],
-    };
+    let rotors =
+        GyroscopicRotors { inertia: [2e-3, 1.5e-3, 1e-3, 6e-4], ratio: [6.0, -4.0, 9.0, 40.0] };
     let ship = MovingBase {
         velocity: Motion::new(DVec3::new(0.3, -0.5, 0.7), DVec3::new(0.1, 0.2, -0.3)),
         acceleration: Motion::new(DVec3::new(-1.0, 2.0, 0.5), DVec3::new(0.4, 1.0, -2.0)),
@@ -146,10 +125,8 @@ fn rotors_that_spin_act_as_in_the_core() {
         let hybrid = Engine::<Fork>::hybrid_dynamics(&state, &given, &scene);
         let hybrid = hybrid.expect("M is positive");
         let forward = Engine::<Fork>::forward_dynamics(&state, &tau, &scene);
-        let [m, want] = [
-            Engine::<Fork>::crba(&state.q, &scene),
-            Core::<Fork>::crba(&state.q, &scene),
-        ];
+        let [m, want] =
+            [Engine::<Fork>::crba(&state.q, &scene), Core::<Fork>::crba(&state.q, &scene)];
         let rows = |m: &dynamics_core::MassMatrix<f64, 4>| -> Vec<f64> {
             (0..16).map(|k| m.get(k / 4, k % 4)).collect()
         };
@@ -161,10 +138,7 @@ fn rotors_that_spin_act_as_in_the_core() {
             Engine::<Fork>::momentum_and_drift(&state, &scene).beta,
             Core::<Fork>::momentum_and_drift(&state, &scene).beta,
         ];
-        let h = [
-            Engine::<Fork>::momentum(&state, &scene),
-            momentum(robot, &state, &scene),
-        ];
+        let h = [Engine::<Fork>::momentum(&state, &scene), momentum(robot, &state, &scene)];
         let h = h.map(|h| [h.ang.to_array(), h.lin.to_array()]);
         let energy = [
             Engine::<Fork>::kinetic_energy(&state, &scene),

@@ -42,10 +42,14 @@ impl Robot<2, 2, 2> for TwoLinks {
         Model::new(
             "two links",
             [
-                Body::new("upper", BASE, UP)
-                    .mass(MASS[0])
-                    .com([COM[0], 0.0, 0.0])
-                    .inertia([0.0, 0.0, 0.0, ABOUT_COM[0], 0.0, ABOUT_COM[0]]),
+                Body::new("upper", BASE, UP).mass(MASS[0]).com([COM[0], 0.0, 0.0]).inertia([
+                    0.0,
+                    0.0,
+                    0.0,
+                    ABOUT_COM[0],
+                    0.0,
+                    ABOUT_COM[0],
+                ]),
                 Body::new("fore", 0, UP)
                     .xyz([LENGTH, 0.0, 0.0])
                     .mass(MASS[1])
@@ -99,14 +103,10 @@ struct Slide;
 impl Robot<1, 1, 1> for Slide {
     const MODEL: ArmModel<f64, 1> = Model::new(
         "slide",
-        [Body::new(
-            "sledge",
-            BASE,
-            Joint::prismatic([0.866_025_403_784_438_6, 0.0, 0.5]),
-        )
-        .mass(3.0)
-        .com([0.1, 0.2, 0.3])
-        .inertia([0.1, 0.0, 0.0, 0.1, 0.0, 0.1])],
+        [Body::new("sledge", BASE, Joint::prismatic([0.866_025_403_784_438_6, 0.0, 0.5]))
+            .mass(3.0)
+            .com([0.1, 0.2, 0.3])
+            .inertia([0.1, 0.0, 0.0, 0.1, 0.0, 0.1])],
     );
 }
 

@@ -21,14 +21,8 @@ fn absent_effects_change_nothing() {
             let want = bits(rnea(model, state, &RIGID_BODY));
             let scene = (Nothing, Gravity::EARTH, Inertia, Nothing, Coriolis, Nothing);
             assert_eq!(bits(rnea(model, state, &scene)), want);
-            assert_eq!(
-                bits(rnea(model, state, &(RIGID_BODY, (), (Nothing,)))),
-                want
-            );
-            assert_eq!(
-                bits(rnea(model, state, &(Coriolis, Inertia, Gravity::EARTH))),
-                want
-            );
+            assert_eq!(bits(rnea(model, state, &(RIGID_BODY, (), (Nothing,)))), want);
+            assert_eq!(bits(rnea(model, state, &(Coriolis, Inertia, Gravity::EARTH))), want);
             assert_eq!(rnea(model, state, &()), [0.0; N]);
             // Quantities that a scene does not name do not matter.
             let mut other = *state;
@@ -90,10 +84,7 @@ fn armature_adds_exactly_its_inertia_times_acceleration() {
 #[test]
 fn coulomb_friction_is_odd_rises_and_saturates_at_its_torque() {
     fn friction<R: Real>(qd: R) -> R {
-        let dry = Coulomb {
-            torque: [R::from_f64(4.0)],
-            width: Width::new(R::from_f64(0.02)),
-        };
+        let dry = Coulomb { torque: [R::from_f64(4.0)], width: Width::new(R::from_f64(0.02)) };
         let at = JointState::new(R::ZERO, qd);
         let mut tau = R::ZERO;
         Effect::<R, 1, 1>::torque(&dry, 0, at, &mut tau);

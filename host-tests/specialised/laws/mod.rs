@@ -36,10 +36,7 @@ fn invert<R: Real, const B: usize, const N: usize>(
         Inertia,
         Coriolis,
         Viscous([R::from_f64(0.5); N]),
-        Coulomb {
-            torque: [R::ONE; N],
-            width: Width::new(R::from_f64(0.1)),
-        },
+        Coulomb { torque: [R::ONE; N], width: Width::new(R::from_f64(0.1)) },
         Armature([R::from_f64(0.1); N]),
         Drag,
     );
@@ -337,10 +334,7 @@ fn a_transmission_keeps_power_and_reflects_inertia() {
         [0.0, 0.0, 0.0, -0.02],
         [0.3, 0.1, 0.0, 0.0],
     ];
-    let transmission = Transmission {
-        matrix: g,
-        offset: [0.1, -1.2, 1.5, 0.3, 0.0, 0.2],
-    };
+    let transmission = Transmission { matrix: g, offset: [0.1, -1.2, 1.5, 0.3, 0.0, 0.2] };
     let rng = &mut random_numbers();
     for _ in 0..100 {
         let motors = random_state::<4>(rng);

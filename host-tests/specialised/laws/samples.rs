@@ -6,11 +6,7 @@ pub(crate) use host_tests::random::{random_body, random_numbers, within};
 pub(crate) const G: f64 = 9.81;
 
 pub(crate) fn random_state<const N: usize>(rng: &mut TestRng) -> State<f64, N, N> {
-    State {
-        q: within(rng, std::f64::consts::PI),
-        qd: within(rng, 3.0),
-        qdd: within(rng, 10.0),
-    }
+    State { q: within(rng, std::f64::consts::PI), qd: within(rng, 3.0), qdd: within(rng, 10.0) }
 }
 
 pub(crate) fn cast<R: Real, const N: usize>(state: &State<f64, N, N>) -> State<R, N, N> {

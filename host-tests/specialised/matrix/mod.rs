@@ -60,10 +60,7 @@ impl Worst {
         let epsilon = R::EPSILON.to_f64();
         let floor = if epsilon < 1e-10 { 1e-11 } else { 1e-5 };
         let used = relative(got, want) / f64::max(floor, 10.0 * kappa * epsilon);
-        assert!(
-            used <= 1.0,
-            "{what}: {used:.2} of the bound, κ = {kappa:.1e}"
-        );
+        assert!(used <= 1.0, "{what}: {used:.2} of the bound, κ = {kappa:.1e}");
         match self.solved.iter_mut().find(|(known, ..)| *known == what) {
             Some(worst) if worst.1 >= used => {}
             Some(worst) => *worst = (what, used, kappa),
@@ -131,10 +128,7 @@ fn matrix<R: Real, const B: usize, const Q: usize, const V: usize>(
             while above != j && above < V {
                 above = model.lambda[above];
             }
-            assert!(
-                above == j || m.get(i, j) == R::ZERO,
-                "{i} and {j} do not meet"
-            );
+            assert!(above == j || m.get(i, j) == R::ZERO, "{i} and {j} do not meet");
         }
     }
     let (modified, jacobian) = crba_jacobian(model, &state.q, body, &scene);
@@ -173,21 +167,13 @@ fn solutions<R: Real, const B: usize, const Q: usize, const V: usize>(
     };
     worst.solved("L", kappa, &l(&of_bodies), &l(&factors));
     let m_inv = inverse(model, &factors);
-    let one: Vec<R> = (0..V)
-        .flat_map(|i| m.mul_vec(m_inv.row(i).expect("a row")))
-        .collect();
-    let identity: Vec<R> = (0..V * V)
-        .map(|k| R::from_f64(f64::from(u8::from(k / V == k % V))))
-        .collect();
+    let one: Vec<R> = (0..V).flat_map(|i| m.mul_vec(m_inv.row(i).expect("a row"))).collect();
+    let identity: Vec<R> =
+        (0..V * V).map(|k| R::from_f64(f64::from(u8::from(k / V == k % V)))).collect();
     worst.solved("M times its inverse", kappa, &one, &identity);
     let of_bodies =
         spatial_operator_inverse(model, &state.q, &RIGID_BODY).expect("M is positive definite");
-    worst.solved(
-        "inverse by operators",
-        kappa,
-        &entries(&of_bodies),
-        &entries(&m_inv),
-    );
+    worst.solved("inverse by operators", kappa, &entries(&of_bodies), &entries(&m_inv));
 }
 
 /// Forward and hybrid dynamics take back what inverse dynamics gives, under friction, rotors and

@@ -25,11 +25,7 @@ where
     for (i, want) in recording.mass_matrix.iter().enumerate() {
         let q = row::<N>(&recording.q, i).map(R::from_f64);
         let m = Core::<T>::crba(&q, &RIGID_BODY);
-        assert_eq!(
-            m,
-            crba(model::<R, T, B, N, N>(), &q, &RIGID_BODY),
-            "run-time model"
-        );
+        assert_eq!(m, crba(model::<R, T, B, N, N>(), &q, &RIGID_BODY), "run-time model");
         let upper = (0..N).flat_map(|i| (i..N).map(move |j| (i, j)));
         for ((i, j), &want) in upper.zip(want) {
             see(&mut errors[0], m.get(i, j), want, scale.mass_matrix);
@@ -37,11 +33,7 @@ where
     }
     for i in 0..recording.q.len() {
         let cast = |rows| row::<N>(rows, i).map(R::from_f64);
-        let state = State {
-            q: cast(&recording.q),
-            qd: cast(&recording.qd),
-            qdd: [R::ZERO; N],
-        };
+        let state = State { q: cast(&recording.q), qd: cast(&recording.qd), qdd: [R::ZERO; N] };
         let tau = cast(&recording.tau);
         let qdd =
             Core::<T>::forward_dynamics(&state, &tau, &RIGID_BODY).expect("M is positive definite");

@@ -34,28 +34,19 @@ fn verdicts<R: Real, E: Effect<R, N, N>, const N: usize>(
     model: &ArmModel<R, N>,
     scene: &E,
 ) -> [Option<NotPositiveDefinite>; 7] {
-    let state = State {
-        qd: [R::ONE; N],
-        ..State::at([R::from_f64(0.3); N])
-    };
+    let state = State { qd: [R::ONE; N], ..State::at([R::from_f64(0.3); N]) };
     let (tau, m) = ([R::ONE; N], crba(model, &state.q, scene));
     fn finite<R: Real, const N: usize>(qdd: [R; N]) {
         assert!(qdd.iter().all(|x| x.is_finite()), "{qdd:?}");
     }
     [
         aba(model, &state, &tau, scene).map(finite).err(),
-        forward_dynamics(model, &state, &tau, scene)
-            .map(finite)
-            .err(),
+        forward_dynamics(model, &state, &tau, scene).map(finite).err(),
         hybrid_dynamics(model, &state, &tau.map(Prescribed::Torque), scene)
             .map(|r| finite(r.qdd))
             .err(),
-        ltdl(model, &m)
-            .map(|f| finite(solve(model, &f, &tau)))
-            .err(),
-        cholesky(model, &m)
-            .map(|f| finite(f.solve(model, &tau)))
-            .err(),
+        ltdl(model, &m).map(|f| finite(solve(model, &f, &tau))).err(),
+        cholesky(model, &m).map(|f| finite(f.solve(model, &tau))).err(),
         spatial_operator_ltdl(model, &state.q, scene).err(),
         spatial_operator_inverse(model, &state.q, scene).err(),
     ]
@@ -85,13 +76,7 @@ fn a_nan_inertia_is_named() {
     given[1] = Prescribed::Acceleration(2.0);
     let response =
         hybrid_dynamics(&model, &state, &given, &RIGID_BODY).expect("joint 1 is not solved for");
-    assert!(
-        response
-            .qdd
-            .iter()
-            .chain(&response.tau)
-            .all(|x| x.is_finite())
-    );
+    assert!(response.qdd.iter().chain(&response.tau).all(|x| x.is_finite()));
     model.links[2].inertia.mass = f64::NAN;
     let named = verdicts(&model, &RIGID_BODY).map(|error| error.map(|error| error.joint));
     assert_eq!(named, [Some(2); 7]);
@@ -112,10 +97,7 @@ fn a_pivot_of_rounding_errors_is_refused_whatever_its_size() {
         let scale: f64 = 10.0_f64.powi(rng.random_range(-6..6));
         let rod = Body::new("rod", 0, Joint::revolute(z)).mass(scale * rng.random_range(0.5..2.0));
         let rod = rod.com([rng.random_range(0.1..1.0), rng.random_range(-1.0..1.0), 0.0]);
-        let model = Model::new(
-            "coaxial",
-            [Body::new("none", BASE, Joint::revolute(z)), rod],
-        );
+        let model = Model::new("coaxial", [Body::new("none", BASE, Joint::revolute(z)), rod]);
         refuse(&model);
         refuse(&model.to_f32());
     }

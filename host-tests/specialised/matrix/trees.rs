@@ -72,9 +72,8 @@ pub fn cast<R: Real, const Q: usize, const V: usize>(state: &State<f64, Q, V>) -
 
 /// κ(M) in the 2-norm, its eigenvalues by cyclic Jacobi rotations.
 pub fn condition<R: Real, const V: usize>(m: &MassMatrix<R, V>) -> f64 {
-    let mut a: Vec<Vec<f64>> = (0..V)
-        .map(|i| (0..V).map(|j| m.get(i, j).to_f64()).collect())
-        .collect();
+    let mut a: Vec<Vec<f64>> =
+        (0..V).map(|i| (0..V).map(|j| m.get(i, j).to_f64()).collect()).collect();
     for _ in 0..10 {
         for p in 0..V {
             for q in p + 1..V {

@@ -30,14 +30,8 @@ impl Bytes<'_> {
     pub fn number(&mut self) -> f64 {
         match self.byte() % 16 {
             0 => f32::from_bits(u32::from_le_bytes(self.bits())).into(),
-            1 => [
-                f32::NAN,
-                f32::INFINITY,
-                f32::NEG_INFINITY,
-                f32::MAX,
-                f32::MIN_POSITIVE,
-                1e-40,
-            ][self.below(6)]
+            1 => [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, f32::MAX, f32::MIN_POSITIVE, 1e-40]
+                [self.below(6)]
             .into(),
             2 => 0.0,
             3 => -0.0,

@@ -23,9 +23,7 @@ pub fn controller(bytes: &[u8]) {
                 };
                 tick(&mut bench, |bench| bench.tick(Some(poison)));
             }
-            10 => tick(&mut bench, |bench| {
-                bench.tick_of(Err(Fault::Encoder { joint }), None)
-            }),
+            10 => tick(&mut bench, |bench| bench.tick_of(Err(Fault::Encoder { joint }), None)),
             11 => {
                 let missed = u32::from(from.byte());
                 bench.advance(TICK * f64::from(missed));

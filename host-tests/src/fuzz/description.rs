@@ -22,30 +22,16 @@ pub fn description(bytes: &[u8]) {
     let model: ArmModel<f64, BODIES> = model;
     for (i, link) in model.links.iter().enumerate() {
         let (placement, inertia) = (&link.placement, &link.inertia);
-        let vectors = placement
-            .rot
-            .cols()
-            .into_iter()
-            .chain(inertia.rotational.cols());
+        let vectors = placement.rot.cols().into_iter().chain(inertia.rotational.cols());
         let mut vectors = vectors.chain([placement.pos, inertia.first_moment, link.joint.axis]);
-        assert!(
-            vectors.all(|v| v.array().iter().all(|x| x.is_finite())),
-            "{i}: {link:?}"
-        );
+        assert!(vectors.all(|v| v.array().iter().all(|x| x.is_finite())), "{i}: {link:?}");
         assert!(link.parent == BASE || link.parent < i);
         let _ = model.in_link_frame(i);
     }
     let _ = model.check(1e-9);
-    let state = State {
-        q: from.numbers(),
-        qd: from.numbers(),
-        qdd: from.numbers(),
-    };
+    let state = State { q: from.numbers(), qd: from.numbers(), qdd: from.numbers() };
     let tau = rnea(&model, &state, &RIGID_BODY);
-    let _ = (
-        crba(&model, &state.q, &RIGID_BODY),
-        aba(&model, &state, &tau, &RIGID_BODY),
-    );
+    let _ = (crba(&model, &state.q, &RIGID_BODY), aba(&model, &state, &tau, &RIGID_BODY));
 }
 
 fn body(from: &mut Bytes<'_>, index: usize) -> Body {
@@ -87,14 +73,6 @@ fn body(from: &mut Bytes<'_>, index: usize) -> Body {
     let [xy, xz, yz] = products;
     let inertia = [xx, xy, xz, yy, yz, zz];
     // A body without them refuses most of these, and the rest of the description would not be read.
-    let body = if rare {
-        body.inertia(inertia)
-    } else {
-        body.inertia_as_published(inertia)
-    };
-    if from.byte().is_multiple_of(4) {
-        body.limits(limits)
-    } else {
-        body
-    }
+    let body = if rare { body.inertia(inertia) } else { body.inertia_as_published(inertia) };
+    if from.byte().is_multiple_of(4) { body.limits(limits) } else { body }
 }

@@ -30,11 +30,7 @@ where
     // In an array after the other, one number of any kind among ordinary ones, or all of them.
     let wild = from.byte();
     let mut number = |i: usize| {
-        if wild == 255 || usize::from(wild) == i {
-            from.number()
-        } else {
-            from.ordinary()
-        }
+        if wild == 255 || usize::from(wild) == i { from.number() } else { from.ordinary() }
     };
     let mut q: [R; Q] = core::array::from_fn(|i| R::from_f64(number(i)));
     let [qd, qdd, tau]: [[R; V]; 3] =
@@ -47,26 +43,15 @@ where
 
     let torque = rnea(model, &state, &RIGID_BODY);
     let m = crba(model, &q, &RIGID_BODY);
-    let [by_bodies, by_matrix] = [
-        aba(model, &state, &tau, &RIGID_BODY),
-        forward_dynamics(model, &state, &tau, &RIGID_BODY),
-    ];
+    let [by_bodies, by_matrix] =
+        [aba(model, &state, &tau, &RIGID_BODY), forward_dynamics(model, &state, &tau, &RIGID_BODY)];
     let there = integrate(model, &q, &qd);
     let back = difference(model, &q, &there);
     if ordinary {
         let finite = |values: &[R]| values.iter().all(|x| x.is_finite());
-        assert!(
-            finite(&torque) && finite(&there) && finite(&back),
-            "{state:?}"
-        );
+        assert!(finite(&torque) && finite(&there) && finite(&back), "{state:?}");
         assert!((0..V).all(|i| m.get(i, i) > R::ZERO), "{state:?}");
-        assert!(
-            by_bodies.is_ok_and(|qdd| finite(&qdd)),
-            "{by_bodies:?} {state:?}"
-        );
-        assert!(
-            by_matrix.is_ok_and(|qdd| finite(&qdd)),
-            "{by_matrix:?} {state:?}"
-        );
+        assert!(by_bodies.is_ok_and(|qdd| finite(&qdd)), "{by_bodies:?} {state:?}");
+        assert!(by_matrix.is_ok_and(|qdd| finite(&qdd)), "{by_matrix:?} {state:?}");
     }
 }

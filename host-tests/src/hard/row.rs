@@ -39,11 +39,7 @@ impl Row {
         error: f64,
         bound: f64,
     ) -> Self {
-        let verdict = if error <= bound {
-            Verdict::Pass
-        } else {
-            Verdict::Fail
-        };
+        let verdict = if error <= bound { Verdict::Pass } else { Verdict::Fail };
         Self {
             case: String::new(),
             number: 0,
@@ -64,10 +60,7 @@ impl Row {
         error: f64,
         bound: f64,
     ) -> Self {
-        Self {
-            measured: false,
-            ..Self::measured(quantity, scalar, error, bound)
-        }
+        Self { measured: false, ..Self::measured(quantity, scalar, error, bound) }
     }
 
     /// A claim that holds or does not: no error, or one of 1.
@@ -93,10 +86,7 @@ impl Row {
     /// The same row, with the condition number of what was solved.
     #[must_use]
     pub fn of_condition(self, condition: f64) -> Self {
-        Self {
-            condition: Some(condition),
-            ..self
-        }
+        Self { condition: Some(condition), ..self }
     }
 
     /// Whether the row is as it has to be.
@@ -105,13 +95,7 @@ impl Row {
     /// It fails, a naive alternative does not, or a measured bound lies more than ten times too
     /// high.
     pub fn demand(&self) -> Result<(), String> {
-        let Self {
-            quantity,
-            scalar,
-            error,
-            bound,
-            ..
-        } = self;
+        let Self { quantity, scalar, error, bound, .. } = self;
         let place = format!("{quantity} in {scalar}: error {error:.2e}, bound {bound:.2e}");
         if self.verdict == Verdict::Fail {
             return Err(format!("{place}: fails"));

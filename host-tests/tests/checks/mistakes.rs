@@ -18,12 +18,7 @@ fn compiled(name: &str, emit: &str) -> String {
     std::fs::create_dir_all(&out).expect("the folder for what is compiled");
     let output = Command::new(std::env::var("RUSTC").unwrap_or("rustc".into()))
         .current_dir(env!("CARGO_MANIFEST_DIR"))
-        .args([
-            "--edition=2024",
-            "--crate-type=lib",
-            "--color=never",
-            "--cap-lints=allow",
-        ])
+        .args(["--edition=2024", "--crate-type=lib", "--color=never", "--cap-lints=allow"])
         .arg(format!("--emit={emit}"))
         .arg("--extern")
         .arg(format!("dynamics_core={}", library(built).display()))
@@ -106,11 +101,7 @@ fn a_check_finds_wrong_sizes_scalars_and_traits() {
 
 #[test]
 fn a_check_finds_impossible_robots_and_scenes_in_constants() {
-    refused(
-        "constants",
-        include_str!("mistakes/constants.rs"),
-        "metadata",
-    );
+    refused("constants", include_str!("mistakes/constants.rs"), "metadata");
 }
 
 #[test]
@@ -129,12 +120,7 @@ fn legitimate_duplicate_effects_compile() {
 fn missing_and_unexpected_compile_errors_are_noticed() {
     let said = "error[E0080]: too heavy\n  --> tests/checks/mistakes/x.rs:2:5\n\nerror: aborting\n";
     assert_eq!(demand("x", "a\nb //~ too heavy", said), Ok(()));
-    for text in [
-        "a\nb",
-        "a //~ too heavy\nb",
-        "a\nb //~ too light",
-        "a //~ c\nb //~ too heavy",
-    ] {
+    for text in ["a\nb", "a //~ too heavy\nb", "a\nb //~ too light", "a //~ c\nb //~ too heavy"] {
         assert!(demand("x", text, said).is_err(), "{text}");
     }
     assert!(demand("x", "a\nb //~ too heavy", "").is_err());
@@ -152,10 +138,7 @@ fn constant_and_run_time_constructors_of_effects_give_equal_bits() {
             const TOOL: Payload<$r, 5> = Payload::$r(LOAD);
             // As text, which tells −0 from 0.
             let text = |payload: Payload<$r, 5>| format!("{payload:?}");
-            assert_eq!(
-                text(TOOL),
-                text(Payload::from_inertia(std::hint::black_box(LOAD)))
-            );
+            assert_eq!(text(TOOL), text(Payload::from_inertia(std::hint::black_box(LOAD))));
 
             const WIDTH: Width<$r> = Width::$r(0.013);
             assert_eq!(WIDTH, Width::new(std::hint::black_box(0.013)));

@@ -41,14 +41,9 @@ fn algorithms(source: &str) -> Vec<String> {
             block = Block::Trait;
         } else if line.starts_with("impl") {
             let inherent = !line.contains(" for ");
-            let marker = [" Core<", " Engine<", " Clustered<"]
-                .iter()
-                .any(|name| line.contains(name));
-            block = if inherent && marker {
-                Block::Marker
-            } else {
-                Block::Other
-            };
+            let marker =
+                [" Core<", " Engine<", " Clustered<"].iter().any(|name| line.contains(name));
+            block = if inherent && marker { Block::Marker } else { Block::Other };
         }
         if let Some(name) = name(line, "pub fn ") {
             found.push(name.to_owned());
@@ -82,9 +77,7 @@ fn of(path: &Path) -> Vec<String> {
         return algorithms(&fs::read_to_string(path).expect("a source"));
     }
     let entries = fs::read_dir(path).expect("a directory of sources");
-    entries
-        .flat_map(|entry| of(&entry.expect("an entry").path()))
-        .collect()
+    entries.flat_map(|entry| of(&entry.expect("an entry").path())).collect()
 }
 
 #[test]

@@ -118,11 +118,7 @@ pub fn random_state<const B: usize, const Q: usize, const V: usize>(
             place.copy_from_slice(&unit.to_array());
         }
     }
-    State {
-        q,
-        qd: rng.vector(3.0),
-        qdd: rng.vector(10.0),
-    }
+    State { q, qd: rng.vector(3.0), qdd: rng.vector(10.0) }
 }
 
 /// A configuration on a smooth path through q with the velocity q̇, t s later.
@@ -242,10 +238,7 @@ impl Verdict {
 pub fn unit<R: Real>() -> [Force<R>; 6] {
     core::array::from_fn(|k| {
         let at = |i| if i == k { R::ONE } else { R::ZERO };
-        Force::new(
-            R::Vec3::new(at(0), at(1), at(2)),
-            R::Vec3::new(at(3), at(4), at(5)),
-        )
+        Force::new(R::Vec3::new(at(0), at(1), at(2)), R::Vec3::new(at(3), at(4), at(5)))
     })
 }
 

@@ -47,11 +47,7 @@ fn torque_follows_back_emf_within_the_current_limit() {
 #[test]
 fn a_motor_runs_up_to_its_no_load_speed() {
     // Beyond the corner J ω̇ = k (U − k ω)/R: an exponential, here without lag.
-    let mut drive = Actuator {
-        lag: 1e-9,
-        current_limit: 1e3,
-        ..drive::<f64>()
-    };
+    let mut drive = Actuator { lag: 1e-9, current_limit: 1e3, ..drive::<f64>() };
     let (mut wheel, h, mut worst) = (State::at([0.0]), 1e-5, Worst::default());
     let rate = 2.0 * 2.0 / 1.2 / 2.0;
     for i in 1..=300_000 {

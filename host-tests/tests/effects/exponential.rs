@@ -25,10 +25,7 @@ fn the_exponential_is_good_to_2e_7() {
 fn the_exponential_falls_from_one_to_zero_for_every_input() {
     fn holds<R: Real>() {
         let e = |x: f64| R::from_f64(x).exp_neg().to_f64();
-        assert_eq!(
-            (e(0.0), e(-3.0), e(f64::NAN), e(f64::NEG_INFINITY)),
-            (1.0, 1.0, 1.0, 1.0)
-        );
+        assert_eq!((e(0.0), e(-3.0), e(f64::NAN), e(f64::NEG_INFINITY)), (1.0, 1.0, 1.0, 1.0));
         assert_eq!((e(1e3), e(1e30), e(f64::INFINITY)), (0.0, 0.0, 0.0));
         let mut last = 1.0;
         for i in 0..200_000 {

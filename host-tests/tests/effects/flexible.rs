@@ -27,11 +27,7 @@ fn along<const N: usize>(c: &[[f64; 7]; N], t: f64) -> ElasticReference<f64, N, 
         })
     };
     ElasticReference {
-        state: State {
-            q: derivative(0),
-            qd: derivative(1),
-            qdd: derivative(2),
-        },
+        state: State { q: derivative(0), qd: derivative(1), qdd: derivative(2) },
         jerk: derivative(3),
         snap: derivative(4),
     }
@@ -88,11 +84,7 @@ fn by_differences<const N: usize>(
 #[test]
 fn motor_torques_of_a_course_are_those_of_its_differences() {
     fn see<const N: usize>(model: &ArmModel<f64, N>, rng: &mut TestRng, worst: &mut [Worst; 3]) {
-        let joints = ElasticJoints {
-            stiffness: [100.0; N],
-            rotor: [0.5; N],
-            friction: [2.0; N],
-        };
+        let joints = ElasticJoints { stiffness: [100.0; N], rotor: [0.5; N], friction: [2.0; N] };
         let c = coefficients::<N>(rng);
         let scene = (RIGID_BODY, Viscous([0.7; N]), Armature([0.2; N]));
         let got = elastic_inverse_dynamics(model, &joints, &along(&c, 0.0), &scene).unwrap();
@@ -119,11 +111,7 @@ fn motor_torques_of_a_course_are_those_of_its_differences() {
 fn motor_torques_in_f32_are_those_in_f64() {
     let (rng, mut worst) = (&mut random_numbers(), Worst::default());
     for _ in 0..200 {
-        let joints = ElasticJoints {
-            stiffness: [4096.0; 6],
-            rotor: [0.5; 6],
-            friction: [2.0; 6],
-        };
+        let joints = ElasticJoints { stiffness: [4096.0; 6], rotor: [0.5; 6], friction: [2.0; 6] };
         let double = along(&coefficients::<6>(rng), 0.0);
         let want = elastic_inverse_dynamics(&Ur5e::MODEL, &joints, &double, &RIGID_BODY).unwrap();
         let single = ElasticReference {
@@ -131,11 +119,8 @@ fn motor_torques_in_f32_are_those_in_f64() {
             jerk: double.jerk.map(|x| x as f32),
             snap: double.snap.map(|x| x as f32),
         };
-        let joints = ElasticJoints {
-            stiffness: [4096.0_f32; 6],
-            rotor: [0.5; 6],
-            friction: [2.0; 6],
-        };
+        let joints =
+            ElasticJoints { stiffness: [4096.0_f32; 6], rotor: [0.5; 6], friction: [2.0; 6] };
         let got =
             elastic_inverse_dynamics(&Ur5e::MODEL_F32, &joints, &single, &RIGID_BODY).unwrap();
         worst.see_all(&got.torque, &want.torque);
@@ -148,17 +133,9 @@ fn elastic_joints_converge_to_rigid_with_one_over_k() {
     let (rng, rotor) = (&mut random_numbers(), 0.5);
     let c = coefficients::<6>(rng);
     let course = along(&c, 0.0);
-    let want = rnea(
-        &Ur5e::MODEL,
-        &course.state,
-        &(RIGID_BODY, Armature([rotor; 6])),
-    );
+    let want = rnea(&Ur5e::MODEL, &course.state, &(RIGID_BODY, Armature([rotor; 6])));
     let error = |k: f64| {
-        let joints = ElasticJoints {
-            stiffness: [k; 6],
-            rotor: [rotor; 6],
-            friction: [0.0; 6],
-        };
+        let joints = ElasticJoints { stiffness: [k; 6], rotor: [rotor; 6], friction: [0.0; 6] };
         let got = elastic_inverse_dynamics(&Ur5e::MODEL, &joints, &course, &RIGID_BODY).unwrap();
         let off = |i: usize| (got.torque[i] - want[i]).abs();
         largest((0..6).map(off))
@@ -169,24 +146,14 @@ fn elastic_joints_converge_to_rigid_with_one_over_k() {
     }
     // The plant, too: what a step does to the links.
     let tau = [3.0, -40.0, 10.0, 5.0, -2.0, 1.0];
-    let start = State {
-        qdd: [0.0; 6],
-        ..course.state
-    };
+    let start = State { qdd: [0.0; 6], ..course.state };
     let mut rigid = start;
     let mut scene = (RIGID_BODY, Armature([rotor; 6]));
     linearly_implicit(&Ur5e::MODEL, &mut rigid, &tau, &mut scene, 1e-3).unwrap();
     let error = |k: f64| {
-        let joints = ElasticJoints {
-            stiffness: [k; 6],
-            rotor: [rotor; 6],
-            friction: [0.0; 6],
-        };
+        let joints = ElasticJoints { stiffness: [k; 6], rotor: [rotor; 6], friction: [0.0; 6] };
         let mut links = start;
-        let mut motors = MotorState {
-            position: start.q,
-            velocity: start.qd,
-        };
+        let mut motors = MotorState { position: start.q, velocity: start.qd };
         elastic_step(
             &Ur5e::MODEL,
             &joints,
@@ -209,29 +176,14 @@ fn elastic_joints_converge_to_rigid_with_one_over_k() {
 #[test]
 fn a_sprung_motor_and_sledge_have_the_closed_form() {
     let (k, j, h) = (500.0, 0.5, 1e-6);
-    let joints = ElasticJoints {
-        stiffness: [k],
-        rotor: [j],
-        friction: [0.0],
-    };
+    let joints = ElasticJoints { stiffness: [k], rotor: [j], friction: [0.0] };
     let mut links = State::at([0.0]);
-    let mut motors = MotorState {
-        position: [0.02],
-        velocity: [0.0],
-    };
+    let mut motors = MotorState { position: [0.02], velocity: [0.0] };
     let omega = (k * (1.0 / 2.0 + 1.0 / j)).sqrt();
     let (mut worst, mut centre) = (Worst::default(), 0.0_f64);
     for i in 1..=400_000 {
-        elastic_step(
-            &SLEDGE,
-            &joints,
-            &mut links,
-            &mut motors,
-            &[0.0],
-            &mut (Inertia,),
-            h,
-        )
-        .unwrap();
+        elastic_step(&SLEDGE, &joints, &mut links, &mut motors, &[0.0], &mut (Inertia,), h)
+            .unwrap();
         let t = h * f64::from(i);
         worst.see(motors.position[0] - links.q[0], 0.02 * (omega * t).cos());
         centre = largest([centre, (j * motors.velocity[0] + 2.0 * links.qd[0]).abs()]);
@@ -243,15 +195,8 @@ fn a_sprung_motor_and_sledge_have_the_closed_form() {
 #[test]
 fn a_compliant_arm_follows_by_elastic_feedforward() {
     // A fifth-order rest-to-rest course in closed form, and a soft arm.
-    let joints = ElasticJoints {
-        stiffness: [800.0; 6],
-        rotor: [0.3; 6],
-        friction: [3.0; 6],
-    };
-    let (from, by) = (
-        [0.0, -1.2, 1.0, 0.2, 0.4, 0.0],
-        [0.4, 0.3, -0.5, 0.3, -0.2, 0.5],
-    );
+    let joints = ElasticJoints { stiffness: [800.0; 6], rotor: [0.3; 6], friction: [3.0; 6] };
+    let (from, by) = ([0.0, -1.2, 1.0, 0.2, 0.4, 0.0], [0.4, 0.3, -0.5, 0.3, -0.2, 0.5]);
     let course = |t: f64| {
         // s(t) = 35 t⁴ − 84 t⁵ + 70 t⁶ − 20 t⁷: at rest through its jerk at both ends.
         let s = [
@@ -263,24 +208,13 @@ fn a_compliant_arm_follows_by_elastic_feedforward() {
         ];
         let of = |n: usize| by.map(|by| by * s[n]);
         let q = core::array::from_fn(|i| from[i] + by[i] * s[0]);
-        ElasticReference {
-            state: State {
-                q,
-                qd: of(1),
-                qdd: of(2),
-            },
-            jerk: of(3),
-            snap: of(4),
-        }
+        ElasticReference { state: State { q, qd: of(1), qdd: of(2) }, jerk: of(3), snap: of(4) }
     };
     let run = |h: f64, stiff: bool| {
         let start =
             elastic_inverse_dynamics(&Ur5e::MODEL, &joints, &course(0.0), &RIGID_BODY).unwrap();
         let mut links = State::at(from);
-        let mut motors = MotorState {
-            position: start.position,
-            velocity: [0.0; 6],
-        };
+        let mut motors = MotorState { position: start.position, velocity: [0.0; 6] };
         let (mut off, mut scene) = (0.0_f64, RIGID_BODY);
         for i in 0..(0.5 / h) as u32 {
             let now = course((f64::from(i) + 0.5) * h);
@@ -311,29 +245,17 @@ fn a_compliant_arm_follows_by_elastic_feedforward() {
         "off the course by {coarse:.2e}, {fine:.2e} rad; fed forward as if rigid {:.2e}",
         run(1e-4, true)
     );
-    assert!(
-        (coarse / fine - 2.0).abs() < 0.3,
-        "it is the integrator's error alone"
-    );
+    assert!((coarse / fine - 2.0).abs() < 0.3, "it is the integrator's error alone");
     assert!(run(1e-4, true) > 3.0 * fine);
 }
 
 #[test]
 fn joints_of_several_degrees_of_freedom_are_refused_by_name() {
-    let ball: Model<f64, 1, 4, 3> = Model::new(
-        "ball",
-        [Body::new("ball", BASE, Joint::spherical()).mass(1.0)],
-    );
-    let joints = ElasticJoints {
-        stiffness: [1.0; 3],
-        rotor: [1.0; 3],
-        friction: [0.0; 3],
-    };
-    let course = ElasticReference {
-        state: State::at([0.0, 0.0, 0.0, 1.0]),
-        jerk: [0.0; 3],
-        snap: [0.0; 3],
-    };
+    let ball: Model<f64, 1, 4, 3> =
+        Model::new("ball", [Body::new("ball", BASE, Joint::spherical()).mass(1.0)]);
+    let joints = ElasticJoints { stiffness: [1.0; 3], rotor: [1.0; 3], friction: [0.0; 3] };
+    let course =
+        ElasticReference { state: State::at([0.0, 0.0, 0.0, 1.0]), jerk: [0.0; 3], snap: [0.0; 3] };
     let refused = elastic_inverse_dynamics(&ball, &joints, &course, &RIGID_BODY);
     assert_eq!(refused.unwrap_err().body, 0);
 }

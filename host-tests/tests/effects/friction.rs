@@ -33,15 +33,10 @@ fn a_pendulums_energy_loss_is_frictions_work() {
     // swings.
     const PENDULUM: ArmModel<f64, 1> = Model::new(
         "pendulum",
-        [Body::new("rod", BASE, Joint::revolute([0.0, 1.0, 0.0]))
-            .mass(2.0)
-            .com([0.0, 0.0, -0.5])],
+        [Body::new("rod", BASE, Joint::revolute([0.0, 1.0, 0.0])).mass(2.0).com([0.0, 0.0, -0.5])],
     );
     let (weight, friction) = (2.0 * 9.81 * 0.5, 0.4);
-    let dry = Coulomb {
-        torque: [friction],
-        width: Width::new(1e-4),
-    };
+    let dry = Coulomb { torque: [friction], width: Width::new(1e-4) };
     let mut scene = (RIGID_BODY, dry);
     let points = turning_points(&PENDULUM, 2.5, &mut scene, 2e-5, 8);
     let (mut worst, mut from) = (Worst::default(), 2.5_f64);
@@ -54,14 +49,8 @@ fn a_pendulums_energy_loss_is_frictions_work() {
 
 #[test]
 fn coulomb_friction_shortens_each_swing_equally() {
-    let dry = Coulomb {
-        torque: [3.0],
-        width: Width::new(1e-5),
-    };
-    let spring = Spring {
-        stiffness: [200.0],
-        rest: [0.0],
-    };
+    let dry = Coulomb { torque: [3.0], width: Width::new(1e-5) };
+    let spring = Spring { stiffness: [200.0], rest: [0.0] };
     let points = turning_points(&SLEDGE, 0.5, &mut (Inertia, dry, spring), 1e-5, 12);
     let mut worst = Worst::default();
     for (i, x) in points.into_iter().enumerate() {
@@ -105,17 +94,9 @@ fn stick_slip_has_the_limit_cycle_of_the_reference() {
     let mut fine = Cycle::default();
     reference(15.0, 1e-5, |t, stretch| fine.see(t, stretch));
     let want = fine.period_and_height();
-    assert!(
-        fine.peaks.len() > 8 && want[1] > 1.2 * SLIDING / STIFFNESS,
-        "{want:?}"
-    );
+    assert!(fine.peaks.len() > 8 && want[1] > 1.2 * SLIDING / STIFFNESS, "{want:?}");
 
-    let belt = Belt {
-        sliding: SLIDING,
-        excess: EXCESS,
-        speed: SPEED,
-        width: WIDTH,
-    };
+    let belt = Belt { sliding: SLIDING, excess: EXCESS, speed: SPEED, width: WIDTH };
     let got = belt.run::<f64>().period_and_height();
     let names = ["period of stick-slip", "stretch of stick-slip"];
     for ((got, want), name) in got.into_iter().zip(want).zip(names) {
@@ -133,10 +114,7 @@ fn asymmetric_friction_with_equal_ends_is_coulombs() {
         backward: [backward],
         width: Width::new(0.02),
     };
-    let coulomb = Coulomb {
-        torque: [4.0],
-        width: Width::new(0.02),
-    };
+    let coulomb = Coulomb { torque: [4.0], width: Width::new(0.02) };
     for i in -100..=100 {
         let qd = f64::from(i) * 3e-4;
         let (got, want) = (torque(&dry(4.0, 4.0), 0.0, qd), torque(&coulomb, 0.0, qd));
@@ -181,8 +159,5 @@ fn gravity_directions_by_type_and_by_value_agree() {
     let at = State::at([0.3, -0.4, 0.2, -2.0, 0.3, 1.9, 0.5]);
     let g = glam::DVec3::from(Aslant::UNIT) * 9.81;
     let number = Core::<Panda>::rnea(&at, &(GravityVector::<f64>(g),));
-    assert_eq!(
-        number,
-        Core::<Panda>::rnea(&at, &(Gravity::<Aslant>::new(9.81),))
-    );
+    assert_eq!(number, Core::<Panda>::rnea(&at, &(Gravity::<Aslant>::new(9.81),)));
 }

@@ -16,10 +16,8 @@ use host_tests::random::{random_numbers, within};
 use proptest::prelude::RngExt;
 
 /// 2 kg on a vertical rail along z, moved by a screw.
-const HOIST: ArmModel<f64, 1> = Model::new(
-    "hoist",
-    [Body::new("load", BASE, Joint::prismatic([0.0, 0.0, 1.0])).mass(2.0)],
-);
+const HOIST: ArmModel<f64, 1> =
+    Model::new("hoist", [Body::new("load", BASE, Joint::prismatic([0.0, 0.0, 1.0])).mass(2.0)]);
 const WEIGHT: f64 = 2.0 * 9.81;
 
 /// An XL330's gears below 2.9 rad/s, by better-actuator-models 1.0.2, params/xl330/m6.json:
@@ -40,11 +38,7 @@ fn gears<R: Real, const N: usize>(
 
 /// The force of the hoist's motor at this speed and acceleration, without gravity.
 fn force(gears: &LoadFriction<f64, 1>, qd: f64, qdd: f64) -> f64 {
-    let state = State {
-        q: [0.0],
-        qd: [qd],
-        qdd: [qdd],
-    };
+    let state = State { q: [0.0], qd: [qd], qdd: [qdd] };
     rnea(&HOIST, &state, &(Inertia, *gears))[0]
 }
 
@@ -59,10 +53,7 @@ fn load_friction_opposes_motion_and_is_odd_bit_by_bit() {
         let friction = force(&gears, qd, qdd) - 2.0 * qdd;
         // One rounding of the sum may leave as much against the motion as it is long.
         let rounding = 2.0 * f64::EPSILON * (2.0 * qdd).abs();
-        assert!(
-            friction * qd.signum() >= -rounding,
-            "{qd} {qdd}: {friction}"
-        );
+        assert!(friction * qd.signum() >= -rounding, "{qd} {qdd}: {friction}");
         assert_eq!(force(&gears, -qd, -qdd), -force(&gears, qd, qdd));
         assert_eq!(force(&gears, 0.0, qdd), 2.0 * qdd);
         assert_eq!(force(&gears, qd, 0.0), 0.0);
@@ -81,10 +72,7 @@ fn load_friction_solves_the_published_directional_model() {
             motor = load + (k_m * motor + k_e * load).abs() * f64::signum(qd);
         }
         let got = force(&gears, qd, load / 2.0);
-        assert!(
-            (got - motor).abs() < 8.0 * f64::EPSILON * motor.abs(),
-            "{got} {motor}"
-        );
+        assert!((got - motor).abs() < 8.0 * f64::EPSILON * motor.abs(), "{got} {motor}");
     }
 }
 
@@ -95,10 +83,7 @@ fn a_hoist_accelerates_by_the_efficiency_of_its_gear() {
     let mut worst = Worst::default();
     for x in [0.1, 0.5, 0.9, 1.1, 3.0].map(|share| share * WEIGHT) {
         for (qd, efficiency) in [(1.0, 1.0 / 1.25), (-1.0, 1.0 / 0.8)] {
-            let state = State {
-                qd: [qd],
-                ..State::at([0.0])
-            };
+            let state = State { qd: [qd], ..State::at([0.0]) };
             let got = algorithms::aba(&HOIST, &state, &[x], &scene).unwrap();
             worst.see(got[0], x * efficiency / 2.0 - 9.81);
             // Drawn down, x and the load change their signs, and with them what drives.
@@ -130,11 +115,7 @@ fn between_the_two_efficiencies_the_load_is_held_without_chatter() {
             (-even + (even * even + 4.0 * odd * rest).sqrt()) / (2.0 * odd)
         };
         let slip = width * 2.0 * (s.asin() / 3.0).sin();
-        assert!(
-            (state.qd[0] - slip).abs() < 1e-9 * width,
-            "{share}: {:?} {slip}",
-            state.qd
-        );
+        assert!((state.qd[0] - slip).abs() < 1e-9 * width, "{share}: {:?} {slip}", state.qd);
         assert!(turned < 1e-9 * width, "{share}: {turned}");
     }
     // Beyond them it is not.
@@ -155,32 +136,17 @@ fn the_implicit_step_has_the_derivative_of_the_acceleration() {
     let gears = gears::<f64, 1>(0.4, 0.3, 0.5);
     let scene = (RIGID_BODY, gears);
     let aba = |qd: f64, x: f64| {
-        let state = State {
-            qd: [qd],
-            ..State::at([0.0])
-        };
+        let state = State { qd: [qd], ..State::at([0.0]) };
         algorithms::aba(&HOIST, &state, &[x], &scene).unwrap()[0]
     };
     let (h, step) = (1e-2, 1e-5);
-    for (qd, x) in [
-        (0.1, 30.0),
-        (0.1, -30.0),
-        (-0.3, 10.0),
-        (-0.2, -25.0),
-        (0.7, 20.0),
-    ] {
+    for (qd, x) in [(0.1, 30.0), (0.1, -30.0), (-0.3, 10.0), (-0.2, -25.0), (0.7, 20.0)] {
         let slope = (aba(qd + step, x) - aba(qd - step, x)) / (2.0 * step);
-        let state = State {
-            qd: [qd],
-            ..State::at([0.0])
-        };
+        let state = State { qd: [qd], ..State::at([0.0]) };
         let implicit = Implicit::under(&HOIST, &state, &scene, &[x], h);
         let got = algorithms::aba(&HOIST, &state, &[x], &implicit).unwrap()[0];
         let want = aba(qd, x) / (1.0 - h * slope);
-        assert!(
-            (got - want).abs() < 1e-8 * want.abs(),
-            "{qd} {x}: {got} {want}"
-        );
+        assert!((got - want).abs() < 1e-8 * want.abs(), "{qd} {x}: {got} {want}");
     }
 }
 
@@ -190,10 +156,7 @@ fn scene<R: Real>() -> impl Effect<R, 6, 6> {
     (
         RIGID_BODY,
         Viscous([of(1.5); 6]),
-        Coulomb {
-            torque: [of(3.0); 6],
-            width: Width::new(of(0.5)),
-        },
+        Coulomb { torque: [of(3.0); 6], width: Width::new(of(0.5)) },
         Armature([of(0.7); 6]),
         gears::<R, 6>(0.4, 0.3, 1.5),
     )
@@ -231,10 +194,7 @@ fn forward_dynamics_of_core_and_engine_solve_for_load_friction() {
         let hybrid = hybrid_dynamics(&Ur5e::MODEL, &state, &given, &scene).unwrap();
         worst.see_all(&hybrid.qdd, &qdd);
         for (got, want) in hybrid.tau.iter().zip(tau) {
-            assert!(
-                (got - want).abs() < 1e-9 * (1.0 + want.abs()),
-                "{got} {want}"
-            );
+            assert!((got - want).abs() < 1e-9 * (1.0 + want.abs()), "{got} {want}");
         }
     }
     worst.check::<f64>("ur5e", "forward dynamics under load friction");
@@ -265,10 +225,7 @@ fn gears_take_power_from_every_joint_of_an_arm() {
 fn a_self_locking_gear_has_no_forward_dynamics() {
     // A worm gear held by friction: no smooth sign has the torque that it takes.
     let scene = (Gravity::EARTH, Inertia, gears::<f64, 1>(1.5, 1.0, 1e-3));
-    let down = State {
-        qd: [-1.0],
-        ..State::at([0.0])
-    };
+    let down = State { qd: [-1.0], ..State::at([0.0]) };
     let got = algorithms::aba(&HOIST, &down, &[5.0], &scene);
     assert!(got.is_ok_and(|qdd| !qdd[0].is_finite()));
     assert!(rnea(&HOIST, &down, &scene)[0].is_finite());

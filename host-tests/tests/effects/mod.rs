@@ -20,10 +20,8 @@ mod springs;
 mod surroundings;
 
 /// 2 kg on a level rail along x.
-const SLEDGE: ArmModel<f64, 1> = Model::new(
-    "sledge",
-    [Body::new("sledge", BASE, Joint::prismatic([1.0, 0.0, 0.0])).mass(2.0)],
-);
+const SLEDGE: ArmModel<f64, 1> =
+    Model::new("sledge", [Body::new("sledge", BASE, Joint::prismatic([1.0, 0.0, 0.0])).mass(2.0)]);
 
 /// The motor's torque at one joint that moves so.
 fn torque<R: Real, E: Effect<R, 1, 1>>(effect: &E, q: f64, qd: f64) -> f64 {

@@ -41,11 +41,7 @@ impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for CableDrag<R> {
 
 fn cable<R: Real>() -> CableDrag<R> {
     let of = R::from_f64;
-    CableDrag {
-        body: 3,
-        point: R::Vec3::new(of(0.05), of(-0.1), of(0.02)),
-        drag: of(7.0),
-    }
+    CableDrag { body: 3, point: R::Vec3::new(of(0.05), of(-0.1), of(0.02)), drag: of(7.0) }
 }
 
 #[test]
@@ -57,10 +53,7 @@ fn a_cables_drag_acts_as_the_same_wrench() {
         let state = State { q, qd, qdd };
         let v = kinematics(&Ur5e::MODEL, &state, &()).velocity(3, frame::Local);
         let f = (v.lin + v.ang.cross(cable.point)) * -7.0;
-        let same = BodyWrench {
-            body: 3,
-            wrench: Force::<f64>::new(cable.point.cross(f), f),
-        };
+        let same = BodyWrench { body: 3, wrench: Force::<f64>::new(cable.point.cross(f), f) };
         let got = Core::<Ur5e>::rnea(&state, &(RIGID_BODY, cable));
         let want = Core::<Ur5e>::rnea(&state, &(RIGID_BODY, same));
         for (got, want) in got.iter().zip(want) {
@@ -92,11 +85,7 @@ fn engine_equals_core_under_the_remaining_effects() {
     fn ulps<R: Real>(ulp: f64) -> f64 {
         let of = R::from_f64;
         let scene = (
-            (
-                GravityVector(R::Vec3::new(of(1.0), of(-2.0), of(-9.5))),
-                Inertia,
-                Coriolis,
-            ),
+            (GravityVector(R::Vec3::new(of(1.0), of(-2.0), of(-9.5))), Inertia, Coriolis),
             AsymmetricCoulomb {
                 forward: [of(4.0); 6],
                 backward: [of(3.0); 6],
@@ -116,10 +105,7 @@ fn engine_equals_core_under_the_remaining_effects() {
                 stribeck_speed: Width::new(of(2.0)),
                 bristle: [of(0.003); 6],
             },
-            Spring {
-                stiffness: [of(5.0); 6],
-                rest: [of(0.5); 6],
-            },
+            Spring { stiffness: [of(5.0); 6], rest: [of(0.5); 6] },
             EndStops {
                 lower: [of(-2.5); 6],
                 upper: [of(2.5); 6],
@@ -127,11 +113,7 @@ fn engine_equals_core_under_the_remaining_effects() {
                 damping: of(3.0),
                 damping_depth: Width::new(of(0.1)),
             },
-            Cogging {
-                per_turn: [of(6.0); 6],
-                cos: [[of(0.1)]; 6],
-                sin: [[of(0.2)]; 6],
-            },
+            Cogging { per_turn: [of(6.0); 6], cos: [[of(0.1)]; 6], sin: [[of(0.2)]; 6] },
             BodyWrench {
                 body: 4,
                 wrench: Force::new(
@@ -160,14 +142,8 @@ fn engine_equals_core_under_the_remaining_effects() {
         }
         worst / (ulp * full_scale)
     }
-    let (single, double) = (
-        ulps::<f32>(f64::from(f32::EPSILON)),
-        ulps::<f64>(f64::EPSILON),
-    );
-    assert!(
-        largest([single, double]) <= 4.0,
-        "{single:.2}, {double:.2} ulp"
-    );
+    let (single, double) = (ulps::<f32>(f64::from(f32::EPSILON)), ulps::<f64>(f64::EPSILON));
+    assert!(largest([single, double]) <= 4.0, "{single:.2}, {double:.2} ulp");
 }
 
 /// A base that moves, and what asks where bodies stand, on a tree with slides, welds and two roots.
@@ -180,10 +156,7 @@ fn engine_equals_core_on_a_moving_base() {
             velocity: Motion::new(vec(0.5, -0.3, 0.8), vec(0.2, 0.4, -0.6)),
             acceleration: Motion::new(vec(-1.0, 2.0, 0.7), vec(1.5, -2.0, 0.9)),
         };
-        let foot = |body, x| ContactPoint {
-            body,
-            point: vec(x, -0.1, 0.2),
-        };
+        let foot = |body, x| ContactPoint { body, point: vec(x, -0.1, 0.2) };
         let ground = Contact {
             points: [foot(6, 0.1), foot(8, -0.2), foot(3, 0.3)],
             normal: vec(0.0, 0.6, 0.8),
@@ -194,10 +167,8 @@ fn engine_equals_core_on_a_moving_base() {
             friction: of(0.4),
             slip_tolerance: of(0.5),
         };
-        let wind = WorldWrench {
-            body: 5,
-            wrench: Force::new(vec(1.0, 2.0, -3.0), vec(5.0, -4.0, 2.0)),
-        };
+        let wind =
+            WorldWrench { body: 5, wrench: Force::new(vec(1.0, 2.0, -3.0), vec(5.0, -4.0, 2.0)) };
         let all = (RIGID_BODY, base, ground, wind);
         let slow = (RIGID_BODY.0, Inertia, base, wind);
         let rng = &mut random_numbers();
@@ -205,10 +176,8 @@ fn engine_equals_core_on_a_moving_base() {
         for _ in 0..everyday_or_full(2_000, 10_000) {
             let [q, qd, qdd] = [3.1, 3.0, 10.0].map(|bound| within::<7>(rng, bound));
             let state = cast::<R, 7>(&State { q, qd, qdd });
-            let core = [
-                Core::<StressRobot>::rnea(&state, &all),
-                Core::<StressRobot>::rnea(&state, &slow),
-            ];
+            let core =
+                [Core::<StressRobot>::rnea(&state, &all), Core::<StressRobot>::rnea(&state, &slow)];
             let engine = [
                 Engine::<StressRobot>::rnea(&state, &all),
                 Engine::<StressRobot>::rnea(&state, &slow),
@@ -222,10 +191,7 @@ fn engine_equals_core_on_a_moving_base() {
         }
         [0, 1].map(|k| worst[k] / (ulp * full_scale[k]))
     }
-    let (single, double) = (
-        ulps::<f32>(f64::from(f32::EPSILON)),
-        ulps::<f64>(f64::EPSILON),
-    );
+    let (single, double) = (ulps::<f32>(f64::from(f32::EPSILON)), ulps::<f64>(f64::EPSILON));
     println!("{single:.2?} {double:.2?} ulp");
     // Friction of the ground is of the difference of two velocities, a body's and the base's, both
     // larger than it.
@@ -236,15 +202,8 @@ fn engine_equals_core_on_a_moving_base() {
 
 #[test]
 fn effects_in_any_order_and_nesting_are_the_same_scene() {
-    let state = State {
-        q: [0.3; 6],
-        qd: [0.5; 6],
-        qdd: [1.0; 6],
-    };
-    let lift = BodyWrench {
-        body: 5,
-        wrench: Force::<f64>::new(DVec3::X, DVec3::Z),
-    };
+    let state = State { q: [0.3; 6], qd: [0.5; 6], qdd: [1.0; 6] };
+    let lift = BodyWrench { body: 5, wrench: Force::<f64>::new(DVec3::X, DVec3::Z) };
     let one = Core::<Ur5e>::rnea(&state, &(RIGID_BODY, (lift, (cable::<f64>(),))));
     let other = Core::<Ur5e>::rnea(&state, &(RIGID_BODY, lift, cable::<f64>()));
     assert_eq!(one, other);

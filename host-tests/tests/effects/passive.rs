@@ -26,23 +26,14 @@ fn agree<R: Real>(r: &Passive) {
         RIGID_BODY,
         Viscous(cast(&r.damping)),
         // MuJoCo's joints slip at 0.5 rad/s and more: beyond the width of the smooth sign.
-        Coulomb {
-            torque: cast(&r.friction),
-            width: Width::new(R::from_f64(0.01)),
-        },
-        Spring {
-            stiffness: cast(&r.stiffness),
-            rest: cast(&r.rest),
-        },
+        Coulomb { torque: cast(&r.friction), width: Width::new(R::from_f64(0.01)) },
+        Spring { stiffness: cast(&r.stiffness), rest: cast(&r.rest) },
         Armature(cast(&r.armature)),
     );
     let mut worst = Worst::default();
     for i in 0..r.q.len() {
-        let state = State {
-            q: cast(&row(&r.q, i)),
-            qd: cast(&row(&r.qd, i)),
-            qdd: cast(&row(&r.qdd, i)),
-        };
+        let state =
+            State { q: cast(&row(&r.q, i)), qd: cast(&row(&r.qd, i)), qdd: cast(&row(&r.qdd, i)) };
         worst.see_all(&Core::<Ur5e>::rnea(&state, &scene), &row::<6>(&r.tau, i));
     }
     worst.check::<R>("ur5e", "passive joints");

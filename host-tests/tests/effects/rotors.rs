@@ -23,33 +23,14 @@ const ROTORS: [[f64; 4]; 4] = [
 /// Low, as where it matters; one gear turns the other way, one joint is a screw-driven slide
 /// (rad/m).
 const RATIOS: [f64; 4] = [6.0, -4.0, 9.0, 40.0];
-const AXES: [[f64; 3]; 4] = [
-    [0.0, 0.0, 1.0],
-    [0.0, 0.6, 0.8],
-    [1.0, 0.0, 0.0],
-    [0.0, 1.0, 0.0],
-];
-const PLACES: [[f64; 3]; 4] = [
-    [0.0, 0.0, 0.3],
-    [0.1, 0.2, 0.1],
-    [0.4, 0.0, 0.1],
-    [0.2, 0.1, 0.0],
-];
-const TURNS: [[f64; 3]; 4] = [
-    [0.0, 0.0, 0.0],
-    [0.3, -0.2, 0.5],
-    [1.0, 0.2, 0.0],
-    [0.0, 0.7, 0.4],
-];
+const AXES: [[f64; 3]; 4] = [[0.0, 0.0, 1.0], [0.0, 0.6, 0.8], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+const PLACES: [[f64; 3]; 4] = [[0.0, 0.0, 0.3], [0.1, 0.2, 0.1], [0.4, 0.0, 0.1], [0.2, 0.1, 0.0]];
+const TURNS: [[f64; 3]; 4] = [[0.0, 0.0, 0.0], [0.3, -0.2, 0.5], [1.0, 0.2, 0.0], [0.0, 0.7, 0.4]];
 /// A tree: the third and the fourth joint both stand on the second link.
 const PARENTS: [usize; 4] = [BASE, 0, 1, 1];
 
 fn joint_of(i: usize) -> Joint<f64> {
-    if i == 3 {
-        Joint::prismatic(AXES[i])
-    } else {
-        Joint::revolute(AXES[i])
-    }
+    if i == 3 { Joint::prismatic(AXES[i]) } else { Joint::revolute(AXES[i]) }
 }
 
 fn link(i: usize, parent: usize) -> Body {
@@ -83,11 +64,7 @@ fn rotor(i: usize, parent: usize, joint: Joint<f64>) -> Body {
 fn robot<const V: usize>(locked: bool) -> Model<f64, 8, V, V> {
     let bodies = core::array::from_fn(|k| {
         let (i, is_rotor) = (k / 2, k % 2 == 0);
-        let parent = if PARENTS[i] == BASE {
-            BASE
-        } else {
-            2 * PARENTS[i] + 1
-        };
+        let parent = if PARENTS[i] == BASE { BASE } else { 2 * PARENTS[i] + 1 };
         if !is_rotor {
             link(i, parent)
         } else if locked {
@@ -143,11 +120,7 @@ fn gyroscopic_rotors_have_the_expanded_trees_dynamics() {
                 inertia: GYROSCOPIC_ROTORS.inertia.map(|x| x as f32),
                 ratio: GYROSCOPIC_ROTORS.ratio.map(|x| x as f32),
             };
-            let got = rnea(
-                &compact.to_f32(),
-                &cast::<f32, 4>(&state),
-                &(RIGID_BODY, rotors),
-            );
+            let got = rnea(&compact.to_f32(), &cast::<f32, 4>(&state), &(RIGID_BODY, rotors));
             single.see_all(&got, &want);
         }
 
@@ -161,10 +134,7 @@ fn gyroscopic_rotors_have_the_expanded_trees_dynamics() {
         }
 
         worst[2].see_all(&aba(&compact, &state, &tau, &scene).unwrap(), &qdd);
-        worst[2].see_all(
-            &forward_dynamics(&compact, &state, &tau, &scene).unwrap(),
-            &qdd,
-        );
+        worst[2].see_all(&forward_dynamics(&compact, &state, &tau, &scene).unwrap(), &qdd);
         let mut given = tau.map(Prescribed::Torque);
         given[1] = Prescribed::Acceleration(qdd[1]);
         given[3] = Prescribed::Acceleration(qdd[3]);
@@ -174,10 +144,7 @@ fn gyroscopic_rotors_have_the_expanded_trees_dynamics() {
 
         let energy = kinetic_energy(&compact, &state, &scene);
         worst[3].see(energy, kinetic_energy(&expanded, &all, &rigid));
-        let [got, want] = [
-            momentum(&compact, &state, &scene),
-            momentum(&expanded, &all, &rigid),
-        ];
+        let [got, want] = [momentum(&compact, &state, &scene), momentum(&expanded, &all, &rigid)];
         worst[4].see_all(&got.ang.to_array(), &want.ang.to_array());
         worst[4].see_all(&got.lin.to_array(), &want.lin.to_array());
         let got = momentum_and_coriolis(&compact, &state, &scene);
@@ -185,21 +152,10 @@ fn gyroscopic_rotors_have_the_expanded_trees_dynamics() {
         worst[5].see_all(&got.p, &gears.torque(&want.p));
         worst[6].see_all(&got.ct_qd, &gears.torque(&want.ct_qd));
     }
-    let names = [
-        "rnea",
-        "crba",
-        "aba",
-        "kinetic energy",
-        "momentum",
-        "M qd",
-        "Cᵀ qd",
-    ];
+    let names = ["rnea", "crba", "aba", "kinetic energy", "momentum", "M qd", "Cᵀ qd"];
     single.check::<f32>("spinning rotors", "rnea");
     for (worst, name) in worst.iter().zip(names) {
-        assert!(
-            worst.error <= 1e-12 * worst.full_scale.max(1.0) || name == "aba",
-            "{name}"
-        );
+        assert!(worst.error <= 1e-12 * worst.full_scale.max(1.0) || name == "aba", "{name}");
         worst.check::<f64>("spinning rotors", name);
     }
 }
@@ -213,10 +169,7 @@ fn at_high_ratios_rotors_act_as_armatures() {
     let error = |ratio: f64| {
         // The reflected inertia stays the same, the coupling ρ I falls with 1/ρ.
         let inertia = [0.05; 4].map(|reflected| reflected / (ratio * ratio));
-        let full = GyroscopicRotors {
-            inertia,
-            ratio: [ratio; 4],
-        };
+        let full = GyroscopicRotors { inertia, ratio: [ratio; 4] };
         let full = rnea(&compact, &state, &(RIGID_BODY, full));
         let less = rnea(&compact, &state, &(RIGID_BODY, Armature([0.05; 4])));
         largest((0..4).map(|i| (full[i] - less[i]).abs()))

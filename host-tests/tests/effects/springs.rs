@@ -27,10 +27,7 @@ fn two_masses_on_a_spring_swing_in_closed_form() {
             Body::new("other", 0, Joint::prismatic([1.0, 0.0, 0.0])).mass(3.0),
         ],
     );
-    let spring = Spring {
-        stiffness: [0.0, 120.0],
-        rest: [0.0, 0.25],
-    };
+    let spring = Spring { stiffness: [0.0, 120.0], rest: [0.0, 0.25] };
     let (omega, h) = ((120.0_f64 * (1.0 / 2.0 + 1.0 / 3.0)).sqrt(), 1e-5);
     let mut state = State::at([0.0, 0.35]);
     let (mut stretch, mut centre) = (Worst::default(), 0.0_f64);
@@ -38,10 +35,8 @@ fn two_masses_on_a_spring_swing_in_closed_form() {
         semi_implicit(&PAIR, &mut state, &[0.0; 2], &(Inertia, spring), h).unwrap();
         let t = h * f64::from(i);
         stretch.see(state.q[1] - 0.25, 0.1 * (omega * t).cos());
-        centre = largest([
-            centre,
-            (2.0 * state.q[0] + 3.0 * (state.q[0] + state.q[1]) - 1.05).abs(),
-        ]);
+        centre =
+            largest([centre, (2.0 * state.q[0] + 3.0 * (state.q[0] + state.q[1]) - 1.05).abs()]);
     }
     assert!(centre < 1e-11, "{centre:e}");
     stretch.check::<f64>("two masses", "stretch");
@@ -83,24 +78,14 @@ fn stops_push_inwards_only_and_never_add_energy() {
 
 #[test]
 fn stops_of_any_stiffness_are_stable_in_long_steps() {
-    let mut scene = (
-        Inertia,
-        EndStops {
-            stiffness: 1e9,
-            damping: 1e3,
-            ..STOPS
-        },
-    );
+    let mut scene = (Inertia, EndStops { stiffness: 1e9, damping: 1e3, ..STOPS });
     let mut state = State::at([0.0]);
     state.qd = [5.0];
     for _ in 0..5000 {
         linearly_implicit(&SLEDGE, &mut state, &[20.0], &mut scene, 1e-3).unwrap();
         assert!(state.qd[0].abs() <= 10.0 && state.q[0] < 1.51);
     }
-    assert!(
-        (state.q[0] - 1.5).abs() < 1e-6 && state.qd[0].abs() < 1e-3,
-        "{state:?}"
-    );
+    assert!((state.q[0] - 1.5).abs() < 1e-6 && state.qd[0].abs() < 1e-3, "{state:?}");
 }
 
 #[test]
@@ -148,24 +133,10 @@ fn stated_slopes_are_derivatives_of_the_torques() {
         }
     }
     let rng = &mut random_numbers();
-    let dry = Coulomb {
-        torque: [4.0],
-        width: Width::new(0.5),
-    };
-    let one_way = AsymmetricCoulomb {
-        forward: [4.0],
-        backward: [1.0],
-        width: Width::new(0.5),
-    };
-    let spring = Spring {
-        stiffness: [50.0],
-        rest: [0.3],
-    };
-    let cogging = Cogging {
-        per_turn: [12.0],
-        cos: [[0.1, 0.2]],
-        sin: [[0.4, -0.1]],
-    };
+    let dry = Coulomb { torque: [4.0], width: Width::new(0.5) };
+    let one_way = AsymmetricCoulomb { forward: [4.0], backward: [1.0], width: Width::new(0.5) };
+    let spring = Spring { stiffness: [50.0], rest: [0.3] };
+    let cogging = Cogging { per_turn: [12.0], cos: [[0.1, 0.2]], sin: [[0.4, -0.1]] };
     for _ in 0..1000 {
         let (q, qd) = (rng.random_range(-2.0..2.0), rng.random_range(-1.0..1.0));
         holds(&Viscous([0.7]), q, qd);
@@ -184,10 +155,7 @@ fn stated_slopes_are_derivatives_of_the_torques() {
 fn an_implicit_step_of_a_spring_is_backward_eulers() {
     // (m + h b + h² k) q̇₊ = m q̇ − h k (q − q₀)
     let (k, b, h, m) = (5e5, 300.0, 2e-3, 2.0);
-    let spring = Spring {
-        stiffness: [k],
-        rest: [0.1],
-    };
+    let spring = Spring { stiffness: [k], rest: [0.1] };
     let mut scene = (Inertia, spring, Viscous([b]));
     let (mut state, mut worst) = (State::at([0.3]), Worst::default());
     let [mut q, mut qd] = [0.3_f64, 0.0];

@@ -27,17 +27,10 @@ fn wrenches_and_moving_bases_agree_with_pinocchio() {
     let r = load("panda");
     let [mut body, mut world, mut base] = [(); 3].map(|()| Worst::default());
     for i in 0..r.first_states() {
-        let state = State {
-            q: row::<7>(&r.q, i),
-            qd: row(&r.qd, i),
-            qdd: row(&r.qdd, i),
-        };
+        let state = State { q: row::<7>(&r.q, i), qd: row(&r.qd, i), qdd: row(&r.qdd, i) };
         let poses = kinematics(&Panda::MODEL, &state, &()).poses;
         let f = columns::<7>(&r.wrenches, i).map(halves);
-        let own = |k: usize| BodyWrench {
-            body: k,
-            wrench: Force::<f64>::new(f[k].0, f[k].1),
-        };
+        let own = |k: usize| BodyWrench { body: k, wrench: Force::<f64>::new(f[k].0, f[k].1) };
         let turned = |k: usize| WorldWrench {
             body: k,
             wrench: Force::<f64>::new(poses[k].rot * f[k].0, poses[k].rot * f[k].1),
@@ -45,15 +38,7 @@ fn wrenches_and_moving_bases_agree_with_pinocchio() {
         let want = row::<7>(&r.rnea_wrenches, i);
         let scene = (own(0), own(1), own(2), own(3), own(4), own(5), own(6));
         body.see_all(&Core::<Panda>::rnea(&state, &(RIGID_BODY, scene)), &want);
-        let scene = (
-            turned(0),
-            turned(1),
-            turned(2),
-            turned(3),
-            turned(4),
-            turned(5),
-            turned(6),
-        );
+        let scene = (turned(0), turned(1), turned(2), turned(3), turned(4), turned(5), turned(6));
         world.see_all(&Core::<Panda>::rnea(&state, &(RIGID_BODY, scene)), &want);
         let [v, a] = [&r.base_velocity, &r.base_acceleration].map(|rows| halves(row(rows, i)));
         let moving = MovingBase::<f64> {
@@ -100,16 +85,9 @@ fn a_rolling_base_equals_a_prescribed_joint() {
         let [q, qd, qdd] = [2.0, 3.0, 5.0].map(|bound| within::<3>(rng, bound));
         let whole = State { q, qd, qdd };
         let want = rnea(&ship, &whole, &RIGID_BODY);
-        let above = State {
-            q: [q[1], q[2]],
-            qd: [qd[1], qd[2]],
-            qdd: [qdd[1], qdd[2]],
-        };
+        let above = State { q: [q[1], q[2]], qd: [qd[1], qd[2]], qdd: [qdd[1], qdd[2]] };
         let roll = |rate: f64| Motion::<f64>::new(DVec3::X * rate, DVec3::ZERO);
-        let base = MovingBase {
-            velocity: roll(qd[0]),
-            acceleration: roll(qdd[0]),
-        };
+        let base = MovingBase { velocity: roll(qd[0]), acceleration: roll(qdd[0]) };
         let tilt = DMat3::from_rotation_x(q[0]);
         let gravity = GravityVector::<f64>::tilted(tilt, DVec3::NEG_Z * 9.81);
         let (_, inertia, coriolis) = RIGID_BODY;
@@ -146,10 +124,7 @@ fn the_ground_never_pulls_nor_leaves_the_friction_cone() {
             let fastest = 10.0_f64.powi(rng.random_range(-4..1));
             let [u, v, w]: [f64; 3] = within(rng, fastest);
             let vec = |x, y, z| R::Vec3::new(R::from_f64(x), R::from_f64(y), R::from_f64(z));
-            let [fx, fy, fz] = ground
-                .force(vec(x, y, z), vec(u, v, w))
-                .array()
-                .map(R::to_f64);
+            let [fx, fy, fz] = ground.force(vec(x, y, z), vec(u, v, w)).array().map(R::to_f64);
             assert!(fz >= 0.0 && (z < 0.0 || fz == 0.0), "{fz} at {z}");
             assert!(fx.hypot(fy) <= 0.5 * fz * (1.0 + 1e-6), "{fx} {fy} {fz}");
             assert!(fx * u + fy * v <= 0.0);
@@ -190,17 +165,9 @@ fn a_box_on_a_slope_follows_coulombs_law() {
     );
     let run = |slope: f64, friction: f64| {
         let flat = ground::<f64>([0.0; 3]);
-        let corner = |x: f64, y: f64| ContactPoint {
-            body: 0,
-            point: DVec3::new(x, y, -0.02),
-        };
+        let corner = |x: f64, y: f64| ContactPoint { body: 0, point: DVec3::new(x, y, -0.02) };
         let ground = Contact::<f64, 4> {
-            points: [
-                corner(0.2, 0.2),
-                corner(-0.2, 0.2),
-                corner(0.2, -0.2),
-                corner(-0.2, -0.2),
-            ],
+            points: [corner(0.2, 0.2), corner(-0.2, 0.2), corner(0.2, -0.2), corner(-0.2, -0.2)],
             normal: flat.normal,
             height: 0.0,
             stiffness: flat.stiffness,
@@ -217,16 +184,11 @@ fn a_box_on_a_slope_follows_coulombs_law() {
         for i in 0..40_000 {
             semi_implicit(&slab, &mut state, &[0.0; 6], &scene, 5e-5).unwrap();
             if i == 19_999 {
-                speed[0] = kinematics(&slab, &state, &())
-                    .velocity(0, frame::LocalWorldAligned)
-                    .lin
-                    .x;
+                speed[0] =
+                    kinematics(&slab, &state, &()).velocity(0, frame::LocalWorldAligned).lin.x;
             }
         }
-        speed[1] = kinematics(&slab, &state, &())
-            .velocity(0, frame::LocalWorldAligned)
-            .lin
-            .x;
+        speed[1] = kinematics(&slab, &state, &()).velocity(0, frame::LocalWorldAligned).lin.x;
         speed
     };
     let [first, second] = run(0.4, 0.3);

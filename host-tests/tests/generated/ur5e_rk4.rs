@@ -54,9 +54,7 @@ impl Simulation {
 
     /// One step; the state after it.
     pub fn step(&mut self) -> Result<&State<f32, 6, 6>, NotPositiveDefinite> {
-        let rates = self
-            .integrator
-            .step(&PassiveMotion, &self.motion.state, STEP)?;
+        let rates = self.integrator.step(&PassiveMotion, &self.motion.state, STEP)?;
         self.motion.add(&rates, STEP);
         Ok(&self.motion.state)
     }

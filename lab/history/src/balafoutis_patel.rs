@@ -41,16 +41,10 @@ pub fn torques<T: Number, const N: usize>(chain: &Chain<T, N>, state: &State<T, 
         let turning = tensor(&w, &wd);
         let before = back(&sdd);
         sdd = plus(&before, &mul_vec(&turning, &link.p));
-        let moment = plus(
-            &moment(&turning, &link.augmented_second),
-            &cross(&link.augmented_first, &before),
-        );
+        let moment =
+            plus(&moment(&turning, &link.augmented_second), &cross(&link.augmented_first, &before));
         // Only the torque of the first link is needed.
-        let force = if i > 0 {
-            mul_vec(&turning, &link.augmented_first)
-        } else {
-            zero
-        };
+        let force = if i > 0 { mul_vec(&turning, &link.augmented_first) } else { zero };
         wrench[i] = (force, moment);
     }
     let mut tau = [T::ZERO; N];

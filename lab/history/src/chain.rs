@@ -137,10 +137,7 @@ impl<T: Number, const N: usize> State<T, N> {
 impl<T: Number, const N: usize> Default for Chain<T, N> {
     fn default() -> Self {
         let from_here = |i| (i..N).map(|j| given(j).mass).sum();
-        Self {
-            links: from_fn(|i| Link::new(&given(i), from_here(i))),
-            gravity: GRAVITY.map(T::of),
-        }
+        Self { links: from_fn(|i| Link::new(&given(i), from_here(i))), gravity: GRAVITY.map(T::of) }
     }
 }
 
@@ -206,11 +203,7 @@ impl<T: Number> Link<T> {
     #[inline(always)]
     pub fn rotation(&self, cos: T, sin: T) -> Mat<T, 3> {
         let (ca, sa) = (self.cos_alpha, self.sin_alpha);
-        [
-            [cos, -(ca * sin), sa * sin],
-            [sin, ca * cos, -(sa * cos)],
-            [T::ZERO, sa, ca],
-        ]
+        [[cos, -(ca * sin), sa * sin], [sin, ca * cos, -(sa * cos)], [T::ZERO, sa, ca]]
     }
 
     /// A_i, from frame i to frame i − 1: 6 products.

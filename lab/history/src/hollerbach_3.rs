@@ -40,16 +40,10 @@ pub fn torques<T: Number, const N: usize>(chain: &Chain<T, N>, state: &State<T, 
     let mut tau = [T::ZERO; N];
     let (mut d, mut c, mut e) = (zero, [T::ZERO; 3], [T::ZERO; 3]);
     for (i, link) in chain.links.iter().enumerate().rev() {
-        let own = plus(
-            &times(&pdd[i], link.mass),
-            &mul_vec(&wdd[i], &link.first_moment),
-        );
+        let own = plus(&times(&pdd[i], link.mass), &mul_vec(&wdd[i], &link.first_moment));
         e = if i + 1 == N { own } else { plus(&e, &own) };
         let turning = mul_transposed(&link.second_moment, &wdd[i]);
-        let own = sum(
-            &sum(&outer(&link.p, &e), &outer(&link.first_moment, &pdd[i])),
-            &turning,
-        );
+        let own = sum(&sum(&outer(&link.p, &e), &outer(&link.first_moment, &pdd[i])), &turning);
         if i + 1 == N {
             (d, c) = (own, link.augmented_first);
         } else {

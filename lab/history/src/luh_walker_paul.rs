@@ -42,10 +42,7 @@ pub fn torques<T: Number, const N: usize>(chain: &Chain<T, N>, state: &State<T, 
         vd = plus(&shift(&link.p), &vd);
         let com = plus(&shift(&link.s), &vd);
         let turned = cross(&w, &mul_vec(&link.inertia, &w));
-        wrench[i] = (
-            times(&com, link.mass),
-            plus(&mul_vec(&link.inertia, &wd), &turned),
-        );
+        wrench[i] = (times(&com, link.mass), plus(&mul_vec(&link.inertia, &wd), &turned));
     }
     inward(&chain.links, &a, &wrench, 0)
 }
@@ -68,10 +65,7 @@ pub fn inward<T: Number, const N: usize>(
         } else {
             let a = &a[i + 1];
             let lever = plus(&n, &cross(&transpose_mul_vec(a, &link.p), &f));
-            (
-                plus(&mul_vec(a, &f), force),
-                plus(&mul_vec(a, &lever), &own),
-            )
+            (plus(&mul_vec(a, &f), force), plus(&mul_vec(a, &lever), &own))
         };
         // Row 3 of A_i is A_iᵀ z.
         tau[i] = dot(&n, &a[i][2]);

@@ -44,22 +44,14 @@ pub fn torques<T: Number, const N: usize>(chain: &Chain<T, N>, state: &State<T, 
                     let dw_j = mul(&dw[i], &link.pseudo_inertia);
                     let speeds = state.qd[k] * state.qd[l];
                     let term = trace_of_product(&dw_j, second) * speeds;
-                    tau[i] = if (i, k, l) == (j, 0, 0) {
-                        term
-                    } else {
-                        tau[i] + term
-                    };
+                    tau[i] = if (i, k, l) == (j, 0, 0) { term } else { tau[i] + term };
                 }
             }
             let weight = link.mass * dot(&gravity, &mul_vec(&dw[i], &link.com_4()));
             tau[i] = tau[i] - weight;
         }
     }
-    from_fn(|i| {
-        (0..N).fold(tau[i], |tau, k| {
-            tau + inertia[i.max(k)][i.min(k)] * state.qdd[k]
-        })
-    })
+    from_fn(|i| (0..N).fold(tau[i], |tau, k| tau + inertia[i.max(k)][i.min(k)] * state.qdd[k]))
 }
 
 /// From W_{j−1} and its derivatives to those of W_j.

@@ -56,11 +56,7 @@ pub struct Turning<T, const D: usize> {
 impl<T: Number, const D: usize> Default for Turning<T, D> {
     fn default() -> Self {
         let zero = [[T::ZERO; D]; D];
-        Self {
-            w: zero,
-            wd: zero,
-            wdd: zero,
-        }
+        Self { w: zero, wd: zero, wdd: zero }
     }
 }
 

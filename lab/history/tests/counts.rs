@@ -31,11 +31,7 @@ fn operations<const N: usize>(key: &str) -> Operations {
 
 /// Fails unless the counts at N are those of the table.
 fn compare<const N: usize>(counts: &Counts) -> Result<(), String> {
-    let Operations {
-        products,
-        sums,
-        quotients,
-    } = operations::<N>(counts.key);
+    let Operations { products, sums, quotients } = operations::<N>(counts.key);
     let n = i64::try_from(N).expect("few joints");
     let expected = counts.counted.map(|polynomial| polynomial.twelvefold(n));
     let measured = [products, sums].map(|count| 12 * count);
@@ -43,10 +39,7 @@ fn compare<const N: usize>(counts: &Counts) -> Result<(), String> {
     if (measured, quotients) == (expected, divides) {
         return Ok(());
     }
-    Err(format!(
-        "{}, n = {N}: {products} products, {sums} sums",
-        counts.key
-    ))
+    Err(format!("{}, n = {N}: {products} products, {sums} sums", counts.key))
 }
 
 #[test]
@@ -82,9 +75,7 @@ fn published_polynomials_give_the_published_totals() {
     ];
     for (key, expected) in totals {
         let counts = ANCESTORS.iter().find(|counts| counts.key == key);
-        let published = counts
-            .and_then(|counts| counts.published)
-            .expect("published");
+        let published = counts.and_then(|counts| counts.published).expect("published");
         let at_6 = published.map(|polynomial| polynomial.twelvefold(6));
         assert_eq!(at_6, expected.map(|total| 12 * total), "{key}");
     }
@@ -101,11 +92,7 @@ fn wrong_counts_and_missing_terms_are_refused() {
             for i in 0..counts.terms.len() {
                 let others = [&counts.terms[..i], &counts.terms[i + 1..]].concat();
                 let terms: &[Term] = others.leak();
-                assert!(
-                    !Counts { terms, ..*counts }.is_explained(),
-                    "{} {i}",
-                    counts.key
-                );
+                assert!(!Counts { terms, ..*counts }.is_explained(), "{} {i}", counts.key);
             }
         }
     }

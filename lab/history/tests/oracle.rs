@@ -21,10 +21,8 @@ struct Numbers(u64);
 
 impl Numbers {
     fn next(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
+        self.0 =
+            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
     }
 
@@ -36,11 +34,7 @@ impl Numbers {
 fn random<const N: usize>(seed: u64) -> state::State<f64, N, N> {
     let mut numbers = Numbers(seed);
     numbers.next();
-    state::State {
-        q: numbers.array(3.0),
-        qd: numbers.array(4.0),
-        qdd: numbers.array(10.0),
-    }
+    state::State { q: numbers.array(3.0), qd: numbers.array(4.0), qdd: numbers.array(10.0) }
 }
 
 /// The largest difference of two lists of numbers, relative to the largest of the second.
@@ -61,10 +55,7 @@ fn torque_error<const N: usize>(ancestor: Torques<N>) -> f64 {
     let errors = (0..STATES).map(|seed| {
         let state = random::<N>(seed);
         let oracle = rnea(&Rods::<N>::MODEL, &state, &RIGID_BODY);
-        error(
-            &ancestor(&chain, &State::new(&state.q, &state.qd, &state.qdd)),
-            &oracle,
-        )
+        error(&ancestor(&chain, &State::new(&state.q, &state.qd, &state.qdd)), &oracle)
     });
     errors.fold(0.0, f64::max)
 }
@@ -138,10 +129,7 @@ fn conjugate_gradients<const N: usize>() -> usize {
         };
         let tau = product(&state.qdd);
         let (qdd, steps) = solve(&chain, &ours, &tau, (20 * N, 1e-13));
-        assert!(
-            error(&product(&qdd), &tau) <= BOUND,
-            "n = {N}: {steps} steps"
-        );
+        assert!(error(&product(&qdd), &tau) <= BOUND, "n = {N}: {steps} steps");
         most = most.max(steps);
     }
     most
@@ -149,11 +137,8 @@ fn conjugate_gradients<const N: usize>() -> usize {
 
 #[test]
 fn conjugate_gradients_give_the_accelerations() {
-    let steps = [
-        conjugate_gradients::<2>(),
-        conjugate_gradients::<6>(),
-        conjugate_gradients::<12>(),
-    ];
+    let steps =
+        [conjugate_gradients::<2>(), conjugate_gradients::<6>(), conjugate_gradients::<12>()];
     // Without rounding errors as many as there are joints would suffice; docs/history.md names
     // these.
     assert_eq!(steps, [2, 8, 19]);
@@ -162,10 +147,7 @@ fn conjugate_gradients_give_the_accelerations() {
 #[test]
 fn a_wrong_ancestor_is_refused() {
     let without_coriolis: Torques<6> = |chain, state| {
-        let still = State {
-            qd: [0.0; 6],
-            ..*state
-        };
+        let still = State { qd: [0.0; 6], ..*state };
         luh_walker_paul::torques(chain, &still)
     };
     assert!(torque_error(without_coriolis) > 1e-3);

@@ -212,22 +212,14 @@ mod tests {
     fn checkpoints_tell_how_many_instructions_ran() {
         let block = block(&[NOP, LDR_R0_R1, NOP, LDR_R0_R1, NOP]);
         assert_eq!(block.checkpoints(), [1, 3, 4]);
-        assert_eq!(
-            [0, 1, 2, 3].map(|passed| block.executed(passed)),
-            [0, 2, 4, 5]
-        );
+        assert_eq!([0, 1, 2, 3].map(|passed| block.executed(passed)), [0, 2, 4, 5]);
     }
 
     #[test]
     fn code_without_device_access_needs_no_checkpoints() {
         const LDR_R0_SP: u16 = 0x9801;
         const LDR_R0_LITERAL: u16 = 0x4801;
-        for codes in [
-            &[][..],
-            &[NOP],
-            &[LDR_R0_SP, LDR_R0_LITERAL, NOP],
-            &[NOP, LDR_R0_R1],
-        ] {
+        for codes in [&[][..], &[NOP], &[LDR_R0_SP, LDR_R0_LITERAL, NOP], &[NOP, LDR_R0_R1]] {
             let block = block(codes);
             assert!(block.checkpoints().is_empty());
             assert_eq!(block.executed(0), codes.len());

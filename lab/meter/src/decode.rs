@@ -92,14 +92,7 @@ impl Row {
         let class = words.next()?;
         let mut next = || words.by_ref().take_while(|word| *word != "=>").collect();
         let (words, operation) = (next(), next());
-        Some(Self {
-            mask,
-            bits,
-            names,
-            class,
-            words,
-            operation,
-        })
+        Some(Self { mask, bits, names, class, words, operation })
     }
 
     fn insn(&self, code: u32, size: u8) -> Insn {
@@ -119,10 +112,7 @@ impl Row {
                 "writes" => insn.on_floats(insn.float_reads, self.floats(code, what)),
                 "float" => insn.on_floats(0, 0),
                 "branch" => insn.branching(),
-                "indirect" => Insn {
-                    indirect: true,
-                    ..insn
-                },
+                "indirect" => Insn { indirect: true, ..insn },
                 "return" => insn.returning_if(true),
                 _ => unreachable!("decode.txt has no word {word}"),
             };

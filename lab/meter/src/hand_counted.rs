@@ -10,9 +10,7 @@ use crate::samples::{Sample, sample};
 const HAND_COUNTED: &str = include_str!("hand_counted.txt");
 
 fn by_hand() -> impl Iterator<Item = (&'static str, Sample)> {
-    let rows = HAND_COUNTED
-        .lines()
-        .filter_map(|line| line.split_once(": "));
+    let rows = HAND_COUNTED.lines().filter_map(|line| line.split_once(": "));
     rows.filter_map(|(name, figures)| Some((name, sample(&format!("{figures} 0"), 0).ok()?)))
 }
 
@@ -34,9 +32,7 @@ pub fn check_hand_counted(samples: &[Sample]) -> Result<usize, String> {
     let counted = by_hand().count();
     if samples.len() != counted {
         let measured = samples.len();
-        return Err(format!(
-            "{counted} sequences were counted by hand, {measured} were measured"
-        ));
+        return Err(format!("{counted} sequences were counted by hand, {measured} were measured"));
     }
     Ok(counted)
 }

@@ -25,10 +25,7 @@ pub struct Meter<'b> {
 impl<'b> Meter<'b> {
     /// A meter whose cycles are those of a reading of the manual.
     pub fn read_as(reading: Reading) -> Self {
-        Self {
-            entry: Pipe::clear(reading),
-            ..Self::default()
-        }
+        Self { entry: Pipe::clear(reading), ..Self::default() }
     }
 
     /// A block starts; the one before it passed this many of its checkpoints.
@@ -138,10 +135,7 @@ mod tests {
 
     #[test]
     fn an_interrupt_is_no_branch() {
-        assert_eq!(
-            run(&[&block(4, &[NOP]), &block(0x40, &[NOP])]),
-            [sample(0, 2, 2)]
-        );
+        assert_eq!(run(&[&block(4, &[NOP]), &block(0x40, &[NOP])]), [sample(0, 2, 2)]);
     }
 
     #[test]

@@ -70,10 +70,7 @@ pub struct Pipe {
 impl Pipe {
     /// With nothing pending, by a reading of the manual.
     pub fn clear(reading: Reading) -> Self {
-        Self {
-            reading,
-            ..Self::default()
-        }
+        Self { reading, ..Self::default() }
     }
 
     /// With nothing pending, by the same reading.
@@ -127,10 +124,7 @@ impl Pipe {
     /// Refills the pipeline after an executed branch and returns the cycles it takes.
     pub fn refill(&mut self) -> u32 {
         let refill = self.reading.refill();
-        *self = Self {
-            divider: self.divider.saturating_sub(refill),
-            ..self.cleared()
-        };
+        *self = Self { divider: self.divider.saturating_sub(refill), ..self.cleared() };
         refill
     }
 
@@ -163,9 +157,7 @@ mod tests {
     }
 
     fn load(address: u16, data: u16) -> Insn {
-        Insn::new(Class::Load, 2)
-            .addressed_by(address)
-            .writing(data)
+        Insn::new(Class::Load, 2).addressed_by(address).writing(data)
     }
 
     fn cycles(insns: &[Insn]) -> u32 {

@@ -48,10 +48,7 @@ extern "C" fn choose_version() {
 
 /// The loader calls what stands in this section.
 #[used]
-#[cfg_attr(
-    target_vendor = "apple",
-    unsafe(link_section = "__DATA,__mod_init_func")
-)]
+#[cfg_attr(target_vendor = "apple", unsafe(link_section = "__DATA,__mod_init_func"))]
 #[cfg_attr(not(target_vendor = "apple"), unsafe(link_section = ".init_array"))]
 static CHOOSE_VERSION: extern "C" fn() = choose_version;
 
@@ -71,9 +68,7 @@ pub unsafe extern "C" fn qemu_plugin_install(
     let info = unsafe { &*info };
     let arguments = (0..argc.max(0) as usize).map(|index| {
         // SAFETY: QEMU passes `argc` strings that end in a zero.
-        unsafe { CStr::from_ptr(*argv.add(index)) }
-            .to_string_lossy()
-            .into_owned()
+        unsafe { CStr::from_ptr(*argv.add(index)) }.to_string_lossy().into_owned()
     });
     match install(id, info, arguments) {
         Ok(()) => 0,
@@ -260,9 +255,6 @@ extern "C" fn exiting(_: PluginId, _: *mut c_void) {
     let plugin = unsafe { plugin() };
     let text = format_samples(plugin.meter.samples(), plugin.meter.unmatched());
     if let Err(error) = std::fs::write(&plugin.out, text) {
-        eprintln!(
-            "cycle-meter: cannot write {}: {error}",
-            plugin.out.display()
-        );
+        eprintln!("cycle-meter: cannot write {}: {error}", plugin.out.display());
     }
 }

@@ -35,13 +35,7 @@ pub struct Sample {
 impl Sample {
     /// A passage of these instructions, cycles and floating-point operations.
     pub const fn of(region: u8, [instructions, cycles, flops]: [u64; 3]) -> Self {
-        Self {
-            region,
-            instructions,
-            cycles,
-            flops,
-            at: 0,
-        }
+        Self { region, instructions, cycles, flops, at: 0 }
     }
 
     /// The same passage, wherever it was.
@@ -133,11 +127,7 @@ impl Summary {
         let mut values: Vec<u64> = values.into_iter().collect();
         values.sort_unstable();
         let max = *values.last()?;
-        Some(Self {
-            min: values[0],
-            median: values[(values.len() - 1) / 2],
-            max,
-        })
+        Some(Self { min: values[0], median: values[(values.len() - 1) / 2], max })
     }
 
     /// The summary of one quantity over a region's samples; `None` if the region was never closed.
@@ -151,10 +141,7 @@ impl Summary {
 mod tests {
     use super::*;
 
-    const SAMPLES: [Sample; 2] = [
-        Sample::of(1, [390, 508, 308]),
-        Sample::of(0, [1204, 1657, 402]),
-    ];
+    const SAMPLES: [Sample; 2] = [Sample::of(1, [390, 508, 308]), Sample::of(0, [1204, 1657, 402])];
 
     #[test]
     fn what_is_written_is_read() {

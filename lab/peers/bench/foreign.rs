@@ -68,12 +68,8 @@ impl Foreign {
             _ => (velocities.clone(), Vec::new()),
         };
         let order: Vec<_> = match self.open {
-            Some(_) => (vector.into_iter().map(Some))
-                .chain(square(&matrix))
-                .collect(),
-            None => (0..vector.len() + matrix.len() * (matrix.len() + 1) / 2)
-                .map(Some)
-                .collect(),
+            Some(_) => (vector.into_iter().map(Some)).chain(square(&matrix)).collect(),
+            None => (0..vector.len() + matrix.len() * (matrix.len() + 1) / 2).map(Some).collect(),
         };
         let (outputs, count) = (order.len(), states.len());
         let input = states.iter().flat_map(|state| self.input(state, theirs));
@@ -84,10 +80,7 @@ impl Foreign {
             // their outputs, as xtask's manifest says; the context is its own.
             unsafe { run(context, input.as_ptr(), count, out.as_mut_ptr()) }
         };
-        Ok(Subject {
-            timed: self.timed,
-            ..Subject::new(&self.peer, Box::new(run), order)
-        })
+        Ok(Subject { timed: self.timed, ..Subject::new(&self.peer, Box::new(run), order) })
     }
 
     fn input<R: Real, const Q: usize, const V: usize>(
@@ -108,11 +101,8 @@ impl Foreign {
             let angles = state.q[base..].iter().map(|q| R::from_f64(f(q.to_f64())));
             [&state.q[..base], &angles.collect::<Vec<_>>()].concat()
         };
-        let position = if self.cs {
-            [of(f64::cos), of(f64::sin)].concat()
-        } else {
-            state.q.to_vec()
-        };
+        let position =
+            if self.cs { [of(f64::cos), of(f64::sin)].concat() } else { state.q.to_vec() };
         [position, state.qd.to_vec(), state.qdd.to_vec()].concat()
     }
 }
@@ -153,12 +143,8 @@ pub fn loops(
     type Open = unsafe extern "C" fn(*const c_char) -> *mut c_void;
     let library = load(library)?;
     // SAFETY: `lab/peers/cpp/pinocchio_loops.cpp` gives these functions these types.
-    let (open, run): (Symbol<'_, Open>, Symbol<'static, Run<f64>>) = unsafe {
-        (
-            library.get(b"pinocchio_loops_open")?,
-            library.get(function.as_bytes())?,
-        )
-    };
+    let (open, run): (Symbol<'_, Open>, Symbol<'static, Run<f64>>) =
+        unsafe { (library.get(b"pinocchio_loops_open")?, library.get(function.as_bytes())?) };
     // SAFETY: a string that ends in a zero, which it does not keep.
     let context = unsafe { open(machine.as_ptr()) };
     if context.is_null() {

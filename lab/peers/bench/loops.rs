@@ -60,18 +60,12 @@ impl Theirs {
             let _ = write!(text, "{body}");
             spaced(&mut text, &place(placement));
         }
-        let theirs = actuated
-            .iter()
-            .map(|i| order[1].iter().position(|k| k == i));
+        let theirs = actuated.iter().map(|i| order[1].iter().position(|k| k == i));
         let theirs: Vec<f64> = theirs.map(|i| i.expect("a coordinate") as f64).collect();
         let _ = write!(text, "{}", theirs.len());
         spaced(&mut text, &theirs);
         let _ = writeln!(text, "{mu}");
-        Self {
-            text,
-            order,
-            actuated: actuated.to_vec(),
-        }
+        Self { text, order, actuated: actuated.to_vec() }
     }
 
     /// Its function on states of q, q̇ and q̈ or the actuated torques; `wanted` says which of the
@@ -157,16 +151,13 @@ where
         .map(|joint| [0, 1].map(|k| (joint.bodies[k], joint.placements[k].clone())))
         .collect();
     let theirs = Theirs::new(&machine.robot, &ends, T::LOOPS.actuated(), 0.0);
-    let states: Vec<(State<f64, Q, V>, [f64; A])> = (0..recorded.q.len())
-        .map(|k| (recorded.state(k), row(&recorded.given_tau, k)))
-        .collect();
-    for (key, last, expected) in [
-        (INVERSE, &recorded.qdd, &recorded.tau),
-        (FORWARD, &recorded.given_tau, &recorded.forward),
-    ] {
-        let raw: Vec<[&[f64]; 3]> = (0..recorded.q.len())
-            .map(|k| [&*recorded.q[k], &recorded.qd[k], &last[k]])
-            .collect();
+    let states: Vec<(State<f64, Q, V>, [f64; A])> =
+        (0..recorded.q.len()).map(|k| (recorded.state(k), row(&recorded.given_tau, k))).collect();
+    for (key, last, expected) in
+        [(INVERSE, &recorded.qdd, &recorded.tau), (FORWARD, &recorded.given_tau, &recorded.forward)]
+    {
+        let raw: Vec<[&[f64]; 3]> =
+            (0..recorded.q.len()).map(|k| [&*recorded.q[k], &recorded.qd[k], &last[k]]).collect();
         measure(T::MODEL.name, key, expected, |count| {
             let robot: Box<Model<f64, B, Q, V>> = black_box(Box::new(*model::<f64, T, B, Q, V>()));
             let loops: Box<Loops<L, C, A>> = black_box(Box::new(T::LOOPS));
@@ -216,18 +207,16 @@ where
         let position = loop_.points[k];
         (loop_.bodies[k], Placement { rotation, position })
     };
-    let ends: Vec<_> = (recorded.loops.iter())
-        .map(|joint| [end(joint, 0), end(joint, 1)])
-        .collect();
+    let ends: Vec<_> =
+        (recorded.loops.iter()).map(|joint| [end(joint, 0), end(joint, 1)]).collect();
     let independent = recorded.independent.clone();
     let theirs = Theirs::new(&recorded.model, &ends, &independent, mu);
     let states: Vec<(State<f64, Y, Y>, [f64; Y])> = (0..recorded.q.len())
         .map(|k| (clusters::state(&recorded, k), row(&recorded.tau, k)))
         .collect();
-    for (key, last, expected) in [
-        (INVERSE, &recorded.tree_qdd, &recorded.rnea),
-        (FORWARD, &recorded.tau, &recorded.forward),
-    ] {
+    for (key, last, expected) in
+        [(INVERSE, &recorded.tree_qdd, &recorded.rnea), (FORWARD, &recorded.tau, &recorded.forward)]
+    {
         let raw: Vec<[&[f64]; 3]> = (0..recorded.q.len())
             .map(|k| [&*recorded.tree_q[k], &recorded.tree_qd[k], &last[k]])
             .collect();

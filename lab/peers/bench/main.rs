@@ -28,9 +28,7 @@ struct Manifest {
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let path = std::env::args()
-        .nth(1)
-        .ok_or("usage: peers-bench MANIFEST")?;
+    let path = std::env::args().nth(1).ok_or("usage: peers-bench MANIFEST")?;
     let manifest: Manifest = serde_json::from_str(&std::fs::read_to_string(path)?)?;
     let loops = &manifest.loops;
     loops::general::<Delta, 10, 22, 21, 6, 18, 3>(loops)?;
@@ -49,10 +47,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         )*};
     }
     arms! { Ur5e 6 5; Panda 7 6; Iiwa14 7 6; }
-    let known = (
-        ours::inverse::<A1, _, 16, 12, 12> as _,
-        Some(ours::inverse::<A1, _, 16, 12, 12> as _),
-    );
+    let known =
+        (ours::inverse::<A1, _, 16, 12, 12> as _, Some(ours::inverse::<A1, _, 16, 12, 12> as _));
     robot::run::<A1, 16, 12, 12, 12>(&manifest, &ARM[..5], known)?;
     let known = (
         ours::dynamics::<A1Free, _, 17, 19, 18> as _,

@@ -41,16 +41,10 @@ pub fn run_time<T: Robot<B, Q, V>, R: Real, const B: usize, const Q: usize, cons
     const PEER: &str = "core run-time model";
     let model: Box<Model<R, B, Q, V>> = black_box(Box::new(*model::<R, T, B, Q, V>()));
     vec![match algorithm {
-        "rnea" => rows(PEER, states, move |s| {
-            algorithms::rnea(&*model, s, &RIGID_BODY)
-        }),
+        "rnea" => rows(PEER, states, move |s| algorithms::rnea(&*model, s, &RIGID_BODY)),
         "bias" => rows(PEER, states, move |s| algorithms::rnea(&*model, s, &BIAS)),
-        "gravity" => rows(PEER, states, move |s| {
-            algorithms::rnea(&*model, s, &GRAVITY)
-        }),
-        "crba" => squares(PEER, states, move |s| {
-            algorithms::crba(&*model, &s.q, &RIGID_BODY)
-        }),
+        "gravity" => rows(PEER, states, move |s| algorithms::rnea(&*model, s, &GRAVITY)),
+        "crba" => squares(PEER, states, move |s| algorithms::crba(&*model, &s.q, &RIGID_BODY)),
         "osim" => tips(PEER, states, move |s| {
             algorithms::osim_inverse(&*model, &s.q, B - 1, Local, &RIGID_BODY)
         }),
@@ -95,9 +89,7 @@ pub fn dynamics<T: Robot<B, Q, V>, R: Real, const B: usize, const Q: usize, cons
             squares("engine", states, |s| Engine::<T>::crba(&s.q, &RIGID_BODY)),
         ],
         "aba" => vec![
-            rows("core", states, |s| {
-                Core::<T>::aba(s, &s.qdd, &RIGID_BODY).expect("M > 0")
-            }),
+            rows("core", states, |s| Core::<T>::aba(s, &s.qdd, &RIGID_BODY).expect("M > 0")),
             rows("engine", states, |s| {
                 Engine::<T>::forward_dynamics(s, &s.qdd, &RIGID_BODY).expect("M > 0")
             }),
@@ -115,9 +107,7 @@ pub fn arm<T: Robot<B, N, N>, R: Real, const B: usize, const N: usize, const TIP
     match algorithm {
         "crba" | "aba" => dynamics::<T, R, B, N, N>(algorithm, states),
         "osim" => vec![
-            tips("core", states, move |s| {
-                Core::<T>::osim_inverse(&s.q, tip, Local, &RIGID_BODY)
-            }),
+            tips("core", states, move |s| Core::<T>::osim_inverse(&s.q, tip, Local, &RIGID_BODY)),
             tips("engine", states, move |s| {
                 Engine::<T>::osim_inverse(&s.q, tip, Local, &RIGID_BODY)
             }),
@@ -167,10 +157,7 @@ fn tips<R: Real, const Q: usize, const V: usize>(
 ) -> Subject<R> {
     let unit = |k| {
         let e = |j| if j == k { R::ONE } else { R::ZERO };
-        Force::new(
-            R::Vec3::new(e(0), e(1), e(2)),
-            R::Vec3::new(e(3), e(4), e(5)),
-        )
+        Force::new(R::Vec3::new(e(0), e(1), e(2)), R::Vec3::new(e(3), e(4), e(5)))
     };
     let units: [Force<R>; 6] = std::array::from_fn(unit);
     let columns = rows(peer, states, move |s| {
@@ -183,8 +170,5 @@ fn tips<R: Real, const Q: usize, const V: usize>(
         }
         columns
     });
-    Subject {
-        order: square(&[0, 1, 2, 3, 4, 5]),
-        ..columns
-    }
+    Subject { order: square(&[0, 1, 2, 3, 4, 5]), ..columns }
 }

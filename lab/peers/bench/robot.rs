@@ -33,17 +33,13 @@ where
     for algorithm in algorithms {
         one(manifest, recording, algorithm, "f64", |states| {
             let mut subjects = double(algorithm, states);
-            subjects.extend(ours::run_time::<Merged<T, B>, f64, M, Q, V>(
-                algorithm, states,
-            ));
+            subjects.extend(ours::run_time::<Merged<T, B>, f64, M, Q, V>(algorithm, states));
             subjects
         })?;
         if let Some(single) = single {
             one(manifest, recording, algorithm, "f32", |states| {
                 let mut subjects = single(algorithm, states);
-                subjects.extend(ours::run_time::<Merged<T, B>, f32, M, Q, V>(
-                    algorithm, states,
-                ));
+                subjects.extend(ours::run_time::<Merged<T, B>, f32, M, Q, V>(algorithm, states));
                 subjects
             })?;
         }
@@ -80,12 +76,7 @@ fn one<R: Real, const Q: usize, const V: usize>(
         errors.push(error.map_err(|e| format!("{algorithm} of {}: {e}", recording.robot))?);
     }
     let states = self::states(recording, algorithm, BATCH);
-    print(
-        [&recording.robot, algorithm, precision],
-        gather(&states)?,
-        BATCH,
-        errors,
-    )
+    print([&recording.robot, algorithm, precision], gather(&states)?, BATCH, errors)
 }
 
 /// Times subjects on this many states, and prints robot, algorithm and precision with their times
@@ -96,10 +87,7 @@ pub fn print<R: Real>(
     states: usize,
     errors: Vec<f64>,
 ) -> Result<(), Box<dyn Error>> {
-    let mut timed: Vec<_> = subjects
-        .iter_mut()
-        .filter(|subject| subject.timed)
-        .collect();
+    let mut timed: Vec<_> = subjects.iter_mut().filter(|subject| subject.timed).collect();
     let mut times = interleaved(&mut timed, states).into_iter();
     for (subject, error) in std::iter::zip(&subjects, errors) {
         let row = Row {
@@ -121,11 +109,7 @@ fn states<R: Real, const Q: usize, const V: usize>(
     algorithm: &str,
     count: usize,
 ) -> Vec<State<R, Q, V>> {
-    let last = if algorithm == "aba" {
-        &recording.tau
-    } else {
-        &recording.qdd
-    };
+    let last = if algorithm == "aba" { &recording.tau } else { &recording.qdd };
     let rates = |rows: &[Vec<f64>], k| recordings::row::<V>(rows, k).map(R::from_f64);
     (0..recording.q.len())
         .cycle()

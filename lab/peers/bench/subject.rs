@@ -48,13 +48,7 @@ pub struct Row<'a> {
 impl<R: Real> Subject<R> {
     /// A function that is timed.
     pub fn new(peer: &str, run: Batch<R>, order: Vec<Option<usize>>) -> Self {
-        Self {
-            peer: peer.to_owned(),
-            run,
-            outputs: order.len(),
-            order,
-            timed: true,
-        }
+        Self { peer: peer.to_owned(), run, outputs: order.len(), order, timed: true }
     }
 
     /// The largest difference from the expected rows, relative to the full scale.
@@ -80,11 +74,7 @@ impl<R: Real> Subject<R> {
                 let Some(at) = *at else { continue };
                 let difference = (found.to_f64() - expected[at]).abs() / full_scale;
                 // A NaN counts as wrong.
-                error = if difference <= error {
-                    error
-                } else {
-                    difference
-                };
+                error = if difference <= error { error } else { difference };
             }
         }
         if error <= bound {
@@ -103,18 +93,14 @@ pub fn square(ours: &[usize]) -> Vec<Option<usize>> {
         i * (2 * n + 1 - i) / 2 + j - i
     };
     let columns = (0..n).flat_map(|j| (0..n).map(move |i| (i, j)));
-    columns
-        .map(|(i, j)| (i <= j).then(|| recorded(i, j)))
-        .collect()
+    columns.map(|(i, j)| (i <= j).then(|| recorded(i, j))).collect()
 }
 
 /// The median time of each subject, ns a state; they take turns, so that what disturbs the machine
 /// disturbs all alike.
 pub fn interleaved<R: Real>(subjects: &mut [&mut Subject<R>], states: usize) -> Vec<f64> {
-    let mut out: Vec<Vec<R>> = subjects
-        .iter()
-        .map(|subject| vec![R::ZERO; states * subject.outputs])
-        .collect();
+    let mut out: Vec<Vec<R>> =
+        subjects.iter().map(|subject| vec![R::ZERO; states * subject.outputs]).collect();
     let mut batches = |subject: &mut Subject<R>, index: usize, count: u32| {
         let start = Instant::now();
         for _ in 0..count {

@@ -143,8 +143,7 @@ impl<R: Real, const V: usize, const ORDER: usize> MomentumObserver<R, V, ORDER> 
             let elapsed = black_box(self.elapsed);
             (elapsed > R::ZERO).then(|| R::ONE / elapsed)
         };
-        rate.filter(|_| self.started)
-            .map(|rate| (R::ONE - self.decay, rate))
+        rate.filter(|_| self.started).map(|rate| (R::ONE - self.decay, rate))
     }
 
     /// The torques of the drives from this tick to the next, N·m or N: to be called once in each

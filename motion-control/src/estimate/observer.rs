@@ -108,11 +108,7 @@ impl<R: Real, const V: usize> Observer<R, V> {
     pub fn new(config: ObserverConfig<R>) -> Self {
         let ObserverConfig { bandwidth, tick } = config;
         let usable = tick.is_finite() & (tick > R::ZERO) & (bandwidth > R::ZERO);
-        let (tick, x) = if usable {
-            (tick, bandwidth * tick)
-        } else {
-            (R::ZERO, R::ZERO)
-        };
+        let (tick, x) = if usable { (tick, bandwidth * tick) } else { (R::ZERO, R::ZERO) };
         let gap = one_less_decay(x);
         Self {
             tick,
@@ -120,10 +116,7 @@ impl<R: Real, const V: usize> Observer<R, V> {
             half_tick_squared: R::from_f64(0.5) * tick * tick,
             position_gain: gap * (R::from_f64(2.0) - gap),
             velocity_gain: if usable { gap * gap / tick } else { R::ZERO },
-            estimate: Estimate {
-                q: [R::ZERO; V],
-                qd: [R::ZERO; V],
-            },
+            estimate: Estimate { q: [R::ZERO; V], qd: [R::ZERO; V] },
             started: false,
         }
     }
@@ -132,10 +125,7 @@ impl<R: Real, const V: usize> Observer<R, V> {
     pub fn reset(&mut self, q: &[R; V]) {
         if all_finite(q) {
             self.started = true;
-            self.estimate = Estimate {
-                q: *q,
-                qd: [R::ZERO; V],
-            };
+            self.estimate = Estimate { q: *q, qd: [R::ZERO; V] };
         }
     }
 

@@ -164,11 +164,9 @@ impl<R: Real, const P: usize, const V: usize> ParameterEstimator<R, P, V> {
     /// [`RejectedRow`] names the reason and the joint; the estimate is then unchanged.
     #[inline]
     pub fn update(&mut self, joint: usize, y: &[R; P], residual: R) -> Result<(), RejectedRow> {
-        let (Some(level), Some(count), Some(&places)) = (
-            self.levels.get_mut(joint),
-            self.rejected.get_mut(joint),
-            self.places.get(joint),
-        ) else {
+        let (Some(level), Some(count), Some(&places)) =
+            (self.levels.get_mut(joint), self.rejected.get_mut(joint), self.places.get(joint))
+        else {
             return Ok(());
         };
         let weight = entry(&self.weights, joint);
@@ -197,11 +195,7 @@ impl<R: Real, const P: usize, const V: usize> ParameterEstimator<R, P, V> {
         if within & self.frozen.is_none() {
             let forgotten = self.config.forgetting * size;
             // Without a direction nothing is added.
-            let known = if r > forgotten {
-                R::ONE - forgotten / r
-            } else {
-                R::ZERO
-            };
+            let known = if r > forgotten { R::ONE - forgotten / r } else { R::ZERO };
             self.factors.add(places, &mut row, known, error / size);
             return Ok(());
         }

@@ -113,10 +113,7 @@ impl fmt::Display for RejectedMeasurement {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NotFinite { joint } => {
-                write!(
-                    out,
-                    "joint {joint}: its torque or its regressor is not finite"
-                )
+                write!(out, "joint {joint}: its torque or its regressor is not finite")
             }
             Self::TooLarge => out.write_str("the torques or the regressor are too large"),
             Self::Outlier => out.write_str("the torques are not those of the estimated load"),
@@ -314,11 +311,7 @@ impl<R: Real, const V: usize> PayloadEstimator<R, V> {
             return self.frozen_tick(&mut columns);
         }
         let [first, second] = &mut self.factors;
-        let (now, next) = if self.second {
-            (second, first)
-        } else {
-            (first, second)
-        };
+        let (now, next) = if self.second { (second, first) } else { (first, second) };
         let innovation = next.transform(now, self.forgetting, &mut columns);
         let within = innovation <= self.most;
         let bounded = if within { innovation } else { self.most };
@@ -383,17 +376,11 @@ fn reason<R: Real, const N: usize, const V: usize>(
     residual: &[R; V],
 ) -> RejectedMeasurement {
     let finite = |joint| {
-        let mut numbers = y
-            .get(joint)
-            .into_iter()
-            .flatten()
-            .chain(residual.get(joint));
+        let mut numbers = y.get(joint).into_iter().flatten().chain(residual.get(joint));
         numbers.all(|x: &R| x.is_finite())
     };
     let wrong = joints.into_iter().find(|&joint| !finite(joint));
-    wrong.map_or(RejectedMeasurement::TooLarge, |joint| {
-        RejectedMeasurement::NotFinite { joint }
-    })
+    wrong.map_or(RejectedMeasurement::TooLarge, |joint| RejectedMeasurement::NotFinite { joint })
 }
 
 /// A freeze.
@@ -419,11 +406,7 @@ impl<R: Real, const V: usize> PayloadEstimator<R, V> {
     /// Begins another estimate beside these frozen parameters.
     fn begin(&mut self, parameters: [R; PARAMETERS]) {
         *self.other() = Factors::of(self.start);
-        self.freeze = Some(Freeze {
-            parameters,
-            level: self.most,
-            ticks: 0,
-        });
+        self.freeze = Some(Freeze { parameters, level: self.most, ticks: 0 });
     }
 
     #[inline(always)]
@@ -438,10 +421,7 @@ impl<R: Real, const V: usize> PayloadEstimator<R, V> {
         let (most, start) = (self.most, self.start);
         let other = self.other();
         let parameters = other.solve(other.rows.map(|[.., d]| d));
-        parameters
-            .iter()
-            .zip(start)
-            .all(|(x, start)| *x * *x * start <= most)
+        parameters.iter().zip(start).all(|(x, start)| *x * *x * start <= most)
     }
 
     /// A tick of a frozen estimate.
@@ -495,10 +475,7 @@ struct Factors<R> {
 
 impl<R: Real> Factors<R> {
     fn of(information: [R; PARAMETERS]) -> Self {
-        Self {
-            information,
-            rows: [[R::ZERO; PARAMETERS + 1]; PARAMETERS],
-        }
+        Self { information, rows: [[R::ZERO; PARAMETERS + 1]; PARAMETERS] }
     }
 
     /// T: these from the factors of the tick before and from its rows. Returns the mean square of
@@ -514,11 +491,9 @@ impl<R: Real> Factors<R> {
         let rows = now.rows.iter().zip(&now.information);
         let next_rows = self.rows.iter_mut().zip(&mut self.information);
         for (k, ((row, information), (next_row, next))) in rows.zip(next_rows).enumerate() {
-            let (Some((y, later)), Some(row), Some(next_row)) = (
-                rest.split_first_mut(),
-                row.get(k + 1..),
-                next_row.get_mut(k + 1..),
-            ) else {
+            let (Some((y, later)), Some(row), Some(next_row)) =
+                (rest.split_first_mut(), row.get(k + 1..), next_row.get_mut(k + 1..))
+            else {
                 break;
             };
             let y = *y; // a copy stays in registers
@@ -547,10 +522,9 @@ impl<R: Real> Factors<R> {
     #[inline(always)]
     fn solve(&self, mut b: [R; PARAMETERS]) -> [R; PARAMETERS] {
         for (k, row) in self.rows.iter().enumerate().rev() {
-            let (Some((b, known)), Some(row)) = (
-                b.get_mut(k..).and_then(<[R]>::split_first_mut),
-                row.get(k + 1..PARAMETERS),
-            ) else {
+            let (Some((b, known)), Some(row)) =
+                (b.get_mut(k..).and_then(<[R]>::split_first_mut), row.get(k + 1..PARAMETERS))
+            else {
                 break;
             };
             *b -= dot(row, known);

@@ -75,22 +75,14 @@ impl<R: Real, const V: usize> TipWrench<R, V> {
     /// assert_eq!(error, Err(ConfigError::OutOfRange { parameter: ConfigParameter::TorqueNoise }));
     /// ```
     pub fn try_new(config: TipWrenchConfig<R, V>) -> Result<Self, ConfigError> {
-        let TipWrenchConfig {
-            noise,
-            force,
-            couple,
-        } = config;
+        let TipWrenchConfig { noise, force, couple } = config;
         let (least, most) = (R::from_f64(1e-6), R::from_f64(1e6));
         for sigma in noise {
             ConfigParameter::TorqueNoise.require((sigma >= least) & (sigma <= most))?;
         }
         ConfigParameter::WrenchSize.positive(force)?;
         ConfigParameter::WrenchSize.require((couple >= R::ZERO) & couple.is_finite())?;
-        Ok(Self {
-            weights: noise.map(|sigma| R::ONE / sigma),
-            force,
-            couple,
-        })
+        Ok(Self { weights: noise.map(|sigma| R::ONE / sigma), force, couple })
     }
 
     /// The wrench fˣ that a body's surroundings exert on it, N·m and N, in the frame and about the

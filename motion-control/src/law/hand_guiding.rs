@@ -106,17 +106,9 @@ impl<R: Real, const V: usize> HandGuiding<R, V> {
     pub fn on_circles<const CIRCLES: u128>(
         self,
     ) -> Result<HandGuiding<R, V, CIRCLES>, ConfigError> {
-        let Self {
-            config,
-            rest_inv,
-            held,
-        } = self;
+        let Self { config, rest_inv, held } = self;
         Circles::from_bits(CIRCLES).check_ranges(&config.lower, &config.upper)?;
-        Ok(HandGuiding {
-            config,
-            rest_inv,
-            held,
-        })
+        Ok(HandGuiding { config, rest_inv, held })
     }
 }
 
@@ -213,20 +205,13 @@ impl<R: Real, const V: usize, const CIRCLES: u128> HandGuiding<R, V, CIRCLES> {
     #[inline(always)]
     fn off(&self, i: usize, held: Option<R>, q: R) -> R {
         let held = held.unwrap_or(q);
-        if Circles::from_bits(CIRCLES).has(i) {
-            nearest_turn(held, q) - q
-        } else {
-            held - q
-        }
+        if Circles::from_bits(CIRCLES).has(i) { nearest_turn(held, q) - q } else { held - q }
     }
 
     /// σ F̂, less the errors, towards zero.
     #[inline(always)]
     fn compensation(&self, i: usize, qd: R, friction: R, error: R) -> R {
-        let (most, share) = (
-            entry(&self.config.compensation, i),
-            self.config.share * friction,
-        );
+        let (most, share) = (entry(&self.config.compensation, i), self.config.share * friction);
         let tau = share - share.clamped(-error.abs(), error.abs());
         let opposes = tau * qd > R::ZERO;
         let moves = qd.abs() * entry(&self.rest_inv, i) - R::ONE;

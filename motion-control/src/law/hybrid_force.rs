@@ -20,9 +20,7 @@ pub struct TaskFrame<R: Real> {
 
 impl<R: Real> TaskFrame<R> {
     /// The base's axes.
-    pub const BASE: Self = Self {
-        axes: R::Mat3::IDENTITY,
-    };
+    pub const BASE: Self = Self { axes: R::Mat3::IDENTITY };
 
     /// The directions of a task in three coordinates: the position of the body's origin along the
     /// axes, m.
@@ -121,9 +119,7 @@ impl<R: Real> TaskCommand<R> {
     pub fn motion(task: TaskMotion<R>) -> Self {
         let damped = R::from_f64(2.0) * task.zeta * task.error_rate;
         let stiff = task.omega_n * (task.omega_n * task.error + damped);
-        Self::Motion {
-            acceleration: task.acceleration + stiff,
-        }
+        Self::Motion { acceleration: task.acceleration + stiff }
     }
 
     /// A force that converges to f_d: f* = f_d + k (f_d − f), with motion damped by −d ẋ.
@@ -204,10 +200,7 @@ pub fn hybrid_motion_force<R: Real, const M: usize, const V: usize>(
     for ((acceleration, exerted), (command, &drift)) in both.zip(commands.iter().zip(drift)) {
         let (wanted, force) = match *command {
             TaskCommand::Motion { acceleration } => (acceleration, R::ZERO),
-            TaskCommand::Force {
-                force,
-                acceleration,
-            } => (acceleration, force),
+            TaskCommand::Force { force, acceleration } => (acceleration, force),
         };
         (*acceleration, *exerted) = (wanted - drift, force);
     }

@@ -153,11 +153,7 @@ impl<R: Real, const M: usize> CartesianImpedance<R, M> {
         config.check()?;
         let roots = config.stiffness.map(R::sqrt);
         let modes = Modes::start();
-        Ok(Self {
-            config,
-            roots,
-            modes,
-        })
+        Ok(Self { config, roots, modes })
     }
 
     /// The damping D by double diagonalisation, N·s/m or N·m·s/rad, and whether all modes have the
@@ -301,15 +297,9 @@ impl<R: Real, const M: usize> CartesianImpedance<R, M> {
         let conditioning = if smallest >= slowest {
             Conditioning::Regular
         } else {
-            Conditioning::Damped {
-                smallest: smallest / slowest,
-            }
+            Conditioning::Damped { smallest: smallest / slowest }
         };
-        Ok(ImpedanceTorque {
-            tau,
-            conditioning,
-            modes: found.search(),
-        })
+        Ok(ImpedanceTorque { tau, conditioning, modes: found.search() })
     }
 }
 

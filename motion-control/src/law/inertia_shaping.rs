@@ -128,10 +128,8 @@ impl<R: Real, const V: usize> InertiaShaping<R, V> {
         let config = &self.config;
         core::array::from_fn(|i| {
             let [r, qd] = [entry(external, i), entry(qd, i)];
-            let (r, qd) = (
-                R::either(r.is_finite(), r, R::ZERO),
-                R::either(qd.is_finite(), qd, R::ZERO),
-            );
+            let (r, qd) =
+                (R::either(r.is_finite(), r, R::ZERO), R::either(qd.is_finite(), qd, R::ZERO));
             let band = entry(&config.dead_band, i);
             let beyond = r - r.clamped(-band, band);
             let tau = config.amplification * beyond - entry(&config.damping, i) * qd;

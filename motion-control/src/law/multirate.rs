@@ -28,9 +28,7 @@ pub struct ZeroOrderHold<R, const V: usize> {
 impl<R: Real, const V: usize> ZeroOrderHold<R, V> {
     /// A state before the first computation: its torques are zero.
     pub fn start() -> Self {
-        Self {
-            torque: [R::ZERO; V],
-        }
+        Self { torque: [R::ZERO; V] }
     }
 
     /// Updates the state in a tick that has computed the torque.
@@ -71,12 +69,7 @@ pub struct FirstOrderHold<R, const V: usize, const TICKS: usize> {
 impl<R: Real, const V: usize, const TICKS: usize> FirstOrderHold<R, V, TICKS> {
     /// A state before the first computation: its torques are zero.
     pub fn start() -> Self {
-        Self {
-            computed: [R::ZERO; V],
-            torque: [R::ZERO; V],
-            step: [R::ZERO; V],
-            known: false,
-        }
+        Self { computed: [R::ZERO; V], torque: [R::ZERO; V], step: [R::ZERO; V], known: false }
     }
 
     /// Updates the state in a tick that has computed the torque.
@@ -125,11 +118,7 @@ pub struct Interpolator<R, const V: usize, const TICKS: usize> {
 impl<R: Real, const V: usize, const TICKS: usize> Interpolator<R, V, TICKS> {
     /// Before the first tick, with its torque.
     pub fn start(torque: [R; V]) -> Self {
-        Self {
-            ahead: torque,
-            torque,
-            step: [R::ZERO; V],
-        }
+        Self { ahead: torque, torque, step: [R::ZERO; V] }
     }
 
     /// Updates the state in a tick that has computed the torque of `TICKS` ticks later; returns the
@@ -189,10 +178,7 @@ pub struct InertiaUpdate<R, const V: usize, const TICKS: usize> {
 impl<R: Real, const V: usize, const TICKS: usize> InertiaUpdate<R, V, TICKS> {
     /// A state before the first computation: its torques are zero.
     pub fn start() -> Self {
-        Self {
-            mass_matrix: MassMatrix::ZERO,
-            bias: FirstOrderHold::start(),
-        }
+        Self { mass_matrix: MassMatrix::ZERO, bias: FirstOrderHold::start() }
     }
 
     /// Updates the state in a tick that has computed the torque, and M at the acceleration q̈.

@@ -136,11 +136,7 @@ where
     E: Effect<R, B, V>,
 {
     let SlidingVariable { qd_r, qdd_r, s } = gains.sliding(reference, estimate);
-    let state = State {
-        q: estimate.q,
-        qd: estimate.qd,
-        qdd: qdd_r,
-    };
+    let state = State { q: estimate.q, qd: estimate.qd, qdd: qdd_r };
     let mut tau = rnea_two_velocities(robot, &state, &qd_r, effects);
     for ((tau, s), kd) in tau.iter_mut().zip(s).zip(gains.kd) {
         *tau -= kd * s;

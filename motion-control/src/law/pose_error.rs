@@ -26,10 +26,7 @@ mod tests;
 #[inline(always)]
 #[must_use]
 pub fn pose_error<R: Real>(pose: &Pose<R>, wanted: &Pose<R>) -> Motion<R> {
-    Motion::new(
-        quaternion_error::<R>(&pose.rot, &wanted.rot),
-        wanted.pos - pose.pos,
-    )
+    Motion::new(quaternion_error::<R>(&pose.rot, &wanted.rot), wanted.pos - pose.pos)
 }
 
 /// The shortest rotation from an attitude to the desired one as a vector: 2 sin(θ/2) along its

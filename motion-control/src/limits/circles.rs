@@ -110,11 +110,7 @@ impl Circles {
     /// These without one, whose turns count.
     #[must_use]
     pub const fn counted(self, joint: usize) -> Self {
-        if joint < JOINTS {
-            Self(self.0 & !(1 << joint))
-        } else {
-            self
-        }
+        if joint < JOINTS { Self(self.0 & !(1 << joint)) } else { self }
     }
 
     /// Whether the joint is a circle.

@@ -102,11 +102,7 @@ impl ConfigParameter {
     }
 
     pub(crate) fn require(self, holds: bool) -> Result<(), ConfigError> {
-        if holds {
-            Ok(())
-        } else {
-            Err(ConfigError::OutOfRange { parameter: self })
-        }
+        if holds { Ok(()) } else { Err(ConfigError::OutOfRange { parameter: self }) }
     }
 }
 

@@ -118,10 +118,7 @@ impl Fault {
     /// assert_eq!(fault.named(&["shoulder", "elbow"]).to_string(), "joint `elbow`: it exceeds its speed limit");
     /// ```
     pub const fn named<'a>(&self, names: &'a [&'a str]) -> impl fmt::Display + 'a {
-        Named {
-            fault: *self,
-            names,
-        }
+        Named { fault: *self, names }
     }
 }
 

@@ -55,10 +55,7 @@ impl<R: Real, const V: usize> From<[JointLimits<R>; V]> for SafetyLimits<R, V> {
 impl<R: Real> From<JointLimits<R>> for MotionLimits<R> {
     /// The joint's speed, and any acceleration.
     fn from(limits: JointLimits<R>) -> Self {
-        Self {
-            velocity: limits.velocity,
-            acceleration: R::ONE / R::ZERO,
-        }
+        Self { velocity: limits.velocity, acceleration: R::ONE / R::ZERO }
     }
 }
 
@@ -66,10 +63,7 @@ impl<R: Real, const V: usize> SafetyLimits<R, V> {
     /// The same limits with a rate of the torque, per tick, of this share of the torque limit.
     #[inline]
     pub fn with_rate_share(self, share: R) -> Self {
-        Self {
-            rate: self.torque.map(|torque| torque * share),
-            ..self
-        }
+        Self { rate: self.torque.map(|torque| torque * share), ..self }
     }
 
     /// The same limits with a range of positions that is smaller by `margin` (rad or m) at both
@@ -84,10 +78,7 @@ impl<R: Real, const V: usize> SafetyLimits<R, V> {
 
     /// The same limits with speeds of this share of the joints' limits.
     pub fn with_speed_share(self, share: R) -> Self {
-        Self {
-            speed: self.speed.map(|speed| speed * share),
-            ..self
-        }
+        Self { speed: self.speed.map(|speed| speed * share), ..self }
     }
 
     /// Checks that every limit allows some motion or torque, as
@@ -157,11 +148,7 @@ fn no_range<R: Real>(joint: usize, lower: R, upper: R) -> SafetyLimitsError {
     match (lower.is_nan(), upper.is_nan()) {
         (true, _) => not_a_number(LimitKind::LeastPosition),
         (false, true) => not_a_number(LimitKind::GreatestPosition),
-        (false, false) => SafetyLimitsError::Empty {
-            joint,
-            lower,
-            upper,
-        },
+        (false, false) => SafetyLimitsError::Empty { joint, lower, upper },
     }
 }
 
@@ -263,10 +250,7 @@ impl SafetyLimitsError {
     /// [`Model::coordinate_names`](dynamics_core::model::Model::coordinate_names), or the joints of
     /// an imported robot.
     pub const fn named<'a>(&self, names: &'a [&'a str]) -> impl fmt::Display + 'a {
-        Named {
-            error: *self,
-            names,
-        }
+        Named { error: *self, names }
     }
 
     fn write_reason(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -282,10 +266,7 @@ impl SafetyLimitsError {
             }
             Self::Empty { lower, upper, .. } => {
                 let (lower, upper) = (lower as f32, upper as f32);
-                write!(
-                    out,
-                    "its least position, {lower}, is above its greatest, {upper}"
-                )
+                write!(out, "its least position, {lower}, is above its greatest, {upper}")
             }
             Self::CountsTurns { lower, upper, .. } => {
                 let (lower, upper) = (lower as f32, upper as f32);

@@ -111,26 +111,15 @@ impl fmt::Display for ApproachError {
             Self::Path(error) => error.fmt(out),
             Self::Bounds(error) => error.fmt(out),
             Self::NotFinite { joint } => write!(out, "joint {joint}: a position is not finite"),
-            Self::Position {
-                joint,
-                position,
-                lower,
-                upper,
-            } => write!(
+            Self::Position { joint, position, lower, upper } => write!(
                 out,
                 "joint {joint}: its position {position:.4} is outside {lower:.4} to {upper:.4}"
             ),
-            Self::NoMotion {
-                joint,
-                of: LimitKind::Speed,
-            } => {
+            Self::NoMotion { joint, of: LimitKind::Speed } => {
                 write!(out, "joint {joint}: its limit of speed allows no motion")
             }
             Self::NoMotion { joint, .. } => {
-                write!(
-                    out,
-                    "joint {joint}: its limit of acceleration allows no motion"
-                )
+                write!(out, "joint {joint}: its limit of acceleration allows no motion")
             }
             Self::Moving { joint } => {
                 write!(out, "joint {joint}: the motion does not begin at rest")
@@ -158,11 +147,7 @@ impl<'a, R: Real, const V: usize, T: Reference<R, V>> Approach<'a, R, V, T> {
     ) -> Result<Self, ApproachError> {
         circles.check(bounds).map_err(ApproachError::Bounds)?;
         let start = motion.at(0);
-        if let Some(joint) = start
-            .qd
-            .iter()
-            .position(|qd| qd.abs() > R::ZERO || !qd.is_finite())
-        {
+        if let Some(joint) = start.qd.iter().position(|qd| qd.abs() > R::ZERO || !qd.is_finite()) {
             return Err(ApproachError::Moving { joint });
         }
         let mut seconds = R::ZERO;
@@ -183,12 +168,7 @@ impl<'a, R: Real, const V: usize, T: Reference<R, V>> Approach<'a, R, V, T> {
             for q in [from, to] {
                 if !(lower <= q && q <= upper) {
                     let [position, lower, upper] = [q, lower, upper].map(R::to_f64);
-                    return Err(ApproachError::Position {
-                        joint,
-                        position,
-                        lower,
-                        upper,
-                    });
+                    return Err(ApproachError::Position { joint, position, lower, upper });
                 }
             }
             let least = least_seconds(joint, (to - from).abs(), limit)?;
@@ -310,10 +290,8 @@ pub(crate) fn least_seconds<R: Real>(
     if distance <= R::ZERO {
         return Ok(R::ZERO);
     }
-    for (limit, of) in [
-        (limit.velocity, LimitKind::Speed),
-        (limit.acceleration, LimitKind::Torque),
-    ] {
+    for (limit, of) in [(limit.velocity, LimitKind::Speed), (limit.acceleration, LimitKind::Torque)]
+    {
         // A NaN allows nothing.
         let allows = limit > R::ZERO;
         if !allows {
@@ -322,16 +300,8 @@ pub(crate) fn least_seconds<R: Real>(
     }
     let by_speed = R::from_f64(SPEED) * distance / limit.velocity;
     let square = R::from_f64(ACCELERATION) * distance / limit.acceleration;
-    let by_acceleration = if square > R::ZERO {
-        square.sqrt()
-    } else {
-        R::ZERO
-    };
-    Ok(if by_speed > by_acceleration {
-        by_speed
-    } else {
-        by_acceleration
-    })
+    let by_acceleration = if square > R::ZERO { square.sqrt() } else { R::ZERO };
+    Ok(if by_speed > by_acceleration { by_speed } else { by_acceleration })
 }
 
 /// The path from rest to rest in a time, s, within limits.
@@ -346,10 +316,6 @@ pub(crate) fn path<R: Real, const V: usize>(
     // time that cannot be counted becomes the greatest count.
     let ticks = seconds / tick * R::from_f64(1.0 + 1e-5);
     let ticks = ticks.to_u32().saturating_add(1);
-    let stop = |q, ticks| WayPoint {
-        q,
-        qd: [R::ZERO; V],
-        ticks,
-    };
+    let stop = |q, ticks| WayPoint { q, qd: [R::ZERO; V], ticks };
     Trajectory::new(&[stop(from, 0), stop(to, ticks)], tick, limits).map_err(ApproachError::Path)
 }

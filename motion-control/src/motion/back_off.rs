@@ -102,10 +102,7 @@ impl<R: Real, const V: usize> BackOff<R, V> {
         let configured = controller.supervisor.bounds();
         let (mut goal, mut outward, mut bounds) = (from, [R::ZERO; V], configured);
         let mut seconds = R::ZERO;
-        let joints = goal
-            .iter_mut()
-            .zip(&mut outward)
-            .zip(bounds.iter_mut().zip(&from));
+        let joints = goal.iter_mut().zip(&mut outward).zip(bounds.iter_mut().zip(&from));
         let steps = controller.supervisor.plausible_step();
         for (joint, (((goal, side), (bounds, &from)), &step)) in joints.zip(steps).enumerate() {
             let [lower, upper] = *bounds;
@@ -181,11 +178,7 @@ impl<R: Real, const V: usize> BackOff<R, V> {
         if let (Ok(q), None) = (measured, command.status.fault) {
             self.follow(q, controller.supervisor.plausible_step());
             self.tick = self.tick.saturating_add(u32::from(!command.brake));
-            let joint = self
-                .outward
-                .iter()
-                .position(|side| side.abs() > R::ZERO)
-                .unwrap_or(0);
+            let joint = self.outward.iter().position(|side| side.abs() > R::ZERO).unwrap_or(0);
             self.done |= (self.tick > self.path.ticks()) & self.inside(q);
             if self.done {
                 controller.stop_by(Fault::Position { joint }, StopCategory::ControlledHold);
@@ -205,11 +198,7 @@ impl<R: Real, const V: usize> BackOff<R, V> {
         for ((q, &measured), (&side, &goal)) in joints.zip(self.outward.iter().zip(&self.goal)) {
             if side * (*q - measured) > R::ZERO {
                 // The joint is ahead: the reference does not lead it out again.
-                *q = if side * (measured - goal) > R::ZERO {
-                    measured
-                } else {
-                    goal
-                };
+                *q = if side * (measured - goal) > R::ZERO { measured } else { goal };
             }
         }
         state
@@ -228,11 +217,7 @@ impl<R: Real, const V: usize> BackOff<R, V> {
 
     /// The bounds come back with the joints.
     fn follow(&mut self, q: &[R; V], steps: &[R; V]) {
-        let joints = self
-            .bounds
-            .iter_mut()
-            .zip(&self.configured)
-            .zip(q.iter().zip(steps));
+        let joints = self.bounds.iter_mut().zip(&self.configured).zip(q.iter().zip(steps));
         for (([lower, upper], &[least, greatest]), (&q, &step)) in joints {
             let (low, high) = (q - step, q + step);
             *lower = if low > *lower { low } else { *lower };

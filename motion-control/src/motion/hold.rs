@@ -25,9 +25,5 @@ use dynamics_core::state::State;
 /// ```
 #[inline(always)]
 pub fn hold<R: Real, const V: usize>(estimate: &Estimate<R, V>, decay: R) -> State<R, V, V> {
-    State {
-        q: estimate.q,
-        qd: estimate.qd,
-        qdd: estimate.qd.map(|qd| -(decay * qd)),
-    }
+    State { q: estimate.q, qd: estimate.qd, qdd: estimate.qd.map(|qd| -(decay * qd)) }
 }

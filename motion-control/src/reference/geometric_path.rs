@@ -37,10 +37,6 @@ pub trait GeometricPath<R: Real, const V: usize> {
     /// s of a point of a grid with this number of segments: from 0 to 1, in ascending order. Where
     /// q″ has a corner, there should be a point.
     fn grid_point(&self, point: usize, segments: usize) -> R {
-        if point < segments {
-            real::<R>(point as u32) / real(segments as u32)
-        } else {
-            R::ONE
-        }
+        if point < segments { real::<R>(point as u32) / real(segments as u32) } else { R::ONE }
     }
 }

@@ -149,11 +149,7 @@ impl<R: Real, const V: usize, const N: usize> PathSpline<R, V, N> {
             }
             if let Some(last) = last {
                 let square = square_distance(last, q, spacing);
-                let next = t + if square > R::ZERO {
-                    square.sqrt()
-                } else {
-                    R::ZERO
-                };
+                let next = t + if square > R::ZERO { square.sqrt() } else { R::ZERO };
                 if !next.is_finite() {
                     return Err(PathSplineError::TooLong);
                 }
@@ -222,14 +218,7 @@ impl<R: Real, const V: usize, const N: usize> GeometricPath<R, V> for PathSpline
         let (sixth, three) = (R::from_f64(1.0 / 6.0) * h, R::from_f64(3.0));
         let [q_0, q_1] = [k, k + 1].map(|k| self.value(k));
         let [m_0, m_1] = [k, k + 1].map(|k| self.moment(k));
-        let value = |j: usize| {
-            [
-                entry(&q_0, j),
-                entry(&q_1, j),
-                entry(&m_0, j),
-                entry(&m_1, j),
-            ]
-        };
+        let value = |j: usize| [entry(&q_0, j), entry(&q_1, j), entry(&m_0, j), entry(&m_1, j)];
         PathPoint {
             q: core::array::from_fn(|j| {
                 let [q_0, q_1, m_0, m_1] = value(j);
@@ -272,10 +261,8 @@ fn place(point: usize, segments: usize, spans: usize) -> Option<(usize, u32, u32
         Some(index) => (more, index, each),
         None => (0, point, each + 1),
     };
-    let (span, index) = (
-        index.checked_div(each)?.min(index.checked_div(parts)?),
-        index.checked_rem(parts)?,
-    );
+    let (span, index) =
+        (index.checked_div(each)?.min(index.checked_div(parts)?), index.checked_rem(parts)?);
     Some((first + span, index as u32, parts as u32))
 }
 

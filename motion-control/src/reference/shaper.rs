@@ -70,10 +70,7 @@ impl<R: Real, const N: usize> Default for Shaper<R, N> {
     fn default() -> Self {
         let mut impulses = Vec::new();
         // Fails at N = 0 alone, which no reference uses.
-        let _ = impulses.push(Impulse {
-            ticks: 0,
-            amplitude: R::ONE,
-        });
+        let _ = impulses.push(Impulse { ticks: 0, amplitude: R::ONE });
         Self { impulses }
     }
 }
@@ -81,11 +78,7 @@ impl<R: Real, const N: usize> Default for Shaper<R, N> {
 impl<R: Real, const N: usize, const CIRCLES: u128> Shaper<R, N, CIRCLES> {
     /// The ticks by which the end is delayed.
     pub fn delay(&self) -> u32 {
-        self.impulses
-            .iter()
-            .map(|impulse| impulse.ticks)
-            .max()
-            .unwrap_or(0)
+        self.impulses.iter().map(|impulse| impulse.ticks).max().unwrap_or(0)
     }
 }
 
@@ -95,9 +88,7 @@ impl<R: Real, const N: usize> Shaper<R, N> {
     /// The numbers of a [`Trajectory`](crate::Trajectory) do not leap, and need this not.
     #[must_use]
     pub fn on_circles<const CIRCLES: u128>(self) -> Shaper<R, N, CIRCLES> {
-        Shaper {
-            impulses: self.impulses,
-        }
+        Shaper { impulses: self.impulses }
     }
 
     /// Zero vibration: two impulses for each vibration. The tick is in s.
@@ -125,17 +116,8 @@ impl<R: Real, const N: usize> Shaper<R, N> {
     ) -> Result<Self, ShaperError> {
         let mut shaper = Self::default();
         for vibration in vibrations {
-            let &Vibration {
-                link,
-                mode,
-                omega,
-                damping_ratio,
-            } = vibration;
-            let error = |problem| ShaperError {
-                link,
-                mode,
-                problem,
-            };
+            let &Vibration { link, mode, omega, damping_ratio } = vibration;
+            let error = |problem| ShaperError { link, mode, problem };
             if !((omega > R::ZERO) & omega.is_finite()) {
                 return Err(error(ShaperProblem::Frequency));
             }
@@ -281,11 +263,7 @@ pub enum ShaperProblem {
 
 impl fmt::Display for ShaperError {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self {
-            link,
-            mode,
-            problem,
-        } = self;
+        let Self { link, mode, problem } = self;
         let text = match problem {
             ShaperProblem::Frequency => "the frequency is not positive",
             ShaperProblem::Damping => "the damping ratio is not within 0 and 1",

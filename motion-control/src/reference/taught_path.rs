@@ -93,18 +93,8 @@ impl<R: Real, const V: usize, const N: usize> TaughtPath<R, V, N> {
     /// seam of the measurement, too.
     #[must_use]
     pub fn on_circles<const CIRCLES: u128>(self) -> TaughtPath<R, V, N, CIRCLES> {
-        let Self {
-            points,
-            count,
-            spacing,
-            spacing_inv,
-        } = self;
-        TaughtPath {
-            points,
-            count,
-            spacing,
-            spacing_inv,
-        }
+        let Self { points, count, spacing, spacing_inv } = self;
+        TaughtPath { points, count, spacing, spacing_inv }
     }
 }
 

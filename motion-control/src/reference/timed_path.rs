@@ -142,17 +142,8 @@ impl<'a, R: Real, P, const M: usize> TimedPath<'a, R, P, M> {
             return Err(TimedPathError::Tick);
         }
         limits.check()?;
-        let rest = GridPoint {
-            s: R::ONE,
-            rate: R::ZERO,
-            ticks: 0,
-            rest: R::ZERO,
-        };
-        let mut timed = Self {
-            path,
-            grid: [rest; M],
-            tick,
-        };
+        let rest = GridPoint { s: R::ONE, rate: R::ZERO, ticks: 0, rest: R::ZERO };
+        let mut timed = Self { path, grid: [rest; M], tick };
         for (point, at) in timed.grid.iter_mut().enumerate() {
             at.s = path.grid_point(point, M - 1);
         }
@@ -173,9 +164,7 @@ impl<'a, R: Real, P, const M: usize> TimedPath<'a, R, P, M> {
 
     /// The duration, s.
     pub fn seconds(&self) -> R {
-        self.grid
-            .last()
-            .map_or(R::ZERO, |end| (real::<R>(end.ticks) + end.rest) * self.tick)
+        self.grid.last().map_or(R::ZERO, |end| (real::<R>(end.ticks) + end.rest) * self.tick)
     }
 
     /// Times from x, which becomes ṡ.
@@ -183,28 +172,19 @@ impl<'a, R: Real, P, const M: usize> TimedPath<'a, R, P, M> {
         let (mut ticks, mut rest) = (0_u32, R::ZERO);
         let mut before: Option<GridPoint<R>> = None;
         for at in &mut self.grid {
-            at.rate = if at.rate > R::ZERO {
-                at.rate.sqrt()
-            } else {
-                R::ZERO
-            };
+            at.rate = if at.rate > R::ZERO { at.rate.sqrt() } else { R::ZERO };
             if let Some(before) = before {
                 let step = (at.s - before.s) / self.tick;
                 rest += (step + step) / (before.rate + at.rate);
                 let whole = rest.to_u32();
-                let sum = ticks
-                    .checked_add(whole)
-                    .filter(|&sum| rest.is_finite() & (sum < u32::MAX));
+                let sum =
+                    ticks.checked_add(whole).filter(|&sum| rest.is_finite() & (sum < u32::MAX));
                 ticks = sum.ok_or(TimedPathError::TooLong)?;
                 rest += -real::<R>(whole);
             }
             (at.ticks, at.rest, before) = (ticks, rest, Some(*at));
         }
-        if let Some(end) = self
-            .grid
-            .last_mut()
-            .filter(|end| end.rest < R::from_f64(SHORT))
-        {
+        if let Some(end) = self.grid.last_mut().filter(|end| end.rest < R::from_f64(SHORT)) {
             end.rest = R::ZERO;
         }
         Ok(())
@@ -232,14 +212,7 @@ impl<R: Real, P: GeometricPath<R, V>, const V: usize, const M: usize> Reference<
         let half_u = half * half * (to.rate - from.rate) * (to.rate + from.rate) / (to.s - from.s);
         let s = from.s + t * (from.rate + half_u * t);
         let (u, rate) = (half_u + half_u, from.rate + (half_u + half_u) * t);
-        let rate = rate.clamped(
-            R::ZERO,
-            if from.rate > to.rate {
-                from.rate
-            } else {
-                to.rate
-            },
-        );
+        let rate = rate.clamped(R::ZERO, if from.rate > to.rate { from.rate } else { to.rate });
         let point = self.path.point(s.clamped(R::ZERO, R::ONE));
         State {
             q: point.q,

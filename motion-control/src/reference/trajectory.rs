@@ -68,9 +68,7 @@ impl<R: Real, const V: usize, const W: usize> Trajectory<R, V, W> {
     }
 
     /// Rest at zero: what a `static` contains before [`Self::plan`].
-    pub const REST: Self = Self {
-        segments: Segments::REST,
-    };
+    pub const REST: Self = Self { segments: Segments::REST };
 
     /// Replaces the trajectory in its place by the one through `points`, as [`Self::new`], which
     /// takes several times the size of the trajectory on the stack; this takes none of it.
@@ -97,9 +95,7 @@ impl<R: Real, const V: usize, const W: usize> Trajectory<R, V, W> {
         tick: R,
         limits: &[MotionLimits<R>; V],
     ) -> Result<(), TrajectoryError> {
-        self.segments.plan(points, tick, false, |point, segment| {
-            segment.check(point, limits)
-        })
+        self.segments.plan(points, tick, false, |point, segment| segment.check(point, limits))
     }
 
     /// The reference at a tick counted from the start; from [`Self::ticks`] on, at rest at the last

@@ -80,18 +80,8 @@ impl<R: Real, const V: usize> FrozenEncoder<R, V> {
     /// that moves by a whole turn has not moved.
     #[must_use]
     pub const fn on_circles<const CIRCLES: u128>(self) -> FrozenEncoder<R, V, CIRCLES> {
-        let Self {
-            encoders,
-            patience,
-            joint,
-            frozen,
-        } = self;
-        FrozenEncoder {
-            encoders,
-            patience,
-            joint,
-            frozen,
-        }
+        let Self { encoders, patience, joint, frozen } = self;
+        FrozenEncoder { encoders, patience, joint, frozen }
     }
 }
 
@@ -105,11 +95,9 @@ impl<R: Real, const V: usize, const CIRCLES: u128> FrozenEncoder<R, V, CIRCLES> 
     #[inline(always)]
     pub fn check(&mut self, q: &[R; V], reference: &[R; V]) -> Result<(), Fault> {
         let joint = self.joint;
-        let (Some(encoder), Some(&q), Some(&reference)) = (
-            self.encoders.get_mut(joint),
-            q.get(joint),
-            reference.get(joint),
-        ) else {
+        let (Some(encoder), Some(&q), Some(&reference)) =
+            (self.encoders.get_mut(joint), q.get(joint), reference.get(joint))
+        else {
             return self.compare_none(q);
         };
         if q != encoder.last {
@@ -155,12 +143,7 @@ impl<R: Real, const V: usize, const CIRCLES: u128> FrozenEncoder<R, V, CIRCLES> 
 }
 
 impl<R: Real> Encoder<R> {
-    const NEW: Self = Self {
-        distance: R::ZERO,
-        last: R::ZERO,
-        origin: R::ZERO,
-        left: 0,
-    };
+    const NEW: Self = Self { distance: R::ZERO, last: R::ZERO, origin: R::ZERO, left: 0 };
 
     /// Whether the reference of a circle is within the distance, on whichever turn.
     #[cold]
@@ -194,12 +177,7 @@ pub struct Saturation<R, const V: usize> {
 impl<R: Real, const V: usize> Saturation<R, V> {
     /// A detector that reports torques of |τ| ≥ `limit` (N·m, N) for longer than `ticks` ticks.
     pub const fn new(limit: [R; V], ticks: u32) -> Self {
-        Self {
-            limit,
-            ticks,
-            saturated: [0; V],
-            counts: false,
-        }
+        Self { limit, ticks, saturated: [0; V], counts: false }
     }
 
     /// Counts the torques of a command.
@@ -211,9 +189,8 @@ impl<R: Real, const V: usize> Saturation<R, V> {
     pub fn check(&mut self, torque: &[R; V]) -> Result<(), Fault> {
         // Not `any`: joints need not wait for each other's verdict.
         let limits = torque.iter().zip(&self.limit);
-        let at_limit = limits.fold(self.counts, |at, (torque, &limit)| {
-            at | (torque.abs() >= limit)
-        });
+        let at_limit =
+            limits.fold(self.counts, |at, (torque, &limit)| at | (torque.abs() >= limit));
         if at_limit {
             return self.count(torque);
         }
@@ -260,11 +237,7 @@ pub struct ReferenceStep<R, const V: usize, const CIRCLES: u128 = 0> {
 impl<R: Real, const V: usize> ReferenceStep<R, V> {
     /// A detector that reports references that move further than `step` (rad, m) in a tick.
     pub const fn new(step: [R; V]) -> Self {
-        Self {
-            step,
-            last: [R::ZERO; V],
-            started: false,
-        }
+        Self { step, last: [R::ZERO; V], started: false }
     }
 
     /// The same detector for joints of which those of [`Circles::bits`] are circles: a step of a
@@ -278,16 +251,8 @@ impl<R: Real, const V: usize> ReferenceStep<R, V> {
     /// ```
     #[must_use]
     pub const fn on_circles<const CIRCLES: u128>(self) -> ReferenceStep<R, V, CIRCLES> {
-        let Self {
-            step,
-            last,
-            started,
-        } = self;
-        ReferenceStep {
-            step,
-            last,
-            started,
-        }
+        let Self { step, last, started } = self;
+        ReferenceStep { step, last, started }
     }
 }
 

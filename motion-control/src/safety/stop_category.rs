@@ -93,10 +93,7 @@ pub(crate) struct Stopping<R, const V: usize> {
 
 impl<R: Real, const V: usize> Stopping<R, V> {
     pub(crate) fn new() -> Self {
-        Self {
-            configured: Some(Ending::Off),
-            damping: [R::ZERO; V],
-        }
+        Self { configured: Some(Ending::Off), damping: [R::ZERO; V] }
     }
 
     pub(crate) fn choose(&mut self, category: &StopCategory<R, V>) -> Option<Ending> {

@@ -114,11 +114,7 @@ enum State {
     /// A fault outlasted the ride-through: the arm is held until a tick has none.
     Held,
     /// A controlled stop: the arm is decelerated for `ticks` more, whatever is measured.
-    Stopping {
-        required: Required,
-        ending: Ending,
-        ticks: u32,
-    },
+    Stopping { required: Required, ending: Ending, ticks: u32 },
     /// Category 2 after the deceleration: the arm is held until it is released.
     Standing(Required),
     /// Zero torque and the brake, or a damping, until a reset.
@@ -140,9 +136,7 @@ impl State {
     /// The controlled stop that was required from outside, and what follows its deceleration.
     fn required(&mut self) -> Option<(&mut Required, Ending)> {
         match self {
-            Self::Stopping {
-                required, ending, ..
-            } => Some((required, *ending)),
+            Self::Stopping { required, ending, .. } => Some((required, *ending)),
             Self::Standing(required) => Some((required, Ending::Hold)),
             Self::Full
             | Self::Held
@@ -211,20 +205,14 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
     /// zero.
     pub(crate) fn new(config: SupervisorConfig<R, V>) -> Self {
         let (limits, tick) = (&config.limits, config.tick);
-        let unusable = limits.check().err().map(|error| Fault::Limits {
-            joint: error.joint(),
-        });
+        let unusable = limits.check().err().map(|error| Fault::Limits { joint: error.joint() });
         // Comparisons with NaN are false, so that a limit of NaN allows nothing.
         let allowed = |x| if x > R::ZERO { x } else { R::ZERO };
         let finite = |x: R| if x.is_finite() { allowed(x) } else { R::ZERO };
         // Finite ends, so that what lies between them is finite.
         let (far, range) = (R::from_f64(FAR), R::from_f64(RANGE));
         let end = |x: R| {
-            if x.abs() > range {
-                x.clamped(-range, range)
-            } else {
-                x
-            }
+            if x.abs() > range { x.clamped(-range, range) } else { x }
         };
         let (mut middle, mut half) = (limits.lower, limits.upper);
         for (lower, upper) in middle.iter_mut().zip(&mut half) {
@@ -238,9 +226,7 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
             speed_limit: limits.speed,
             middle,
             half,
-            plausible_step: limits
-                .speed
-                .map(|speed| R::from_f64(JUMP) * speed * tick + resolution),
+            plausible_step: limits.speed.map(|speed| R::from_f64(JUMP) * speed * tick + resolution),
             ticks_since_good: far,
             ride_through_ticks: config.ride_through_ticks,
             hold_ticks: config.hold_ticks,
@@ -434,11 +420,9 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
     fn begin_otherwise(&mut self) {
         match self.state {
             State::Torqueless => self.state = State::Held,
-            State::Stopping {
-                required,
-                ending,
-                ticks,
-            } => self.continue_stop(required, ending, ticks),
+            State::Stopping { required, ending, ticks } => {
+                self.continue_stop(required, ending, ticks)
+            }
             State::Standing(required) => self.stand(required),
             State::Full | State::Held | State::Stopped { .. } | State::Unusable(_) => {}
         }
@@ -462,11 +446,7 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         Command {
             torque,
             brake: stopped | self.braked,
-            status: Status {
-                mode,
-                fault: self.fault,
-                limited: limited & !stopped,
-            },
+            status: Status { mode, fault: self.fault, limited: limited & !stopped },
         }
     }
 
@@ -539,9 +519,7 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         let near =
             |(&q, (&last, &step)): (&R, (&R, &R))| (q - last).abs() <= step * self.ticks_since_good;
         let joint = q.iter().zip(steps).position(|joint| !near(joint));
-        Fault::Jump {
-            joint: joint.unwrap_or(V),
-        }
+        Fault::Jump { joint: joint.unwrap_or(V) }
     }
 
     /// A torque that is not finite.
@@ -644,10 +622,7 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
 
     /// Replaces the ranges by those between these bounds, and returns what they were.
     pub(crate) fn replace_bounds(&mut self, bounds: &[[R; 2]; V]) -> Ranges<R, V> {
-        let before = Ranges {
-            middle: self.middle,
-            half: self.half,
-        };
+        let before = Ranges { middle: self.middle, half: self.half };
         let ranges = self.middle.iter_mut().zip(&mut self.half);
         for ((middle, half), &[lower, upper]) in ranges.zip(bounds) {
             let [a, b] = [lower, upper].map(|x| R::from_f64(0.5) * x);

@@ -83,10 +83,7 @@ impl TickCounter {
     pub fn begin(&mut self, now: u32) -> CountedTick {
         let passed = self.last.map_or(1, |last| now.wrapping_sub(last));
         self.last = Some(now);
-        CountedTick {
-            now,
-            missed: passed.saturating_sub(1),
-        }
+        CountedTick { now, missed: passed.saturating_sub(1) }
     }
 }
 
@@ -102,11 +99,7 @@ impl CountedTick {
     /// # Errors
     /// [`Fault::Overrun`] if the timer has advanced since the begin.
     pub fn end(self, now: u32, _: &Status) -> Result<CompletedTick, Fault> {
-        if now == self.now {
-            Ok(CompletedTick(()))
-        } else {
-            Err(Fault::Overrun)
-        }
+        if now == self.now { Ok(CompletedTick(())) } else { Err(Fault::Overrun) }
     }
 }
 

@@ -92,9 +92,8 @@ where
         let norms = DVector::from_iterator(n, rows.column_iter().map(|c| c.norm()));
         let (selected, orthonormal) = independent(&rows, &norms);
         let within = orthonormal.tr_mul(&rows.select_columns(&selected));
-        let mut grouping = (within.lu())
-            .solve(&orthonormal.tr_mul(&rows))
-            .expect("independent columns");
+        let mut grouping =
+            (within.lu()).solve(&orthonormal.tr_mul(&rows)).expect("independent columns");
         for (row, &at) in selected.iter().enumerate() {
             for column in 0..n {
                 let share = &mut grouping[(row, column)];
@@ -110,15 +109,7 @@ where
             selected.len(),
             selected.iter().map(|&at| norms[at] * per_state),
         );
-        Self {
-            robot,
-            scene,
-            width,
-            limits,
-            selected,
-            grouping,
-            scale,
-        }
+        Self { robot, scene, width, limits, selected, grouping, scale }
     }
 
     /// The number of base parameters.

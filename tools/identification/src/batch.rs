@@ -48,11 +48,7 @@ impl Batch {
     /// ```
     #[must_use]
     pub fn new(harmonics: usize, tick: f64) -> Self {
-        Self {
-            harmonics,
-            delay: 0.5 * tick,
-            most: 1e4,
-        }
+        Self { harmonics, delay: 0.5 * tick, most: 1e4 }
     }
 
     /// The base parameters of an arm with their covariance, by least squares with the weights 1/σ
@@ -85,11 +81,7 @@ impl Batch {
         let (samples, harmonics) = (recording.positions.len(), self.harmonics);
         let (least, most) = (arm.len().div_ceil(2), samples.saturating_sub(1) / 2);
         if harmonics < least || harmonics > most {
-            return Err(IdentificationError::Harmonics {
-                harmonics,
-                least,
-                most,
-            });
+            return Err(IdentificationError::Harmonics { harmonics, least, most });
         }
         let motion = FourierMotion::fit(&recording.positions, recording.period(), harmonics);
         let [rows, torques] = self.projected(arm, recording, &motion);
@@ -114,9 +106,7 @@ impl Batch {
         Ok(Identified {
             base: solved.estimate.iter().copied().collect(),
             deviations: root.column_iter().map(|column| column.norm()).collect(),
-            noise: (0..=harmonics)
-                .map(|h| std::array::from_fn(|j| of(h, j)))
-                .collect(),
+            noise: (0..=harmonics).map(|h| std::array::from_fn(|j| of(h, j))).collect(),
             condition,
             motion,
             root,

@@ -60,14 +60,8 @@ impl Parameter {
     #[must_use]
     pub fn at(column: usize, bodies: usize) -> Self {
         match column.checked_sub(10 * bodies) {
-            None => Self::Body {
-                body: column / 10,
-                place: column % 10,
-            },
-            Some(own) => Self::Joint {
-                joint: own / OF_JOINT,
-                of: OfJoint::ALL[own % OF_JOINT],
-            },
+            None => Self::Body { body: column / 10, place: column % 10 },
+            Some(own) => Self::Joint { joint: own / OF_JOINT, of: OfJoint::ALL[own % OF_JOINT] },
         }
     }
 
@@ -83,9 +77,8 @@ impl Parameter {
 
 impl fmt::Display for Parameter {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        const NAMES: [&str; 10] = [
-            "m", "m c_x", "m c_y", "m c_z", "I_xx", "I_xy", "I_yy", "I_xz", "I_yz", "I_zz",
-        ];
+        const NAMES: [&str; 10] =
+            ["m", "m c_x", "m c_y", "m c_z", "I_xx", "I_xy", "I_yy", "I_xz", "I_yz", "I_zz"];
         match *self {
             Self::Body { body, place } => write!(out, "body {body} {}", NAMES[place]),
             Self::Joint { joint, of } => {

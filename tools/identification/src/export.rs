@@ -48,11 +48,8 @@ impl<const V: usize> FourierMotion<V> {
         assert!((ticks - ticks.round()).abs() < 1e-6, "{ticks} ticks");
         let (ticks, harmonics) = (ticks.round(), self.sines.len());
         let row = |x: &[f64; V]| format!("{:?}", x.map(|x| x as f32));
-        let rows = |x: &[[f64; V]]| {
-            x.iter()
-                .map(|x| format!("    {},\n", row(x)))
-                .collect::<String>()
-        };
+        let rows =
+            |x: &[[f64; V]]| x.iter().map(|x| format!("    {},\n", row(x))).collect::<String>();
         let (centre, sines, cosines) = (row(&self.centre), rows(&self.sines), rows(&self.cosines));
         format!(
             "{HEADER}

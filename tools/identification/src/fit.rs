@@ -122,11 +122,7 @@ impl Fit {
     /// ```
     #[must_use]
     pub fn new(tick: f64) -> Self {
-        Self {
-            cutoff: 10.0,
-            delay: 0.5 * tick,
-            prior: 0.5,
-        }
+        Self { cutoff: 10.0, delay: 0.5 * tick, prior: 0.5 }
     }
 
     /// The base parameters by a recording and a `nominal` set of them, of which those that are
@@ -206,10 +202,7 @@ impl Fit {
         let of_bodies = match extra {
             0 => root.clone(),
             _ => {
-                let known = prior
-                    .iter()
-                    .copied()
-                    .chain(std::iter::repeat_n(KNOWN, extra));
+                let known = prior.iter().copied().chain(std::iter::repeat_n(KNOWN, extra));
                 let solved = equations.solve(&noise, &known.collect::<Vec<_>>());
                 solved.deviations(&squares)
             }
@@ -311,9 +304,7 @@ impl Fit {
     }
 
     fn too_short<const V: usize>(&self, recording: &TickRecording<V>) -> IdentificationError {
-        IdentificationError::TooShort {
-            seconds: recording.tick() * recording.ticks() as f64,
-        }
+        IdentificationError::TooShort { seconds: recording.tick() * recording.ticks() as f64 }
     }
 }
 
@@ -356,10 +347,7 @@ impl Equations {
         for (j, all) in reduced.rows.iter().enumerate() {
             for (k, row) in all.chunks_exact(p + 1).enumerate() {
                 let at = j * each + k;
-                row[..p]
-                    .iter()
-                    .enumerate()
-                    .for_each(|(i, y)| rows[(at, i)] = *y);
+                row[..p].iter().enumerate().for_each(|(i, y)| rows[(at, i)] = *y);
                 right[(at, 0)] = row[p];
             }
         }

@@ -90,9 +90,7 @@ impl<const V: usize> FourierMotion<V> {
             let mut sum = [0.0; V];
             for (k, q) in positions.iter().enumerate() {
                 let weight = weight(k) / n as f64;
-                sum.iter_mut()
-                    .zip(q)
-                    .for_each(|(sum, q)| *sum += weight * q);
+                sum.iter_mut().zip(q).for_each(|(sum, q)| *sum += weight * q);
             }
             sum
         };
@@ -120,11 +118,7 @@ impl<const V: usize> FourierMotion<V> {
     #[must_use]
     pub fn reference(&self, tick: f64, periods: u32) -> PeriodicReference<'_, V> {
         let ticks = (self.period * f64::from(periods) / tick).round() as u32;
-        PeriodicReference {
-            motion: self,
-            tick,
-            ticks,
-        }
+        PeriodicReference { motion: self, tick, ticks }
     }
 }
 
@@ -143,11 +137,7 @@ impl<R: Real, const V: usize> Reference<R, V> for PeriodicReference<'_, V> {
             return State::at(self.motion.at(end).q.map(R::from_f64));
         }
         let State { q, qd, qdd } = self.motion.at(self.tick * f64::from(tick));
-        State {
-            q: q.map(R::from_f64),
-            qd: qd.map(R::from_f64),
-            qdd: qdd.map(R::from_f64),
-        }
+        State { q: q.map(R::from_f64), qd: qd.map(R::from_f64), qdd: qdd.map(R::from_f64) }
     }
 
     fn ticks(&self) -> u32 {

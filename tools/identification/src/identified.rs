@@ -45,9 +45,6 @@ impl<const V: usize> Identified<V> {
     #[must_use]
     pub fn covariance(&self) -> Vec<Vec<f64>> {
         let covariance = self.root.tr_mul(&self.root);
-        covariance
-            .row_iter()
-            .map(|row| row.iter().copied().collect())
-            .collect()
+        covariance.row_iter().map(|row| row.iter().copied().collect()).collect()
     }
 }

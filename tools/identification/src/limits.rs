@@ -40,9 +40,7 @@ impl<const V: usize> ExcitationLimits<V> {
         let range = self.lower.iter().zip(&self.upper);
         let positive = |x: &[f64; V]| x.iter().all(|x| *x > 0.0 && x.is_finite());
         range.into_iter().all(|(a, b)| (b - a).is_finite() && a < b)
-            && [&self.velocity, &self.acceleration, &self.torque]
-                .into_iter()
-                .all(positive)
+            && [&self.velocity, &self.acceleration, &self.torque].into_iter().all(positive)
     }
 
     /// The motion of this form that begins at rest and reaches at least one limit of each joint but
@@ -54,10 +52,7 @@ impl<const V: usize> ExcitationLimits<V> {
     /// Between samples a trigonometric polynomial of degree H exceeds the largest of m > 2 H
     /// samples by no more than the factor 1/cos(πH/m): Ehlich & Zeller (1964).
     pub(crate) fn fill(&self, form: &FourierMotion<V>, place: &[f64; V]) -> FourierMotion<V> {
-        let mut motion = FourierMotion {
-            centre: [0.0; V],
-            ..form.clone()
-        };
+        let mut motion = FourierMotion { centre: [0.0; V], ..form.clone() };
         let harmonics = motion.sines.len();
         for j in 0..V {
             start_at_rest(&mut motion.sines, j, 1);

@@ -43,10 +43,7 @@ impl LowPass {
         let bend = |i: usize| (x(i) * x(i) - square - tilt * (x(i) - mean)) * bell(i);
         let curve = sum(&|i| 0.5 * x(i) * x(i) * bend(i));
         let weights = (0..count).map(|i| [bell(i) / all, slope(i) / along, bend(i) / curve]);
-        Self {
-            reach,
-            weights: weights.collect(),
-        }
+        Self { reach, weights: weights.collect() }
     }
 
     /// The weight of a sample this many ticks from the start of the window.

@@ -83,16 +83,9 @@ fn main() -> ExitCode {
 fn run(args: &Args) -> Result<(String, Option<Error>)> {
     let beside = || args.recording.with_extension("torques.svg");
     let picture = args.picture.clone().unwrap_or_else(beside);
-    let inputs = [&args.recording, &args.robot]
-        .into_iter()
-        .chain(&args.validate);
+    let inputs = [&args.recording, &args.robot].into_iter().chain(&args.validate);
     let inputs: Vec<&Path> = inputs.map(PathBuf::as_path).collect();
-    let outputs: Vec<&Path> = args
-        .out
-        .iter()
-        .chain([&picture])
-        .map(PathBuf::as_path)
-        .collect();
+    let outputs: Vec<&Path> = args.out.iter().chain([&picture]).map(PathBuf::as_path).collect();
     robot_import::outputs::are_apart(&inputs, &outputs)
         .map_err(|error| Error::Output(error.into()))?;
     let recorded = Recorded::read(&args.recording)?;
@@ -120,9 +113,7 @@ fn run(args: &Args) -> Result<(String, Option<Error>)> {
         ),
     };
     let Some(mistake) = found.mistake else {
-        args.out
-            .as_deref()
-            .map_or(Ok(()), |out| write(out, &file))?;
+        args.out.as_deref().map_or(Ok(()), |out| write(out, &file))?;
         return Ok((text, None));
     };
     let path = args.recording.clone();
@@ -130,8 +121,5 @@ fn run(args: &Args) -> Result<(String, Option<Error>)> {
 }
 
 fn write(path: &Path, text: &str) -> Result<()> {
-    std::fs::write(path, text).map_err(|source| Error::Write {
-        path: path.to_owned(),
-        source,
-    })
+    std::fs::write(path, text).map_err(|source| Error::Write { path: path.to_owned(), source })
 }

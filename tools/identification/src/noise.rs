@@ -21,10 +21,7 @@ pub(crate) struct Noise<const V: usize> {
 impl<const V: usize> Noise<V> {
     /// As large as the torques, in proportion.
     pub(crate) fn first(torques: &[f64; V], harmonics: usize) -> Self {
-        Self {
-            squares: torques.map(|torque| [torque * torque, 0.0]),
-            harmonics,
-        }
+        Self { squares: torques.map(|torque| [torque * torque, 0.0]), harmonics }
     }
 
     /// The rows of a joint: harmonic 0, then a sine and a cosine of each.

@@ -136,11 +136,7 @@ where
     let joints = std::array::from_fn(|joint| {
         std::array::from_fn(|k| part(10 * B + OF_JOINT * joint, OF_JOINT)[k])
     });
-    Ok(PhysicalSet {
-        bodies,
-        joints,
-        misfit,
-    })
+    Ok(PhysicalSet { bodies, joints, misfit })
 }
 
 /// \[Σ h; hᵀ m\].
@@ -161,34 +157,13 @@ fn parameters(j: &Matrix4<f64>) -> [f64; 10] {
     let trace = j[(0, 0)] + j[(1, 1)] + j[(2, 2)];
     let [xx, yy, zz] = [0, 1, 2].map(|k| trace - j[(k, k)]);
     let [xy, xz, yz] = [(0, 1), (0, 2), (1, 2)].map(|at| -j[at]);
-    [
-        j[(3, 3)],
-        j[(0, 3)],
-        j[(1, 3)],
-        j[(2, 3)],
-        xx,
-        xy,
-        yy,
-        xz,
-        yz,
-        zz,
-    ]
+    [j[(3, 3)], j[(0, 3)], j[(1, 3)], j[(2, 3)], xx, xy, yy, xz, yz, zz]
 }
 
 /// The places of the ten numbers of a symmetric X: those off the diagonal are times √2, so that the
 /// norms are the same.
-const PLACES: [(usize, usize); 10] = [
-    (0, 0),
-    (1, 1),
-    (2, 2),
-    (3, 3),
-    (0, 1),
-    (0, 2),
-    (0, 3),
-    (1, 2),
-    (1, 3),
-    (2, 3),
-];
+const PLACES: [(usize, usize); 10] =
+    [(0, 0), (1, 1), (2, 2), (3, 3), (0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)];
 
 fn symmetric(x: impl Fn(usize) -> f64) -> Matrix4<f64> {
     let mut matrix = Matrix4::zeros();

@@ -85,9 +85,7 @@ fn mean<const V: usize>(samples: &[[f64; V]], each: usize) -> Vec<[f64; V]> {
     let mut sum = vec![[0.0; V]; each];
     for period in samples.chunks(each) {
         for (sum, sample) in sum.iter_mut().zip(period) {
-            sum.iter_mut()
-                .zip(sample)
-                .for_each(|(sum, x)| *sum += x / periods);
+            sum.iter_mut().zip(sample).for_each(|(sum, x)| *sum += x / periods);
         }
     }
     sum

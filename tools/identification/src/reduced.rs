@@ -56,11 +56,8 @@ impl Filters {
         recording: &TickRecording<V>,
         mut columns: impl FnMut(&State<f64, V, V>) -> [Vec<f64>; V],
     ) -> Reduced<V> {
-        let mut reduced = Reduced {
-            times: Vec::new(),
-            states: Vec::new(),
-            rows: [const { Vec::new() }; V],
-        };
+        let mut reduced =
+            Reduced { times: Vec::new(), states: Vec::new(), rows: [const { Vec::new() }; V] };
         for stretch in &recording.stretches {
             self.add(stretch, recording.tick(), &mut columns, &mut reduced);
         }
@@ -85,11 +82,7 @@ impl Filters {
         for k in 0..=2 * outer + (rows - 1) * self.step {
             let middle = k + inner;
             let [q, qd, qdd] = self.positions.state(&stretch.positions[k..=middle + inner]);
-            let state = State {
-                q,
-                qd: qd.map(|x| x / tick),
-                qdd: qdd.map(|x| x / (tick * tick)),
-            };
+            let state = State { q, qd: qd.map(|x| x / tick), qdd: qdd.map(|x| x / (tick * tick)) };
             let mut all = columns(&state);
             for (all, tau) in all.iter_mut().zip(&stretch.torques[middle]) {
                 all.push(*tau);
@@ -100,9 +93,7 @@ impl Filters {
             for row in first..=(k / self.step).min(rows - 1) {
                 let place = k - row * self.step;
                 if place == 0 {
-                    into.rows
-                        .iter_mut()
-                        .for_each(|rows| rows.resize(rows.len() + width, 0.0));
+                    into.rows.iter_mut().for_each(|rows| rows.resize(rows.len() + width, 0.0));
                 }
                 if place == outer {
                     into.states.push(state);
@@ -116,10 +107,6 @@ impl Filters {
                 }
             }
         }
-        debug_assert!(
-            into.rows
-                .iter()
-                .all(|rows| rows.len() == into.times.len() * width)
-        );
+        debug_assert!(into.rows.iter().all(|rows| rows.len() == into.times.len() * width));
     }
 }

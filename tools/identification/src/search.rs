@@ -157,11 +157,7 @@ impl Search {
             let within = torques.iter().zip(arm.limits.torque);
             within.into_iter().all(|(tau, most)| tau.abs() <= most) && clear(&state.q)
         });
-        if allowed {
-            arm.condition(&states)
-        } else {
-            f64::INFINITY
-        }
+        if allowed { arm.condition(&states) } else { f64::INFINITY }
     }
 
     /// Amplitudes of equal velocity in all harmonics.
@@ -169,16 +165,8 @@ impl Search {
         let mut of = |h: usize| std::array::from_fn(|_| normal(rng) / h as f64);
         let sines = (1..=self.harmonics).map(&mut of).collect();
         let cosines = (1..=self.harmonics).map(of).collect();
-        let motion = FourierMotion {
-            period: self.period,
-            centre: [0.0; V],
-            sines,
-            cosines,
-        };
-        Form {
-            motion,
-            place: std::array::from_fn(|_| rng.f64()),
-        }
+        let motion = FourierMotion { period: self.period, centre: [0.0; V], sines, cosines };
+        Form { motion, place: std::array::from_fn(|_| rng.f64()) }
     }
 }
 

@@ -90,11 +90,7 @@ impl Solved {
         if lost.is_empty() {
             return Ok(values.max() / values.min());
         }
-        let part = |base: &usize| {
-            lost.iter()
-                .map(|&k| directions[(k, *base)].powi(2))
-                .sum::<f64>()
-        };
+        let part = |base: &usize| lost.iter().map(|&k| directions[(k, *base)].powi(2)).sum::<f64>();
         let undetermined: Vec<usize> = (0..arm.len()).filter(|base| part(base) > NAMED).collect();
         Err(IdentificationError::RankDeficient {
             rank: values.len() - lost.len(),

@@ -60,17 +60,10 @@ impl<const V: usize> TickRecording<V> {
                     return Err(IdentificationError::NotFinite { sample, joint });
                 }
             }
-            all.push(Stretch {
-                positions,
-                torques,
-                start: tick * before as f64,
-            });
+            all.push(Stretch { positions, torques, start: tick * before as f64 });
             before += samples;
         }
-        Ok(Self {
-            stretches: all,
-            tick,
-        })
+        Ok(Self { stretches: all, tick })
     }
 
     /// The recording with other positions and torques in each tick.
@@ -144,10 +137,8 @@ impl<const V: usize> TickRecording<V> {
     #[must_use]
     pub fn split(&self, share: f64) -> (Self, Self) {
         let mut left = (share * self.ticks() as f64).round() as usize;
-        let [mut first, mut last] = [(); 2].map(|()| Self {
-            stretches: Vec::new(),
-            tick: self.tick,
-        });
+        let [mut first, mut last] =
+            [(); 2].map(|()| Self { stretches: Vec::new(), tick: self.tick });
         for stretch in &self.stretches {
             let at = left.min(stretch.positions.len());
             left -= at;

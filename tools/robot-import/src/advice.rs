@@ -140,12 +140,7 @@ fn links(robot: &Description, tree: &Tree, all: &mut Vec<Advice>) {
             continue;
         };
         let mut add = |topic, text| {
-            all.push(Advice {
-                topic,
-                line: link.line,
-                name: link.name.clone(),
-                text,
-            });
+            all.push(Advice { topic, line: link.line, name: link.name.clone(), text });
         };
         let own = MassProperties::in_frame(inertial.mass, &inertial.exact, inertial.inertia);
         if let Some(found) = impossible(own.inertia, TOLERANCE) {
@@ -187,11 +182,8 @@ fn links(robot: &Description, tree: &Tree, all: &mut Vec<Advice>) {
 
 /// Bodies whose joint moves no mass.
 fn bodies(tree: &Tree, all: &mut Vec<Advice>) {
-    let mut carried: Vec<f64> = tree
-        .bodies
-        .iter()
-        .map(|body| body.inertia.mass + size(&body.inertia))
-        .collect();
+    let mut carried: Vec<f64> =
+        tree.bodies.iter().map(|body| body.inertia.mass + size(&body.inertia)).collect();
     for i in (0..tree.bodies.len()).rev() {
         if let Some(parent) = tree.bodies[i].parent {
             carried[parent] += carried[i];
@@ -217,12 +209,7 @@ fn size(inertia: &MassProperties) -> f64 {
 
 fn joint(robot: &Description, joint: &Joint, selected: &Selected, all: &mut Vec<Advice>) {
     let mut add = |topic, text: String| {
-        all.push(Advice {
-            topic,
-            line: joint.line,
-            name: joint.name.clone(),
-            text,
-        });
+        all.push(Advice { topic, line: joint.line, name: joint.name.clone(), text });
     };
     let length = joint.axis.length();
     if joint.kind.has_axis() && (length - 1.0).abs() > 1e-6 {
@@ -240,18 +227,15 @@ fn joint(robot: &Description, joint: &Joint, selected: &Selected, all: &mut Vec<
             Topic::Limits,
             format!("The lower limit {lower} is above the upper one {upper}: neither is taken."),
         ),
-        Some([lower, upper]) if lower == upper && joint.kind != Kind::Continuous => add(
-            Topic::Limits,
-            format!("Both limits of position are {lower}: neither is taken."),
-        ),
+        Some([lower, upper]) if lower == upper && joint.kind != Kind::Continuous => {
+            add(Topic::Limits, format!("Both limits of position are {lower}: neither is taken."))
+        }
         None if joint.kind != Kind::Continuous => {
             add(Topic::Limits, "It has no limits of position.".to_owned());
         }
         _ => {}
     }
-    let range = limits
-        .position
-        .map_or(2.0 * PI, |[lower, upper]| upper - lower);
+    let range = limits.position.map_or(2.0 * PI, |[lower, upper]| upper - lower);
     if let Some(speed) = limits.velocity.filter(|speed| *speed > 0.0)
         && range / speed > SLOWEST
     {
@@ -282,17 +266,11 @@ fn joint(robot: &Description, joint: &Joint, selected: &Selected, all: &mut Vec<
     if !missing.is_empty() {
         add(
             Topic::Limits,
-            format!(
-                "It has no limit of {}: the safety gate needs one.",
-                missing.join(" and of ")
-            ),
+            format!("It has no limit of {}: the safety gate needs one.", missing.join(" and of ")),
         );
     }
     if joint.damping < 0.0 || joint.friction < 0.0 {
-        add(
-            Topic::Limits,
-            "Its friction is negative: it would drive the joint.".to_owned(),
-        );
+        add(Topic::Limits, "Its friction is negative: it would drive the joint.".to_owned());
     }
     mimic(robot, joint, selected, &mut add);
 }
@@ -306,12 +284,7 @@ fn locked(
     all: &mut Vec<Advice>,
 ) {
     let mut add = |topic, text: String| {
-        all.push(Advice {
-            topic,
-            line: joint.line,
-            name: joint.name.clone(),
-            text,
-        });
+        all.push(Advice { topic, line: joint.line, name: joint.name.clone(), text });
     };
     if !joint.kind.has_axis() {
         return;
@@ -377,10 +350,8 @@ fn mimic(
         return;
     };
     let Some(leader) = leader(robot, mimic) else {
-        let text = format!(
-            "It follows `{}`, which does not exist: it moves by itself.",
-            mimic.joint
-        );
+        let text =
+            format!("It follows `{}`, which does not exist: it moves by itself.", mimic.joint);
         return add(Topic::Mimic, text);
     };
     if !selected.order.contains(&leader) {

@@ -185,17 +185,11 @@ pub struct Loop {
 
 impl Pose {
     /// The pose without a displacement.
-    pub const IDENTITY: Self = Self {
-        position: DVec3::ZERO,
-        rotation: DMat3::IDENTITY,
-    };
+    pub const IDENTITY: Self = Self { position: DVec3::ZERO, rotation: DMat3::IDENTITY };
 
     /// Makes a pose that only translates.
     pub const fn translation(position: DVec3) -> Self {
-        Self {
-            position,
-            rotation: DMat3::IDENTITY,
-        }
+        Self { position, rotation: DMat3::IDENTITY }
     }
 
     /// The pose of `inner`, which is given in this frame, in the frame that this one is given in.
@@ -209,10 +203,7 @@ impl Pose {
     /// The inverse of the pose.
     pub fn inverse(&self) -> Self {
         let rotation = self.rotation.transpose();
-        Self {
-            position: -(rotation * self.position),
-            rotation,
-        }
+        Self { position: -(rotation * self.position), rotation }
     }
 }
 
@@ -240,11 +231,7 @@ impl Description {
     /// # Errors
     /// [`Problem::NoSuch`], with the most similar name.
     pub fn link(&self, name: &str) -> Result<usize, ImportError> {
-        index_of(
-            name,
-            "link",
-            self.links.iter().map(|link| link.name.as_str()),
-        )
+        index_of(name, "link", self.links.iter().map(|link| link.name.as_str()))
     }
 
     /// The index of the joint of this name.
@@ -271,12 +258,7 @@ pub(crate) fn index_of<'a>(
         None => String::new(),
     };
     let name = shortened(name);
-    Err(Problem::NoSuch {
-        what,
-        name,
-        suggestion,
-    }
-    .into())
+    Err(Problem::NoSuch { what, name, suggestion }.into())
 }
 
 /// The name that differs by the fewest letters, if that is at most a third of them; otherwise the

@@ -25,10 +25,8 @@ pub fn dropped(robot: &Description, selection: &Selection, selected: &Selected) 
         let part = without(robot, selection, selected.base, &joint_of, link);
         parts.entry(part).or_default().push(link);
     }
-    let mut notes: Vec<String> = parts
-        .iter()
-        .map(|(by, links)| sentence(robot, selected, *by, links))
-        .collect();
+    let mut notes: Vec<String> =
+        parts.iter().map(|(by, links)| sentence(robot, selected, *by, links)).collect();
     notes.extend(gravity(robot, selected, &joint_of).filter(|_| !selected.free_base));
     notes
 }
@@ -59,10 +57,7 @@ fn sentence(
     links: &[usize],
 ) -> String {
     let each = links.iter().map(|&link| &robot.links[link]);
-    let mass = each
-        .clone()
-        .filter_map(|link| link.inertial.as_ref())
-        .map(|own| own.mass);
+    let mass = each.clone().filter_map(|link| link.inertial.as_ref()).map(|own| own.mass);
     let mass = match tidy(mass.sum::<f64>()) {
         0.0 => "no mass".to_owned(),
         mass if mass < 1e-3 => format!("{mass:e} kg"),
@@ -72,10 +67,8 @@ fn sentence(
         let name = shortened(&robot.links[link].name);
         return format!("Link `{name}` and all that it carries are left out: {mass}.");
     }
-    let names: Vec<String> = each
-        .take(5)
-        .map(|link| format!("`{}`", shortened(&link.name)))
-        .collect();
+    let names: Vec<String> =
+        each.take(5).map(|link| format!("`{}`", shortened(&link.name))).collect();
     let more = match links.len() - names.len() {
         0 => String::new(),
         more => format!(" and {more} more links"),
@@ -95,9 +88,7 @@ fn gravity(robot: &Description, selected: &Selected, joint_of: &[Option<usize>])
         link = robot.joints[j].parent;
     }
     let down = turn.transpose() * -DVec3::Z;
-    let [x, y, z] = down
-        .to_array()
-        .map(|x| format!("{:.4}", x + 0.0).replace("-0.0000", "0.0000"));
+    let [x, y, z] = down.to_array().map(|x| format!("{:.4}", x + 0.0).replace("-0.0000", "0.0000"));
     (down.distance(-DVec3::Z) > 1e-6).then(|| {
         format!(
             "The base `{}` is turned in the file at zero positions: on a root that stands upright, \

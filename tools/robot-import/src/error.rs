@@ -130,19 +130,13 @@ impl ImportError {
     /// Makes the error of an element on a line.
     pub fn at(line: u32, element: impl Into<String>, problem: Problem) -> Self {
         let element = element.into();
-        Self {
-            place: Place { line, element },
-            problem,
-        }
+        Self { place: Place { line, element }, problem }
     }
 }
 
 impl From<Problem> for ImportError {
     fn from(problem: Problem) -> Self {
-        Self {
-            place: Place::default(),
-            problem,
-        }
+        Self { place: Place::default(), problem }
     }
 }
 

@@ -78,11 +78,7 @@ fn general_entries(body: &Body, parent: &Body) -> usize {
         Attitude::Rpy(rpy) => snap::rpy(rpy.map(f64::sin_cos)),
     };
     let rotation = aligned(parent).transpose() * to_parent * aligned(body);
-    let is_general = |x: &&f64| {
-        [-1.0, 0.0, 1.0]
-            .iter()
-            .all(|known| (**x - known).abs() > 1e-12)
-    };
+    let is_general = |x: &&f64| [-1.0, 0.0, 1.0].iter().all(|known| (**x - known).abs() > 1e-12);
     rotation.to_cols_array().iter().filter(is_general).count()
 }
 
@@ -101,11 +97,7 @@ pub fn savings(robot: &Description, selected: &Selected, tree: &Tree) -> Vec<Sav
     let mut all = Vec::new();
     for body in tree.bodies.iter().filter(|body| !body.snapped.is_empty()) {
         let mut rounded = robot.clone();
-        if let Some(joint) = rounded
-            .joints
-            .iter_mut()
-            .find(|joint| joint.name == body.joint)
-        {
+        if let Some(joint) = rounded.joints.iter_mut().find(|joint| joint.name == body.joint) {
             joint.exact = joint.origin;
         }
         let without = Tree::of(&rounded, selected, Numbers::Exact);
@@ -115,13 +107,7 @@ pub fn savings(robot: &Description, selected: &Selected, tree: &Tree) -> Vec<Sav
             numbers: body
                 .snapped
                 .iter()
-                .map(|snap| {
-                    (
-                        snap.attribute.clone(),
-                        snap.text.clone(),
-                        snap.exact.clone(),
-                    )
-                })
+                .map(|snap| (snap.attribute.clone(), snap.text.clone(), snap.exact.clone()))
                 .collect(),
             cycles: cycles as i64,
         });
@@ -144,20 +130,9 @@ mod tests {
         let tree = Tree::of(&robot, &selected, Numbers::Exact).expect("a tree");
         let estimated = cycles(&tree).expect("joints of one coordinate") as f64;
         let page = include_str!("../../../docs/robots.md");
-        let row = page
-            .lines()
-            .find(|line| line.starts_with("| so101 "))
-            .expect("its row");
-        let cell = row
-            .split('|')
-            .nth(7)
-            .expect("the engine's cycles")
-            .trim()
-            .replace(',', "");
+        let row = page.lines().find(|line| line.starts_with("| so101 ")).expect("its row");
+        let cell = row.split('|').nth(7).expect("the engine's cycles").trim().replace(',', "");
         let measured: f64 = cell.parse().expect("a number");
-        assert!(
-            (estimated / measured - 1.0).abs() < 0.27,
-            "{estimated} of {measured}"
-        );
+        assert!((estimated / measured - 1.0).abs() < 0.27, "{estimated} of {measured}");
     }
 }

@@ -129,9 +129,7 @@ impl Args {
             include_root,
             ..
         } = &self.options;
-        let include_root = include_root
-            .as_ref()
-            .map(|folder| folder.display().to_string());
+        let include_root = include_root.as_ref().map(|folder| folder.display().to_string());
         let mut words = vec![file_name(&self.file), "--name".to_owned(), name.to_owned()];
         let mut option = |option: &str, value: String| words.push(format!("{option}={value}"));
         for (name, value) in [
@@ -145,9 +143,7 @@ impl Args {
         for (name, values) in [("--joints", joints), ("--motors", motors)] {
             (!values.is_empty()).then(|| option(name, values.join(",")));
         }
-        without
-            .iter()
-            .for_each(|link| option("--without", link.clone()));
+        without.iter().for_each(|link| option("--without", link.clone()));
         for (joint, position) in lock {
             option("--lock", format!("{joint}={position}"));
         }
@@ -156,12 +152,7 @@ impl Args {
             ("--repair", repair),
             ("--keep-roundings", keep_roundings),
         ];
-        words.extend(
-            flags
-                .iter()
-                .filter(|flag| *flag.1)
-                .map(|flag| flag.0.to_owned()),
-        );
+        words.extend(flags.iter().filter(|flag| *flag.1).map(|flag| flag.0.to_owned()));
         let quoted: Vec<String> = words.iter().map(|word| shell_word(word)).collect();
         quoted.join(" ")
     }
@@ -169,9 +160,7 @@ impl Args {
 
 fn locked(text: &str) -> std::result::Result<(String, f64), String> {
     let (name, position) = text.rsplit_once('=').ok_or("expected JOINT=POSITION")?;
-    let position: f64 = position
-        .parse()
-        .map_err(|_| "the position is not a number")?;
+    let position: f64 = position.parse().map_err(|_| "the position is not a number")?;
     match position.is_finite() {
         true => Ok((name.to_owned(), position)),
         false => Err("the position is not finite".to_owned()),
@@ -249,13 +238,7 @@ pub fn import(args: &Args, today: &str) -> Result<Imported> {
     let given = Tree::of(&robot, &selected, Numbers::AsGiven)?;
     let (closed, left_out) = loops::closed(&robot, &given);
     if !closed.is_empty() {
-        checked.loops = Some(check::loops(
-            &robot,
-            &selected,
-            &given,
-            &closed,
-            checked.states,
-        )?);
+        checked.loops = Some(check::loops(&robot, &selected, &given, &closed, checked.states)?);
     }
     if !checked.holds() {
         let difference = checked.energy.max(checked.loops.unwrap_or_default());
@@ -295,12 +278,7 @@ pub fn import(args: &Args, today: &str) -> Result<Imported> {
     let kept = args.kept_type();
     let type_name =
         (args.type_name.clone().or(kept.clone())).unwrap_or_else(|| write::type_name(&name));
-    let of_file = |topic, text| Advice {
-        topic,
-        line: 0,
-        name: name.clone(),
-        text,
-    };
+    let of_file = |topic, text| Advice { topic, line: 0, name: name.clone(), text };
     let mut own = advice(&robot, &selected, &tree);
     // The motors of a machine with loops share what its joints need.
     own.extend(needless_torque(&tree, &checked).filter(|_| closed.is_empty()));
@@ -327,9 +305,7 @@ pub fn import(args: &Args, today: &str) -> Result<Imported> {
         file: file_name(&args.file),
         licence: robot.licence.clone(),
         date: today.to_owned(),
-        notes: roundings(&tree)
-            .chain(notes.iter().chain(&robot.notes).cloned())
-            .collect(),
+        notes: roundings(&tree).chain(notes.iter().chain(&robot.notes).cloned()).collect(),
     };
     let text = write::source(&tree, &name, &type_name, &origin);
     let source = write::formatted(&(text + &loops::source(&tree, &type_name, &closed, &motors)));
@@ -353,15 +329,7 @@ pub fn import(args: &Args, today: &str) -> Result<Imported> {
         estimated_flash: estimate::flash(&tree),
         name: name.clone(),
     };
-    Ok(Imported {
-        robot,
-        selected,
-        tree,
-        again: args.again(&name),
-        name,
-        source,
-        report,
-    })
+    Ok(Imported { robot, selected, tree, again: args.again(&name), name, source, report })
 }
 
 /// The comparison with a peer, or why there is none.
@@ -442,10 +410,7 @@ fn misread(peer: &check::Peer) -> String {
 }
 
 fn file_name(path: &Path) -> String {
-    path.file_name()
-        .unwrap_or(path.as_os_str())
-        .to_string_lossy()
-        .into_owned()
+    path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }
 
 /// The roundings in frames of inertias, a sentence each.
@@ -519,12 +484,7 @@ impl Imported {
             text: self.source.clone(),
             again: self.again.clone(),
             joints: joints.collect(),
-            bodies: self
-                .tree
-                .bodies
-                .iter()
-                .map(|body| body.name.clone())
-                .collect(),
+            bodies: self.tree.bodies.iter().map(|body| body.name.clone()).collect(),
             b,
             q,
             v,

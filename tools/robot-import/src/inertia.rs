@@ -24,11 +24,7 @@ impl MassProperties {
             true => inertia,
             false => entries(frame.rotation * matrix(inertia) * frame.rotation.transpose()),
         };
-        Self {
-            mass,
-            com: frame.position.to_array(),
-            inertia: turned,
-        }
+        Self { mass, com: frame.position.to_array(), inertia: turned }
     }
 
     /// The same in the frame in which `frame` is given.
@@ -59,20 +55,12 @@ impl MassProperties {
             let steiner = (DMat3::from_diagonal(DVec3::splat(arm.dot(arm))) - square) * part.mass;
             matrix(part.inertia) + steiner
         };
-        Self {
-            mass,
-            com: com.to_array(),
-            inertia: entries(about(self) + about(other)),
-        }
+        Self { mass, com: com.to_array(), inertia: entries(about(self) + about(other)) }
     }
 
     /// With numbers of fewer digits where they differ by rounding alone.
     pub fn tidied(&self) -> Self {
-        Self {
-            mass: tidy(self.mass),
-            com: self.com.map(tidy),
-            inertia: self.inertia.map(tidy),
-        }
+        Self { mass: tidy(self.mass), com: self.com.map(tidy), inertia: self.inertia.map(tidy) }
     }
 }
 
@@ -85,12 +73,5 @@ pub fn matrix([xx, xy, xz, yy, yz, zz]: [f64; 6]) -> DMat3 {
 pub fn entries(m: DMat3) -> [f64; 6] {
     let [x, y, z] = [m.x_axis, m.y_axis, m.z_axis];
     let mean = |a: f64, b: f64| 0.5 * (a + b);
-    [
-        x.x,
-        mean(x.y, y.x),
-        mean(x.z, z.x),
-        y.y,
-        mean(y.z, z.y),
-        z.z,
-    ]
+    [x.x, mean(x.y, y.x), mean(x.z, z.x), y.y, mean(y.z, z.y), z.z]
 }

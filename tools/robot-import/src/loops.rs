@@ -34,22 +34,14 @@ pub fn closed(robot: &Description, tree: &Tree) -> (Vec<Closed>, Vec<String>) {
             Some((body, position.to_array().map(tidy), Attitude::of(&rotation)))
         });
         match ends {
-            [Some(a), Some(b)] if a.0 != b.0 => all.push(Closed {
-                source,
-                name: one.name.clone(),
-                kind: one.kind,
-                ends: [a, b],
-            }),
-            [Some(_), Some(_)] => {
-                notes.push(format!(
-                    "Loop `{}` is left out: both ends are on one body.",
-                    one.name
-                ));
+            [Some(a), Some(b)] if a.0 != b.0 => {
+                all.push(Closed { source, name: one.name.clone(), kind: one.kind, ends: [a, b] })
             }
-            _ => notes.push(format!(
-                "Loop `{}` is left out: an end is not part of the robot.",
-                one.name
-            )),
+            [Some(_), Some(_)] => {
+                notes.push(format!("Loop `{}` is left out: both ends are on one body.", one.name));
+            }
+            _ => notes
+                .push(format!("Loop `{}` is left out: an end is not part of the robot.", one.name)),
         }
     }
     (all, notes)
@@ -74,13 +66,9 @@ impl Motors {
     /// A name that no moving joint has, or fewer joints than the library takes.
     pub fn of(tree: &Tree, loops: &[Closed], names: &[String]) -> Result<Self> {
         let moving = tree.bodies.iter().map(|body| body.joint.as_str());
-        if let Some(name) = names
-            .iter()
-            .find(|name| !moving.clone().any(|joint| joint == **name))
-        {
-            let like = most_similar(name, moving).map_or(String::new(), |like| {
-                format!("; did you mean `{}`?", shortened(like))
-            });
+        if let Some(name) = names.iter().find(|name| !moving.clone().any(|joint| joint == **name)) {
+            let like = most_similar(name, moving)
+                .map_or(String::new(), |like| format!("; did you mean `{}`?", shortened(like)));
             let name = shortened(name);
             let problem = format!("`--motors {name}`: no joint of this name moves{like}");
             return Err(Problem::Value(problem).into());
@@ -154,8 +142,7 @@ impl Motors {
 /// The number of directions that the loops constrain.
 fn rows(loops: &[Closed]) -> usize {
     let each = loops.iter();
-    each.map(|one| if one.kind == Kind::Fixed { 6 } else { 3 })
-        .sum()
+    each.map(|one| if one.kind == Kind::Fixed { 6 } else { 3 }).sum()
 }
 
 /// The `impl LoopRobot` of a tree with loops; empty without loops.
@@ -168,11 +155,7 @@ pub fn source(tree: &Tree, type_name: &str, loops: &[Closed], motors: &Motors) -
     let sizes = format!("{}, {}, {}", loops.len(), rows(loops), actuated.len());
     let mut joints = String::new();
     for one in loops {
-        let kind = if one.kind == Kind::Fixed {
-            "fixed"
-        } else {
-            "spherical"
-        };
+        let kind = if one.kind == Kind::Fixed { "fixed" } else { "spherical" };
         let frames: Vec<String> = one.ends.iter().map(frame).collect();
         let _ = writeln!(
             joints,

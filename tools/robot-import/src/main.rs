@@ -103,11 +103,7 @@ fn import(args: &import::Args) -> Result<(), Box<dyn std::error::Error>> {
 
 fn new(args: New) -> Result<(), Box<dyn std::error::Error>> {
     let folder = std::path::absolute(&args.folder)?;
-    let name = folder
-        .file_name()
-        .unwrap_or_default()
-        .to_string_lossy()
-        .into_owned();
+    let name = folder.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let framework = match (args.embassy, args.rtic) {
         (true, _) => Some(Framework::Embassy),
         (_, true) => Some(Framework::Rtic),
@@ -133,15 +129,8 @@ fn new(args: New) -> Result<(), Box<dyn std::error::Error>> {
         },
         &today(),
     )?;
-    let created = project::create(
-        &folder,
-        &Project {
-            name,
-            robot: imported.robot_file(),
-            library,
-            kind,
-        },
-    )?;
+    let created =
+        project::create(&folder, &Project { name, robot: imported.robot_file(), library, kind })?;
     print!("{}", imported.report.text());
     println!("\nwritten into {}:", folder.display());
     let paths = (created.files.iter()).map(|file| file.strip_prefix(&folder).unwrap_or(file));
@@ -171,12 +160,7 @@ fn new(args: New) -> Result<(), Box<dyn std::error::Error>> {
 /// The day in UTC.
 fn today() -> String {
     let today = time::OffsetDateTime::now_utc();
-    format!(
-        "{}-{:02}-{:02}",
-        today.year(),
-        u8::from(today.month()),
-        today.day()
-    )
+    format!("{}-{:02}-{:02}", today.year(), u8::from(today.month()), today.day())
 }
 
 #[cfg(test)]
@@ -194,9 +178,7 @@ mod tests {
         let mut list = String::new();
         for command in Cli::command().get_subcommands() {
             for arg in command.get_arguments() {
-                let long = arg
-                    .get_long()
-                    .map_or("-".to_owned(), |long| format!("--{long}"));
+                let long = arg.get_long().map_or("-".to_owned(), |long| format!("--{long}"));
                 let value = match arg.get_action().takes_values() {
                     true => arg.get_value_names().unwrap_or_default().concat(),
                     false => "-".to_owned(),
@@ -208,11 +190,8 @@ mod tests {
                     .map(|value| format!(" [default: {}]", value.to_string_lossy()))
                     .collect();
                 let name = command.get_name();
-                let _ = writeln!(
-                    list,
-                    "{name} {long} {value}{required} {help}{}",
-                    default.concat()
-                );
+                let _ =
+                    writeln!(list, "{name} {long} {value}{required} {help}{}", default.concat());
             }
         }
         expect_file!["../options.txt"].assert_eq(&list);

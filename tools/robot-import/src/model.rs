@@ -151,12 +151,10 @@ pub fn arm<const N: usize>(tree: &Tree) -> Result<ArmModel<f64, N>> {
 /// An error of the library with the body's name in place of its number.
 fn refused(tree: &Tree, error: ModelError) -> Problem {
     let text = error.to_string();
-    Problem::Value(
-        match number_of(error.body).and_then(|i| tree.bodies.get(i)) {
-            Some(body) => text.replacen(error.body, &shortened(&body.name), 1),
-            None => text,
-        },
-    )
+    Problem::Value(match number_of(error.body).and_then(|i| tree.bodies.get(i)) {
+        Some(body) => text.replacen(error.body, &shortened(&body.name), 1),
+        None => text,
+    })
 }
 
 /// The most bodies of a model.
@@ -213,11 +211,7 @@ impl<const N: usize, const Q: usize> Sized<N, Q> {
         });
         let exact = Model::try_new("tree", bodies).map_err(|error| refused(tree, error))?;
         let rounded = exact.to_f32();
-        Ok(Box::new(Self {
-            exact,
-            rounded,
-            balls,
-        }))
+        Ok(Box::new(Self { exact, rounded, balls }))
     }
 
     /// q with the unit quaternions (x, y, z, w) of the fillers.
@@ -230,12 +224,7 @@ impl<const N: usize, const Q: usize> Sized<N, Q> {
 
     fn poses(&self, q: &[f64]) -> Vec<Rows<f64>> {
         let poses = poses(&self.exact, &self.position(q));
-        let rows = poses.map(|pose| {
-            rows(&Pose {
-                position: pose.pos,
-                rotation: pose.rot,
-            })
-        });
+        let rows = poses.map(|pose| rows(&Pose { position: pose.pos, rotation: pose.rot }));
         rows.to_vec()
     }
 
@@ -271,11 +260,8 @@ impl<const N: usize, const Q: usize> Sized<N, Q> {
     }
 
     fn torque(&self, motion: &Motion) -> Vec<f64> {
-        let state = State {
-            q: self.position(&motion.q),
-            qd: filled(&motion.qd),
-            qdd: filled(&motion.qdd),
-        };
+        let state =
+            State { q: self.position(&motion.q), qd: filled(&motion.qd), qdd: filled(&motion.qdd) };
         rnea(&self.exact, &state, &RIGID_BODY)[..motion.qd.len()].to_vec()
     }
 
@@ -319,10 +305,7 @@ fn described(i: usize, body: &tree::Body) -> Body {
         Attitude::QuarterTurns(turns) => placed.quarter_turns(turns),
         Attitude::Rpy(rpy) => placed.rpy(rpy),
     };
-    let [lower, upper] = body
-        .limits
-        .position
-        .unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
+    let [lower, upper] = body.limits.position.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
     placed
         .mass(body.inertia.mass)
         .com(body.inertia.com)

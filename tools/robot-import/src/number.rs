@@ -11,11 +11,7 @@ use crate::snap;
 pub fn tidy(x: f64) -> f64 {
     let short: f64 = format!("{x:.11e}").parse().unwrap_or(x);
     // A negative zero is written as zero.
-    if (short - x).abs() <= 4.0 * f64::EPSILON * x.abs() {
-        short + 0.0
-    } else {
-        x
-    }
+    if (short - x).abs() <= 4.0 * f64::EPSILON * x.abs() { short + 0.0 } else { x }
 }
 
 /// A number as a literal of Rust: exact when it is parsed again.
@@ -53,11 +49,7 @@ impl Attitude {
         Self::Rpy([roll, pitch, yaw].map(|angle| {
             let turns = (angle / FRAC_PI_2).round();
             let exact = turns * FRAC_PI_2;
-            if (angle - exact).abs() < 1e-15 {
-                exact
-            } else {
-                tidy(angle)
-            }
+            if (angle - exact).abs() < 1e-15 { exact } else { tidy(angle) }
         }))
     }
 }

@@ -14,10 +14,7 @@ use crate::limits::{MOST_BYTES, MOST_FOLLOWED};
 /// [`Problem::Write`] with the path.
 pub fn are_apart(inputs: &[&Path], outputs: &[&Path]) -> Result<()> {
     for (i, &output) in outputs.iter().enumerate() {
-        let clash = |reason: String| Problem::Write {
-            path: output.display().to_string(),
-            reason,
-        };
+        let clash = |reason: String| Problem::Write { path: output.display().to_string(), reason };
         if let Some(input) = inputs.iter().find(|input| same_file(input, output)) {
             let words = format!("it is {}, which is read and would be lost", input.display());
             return Err(clash(words).into());
@@ -88,10 +85,8 @@ pub fn written_before(path: &Path) -> Option<String> {
 /// [`Problem::Write`] with the path.
 pub fn write(path: &Path, text: &str) -> Result<()> {
     std::fs::write(path, text).map_err(|error| {
-        let problem = Problem::Write {
-            path: path.display().to_string(),
-            reason: error.to_string(),
-        };
+        let problem =
+            Problem::Write { path: path.display().to_string(), reason: error.to_string() };
         problem.into()
     })
 }

@@ -65,10 +65,7 @@ mod tests {
         );
         let words = impossible([0.012, 0.0, 0.0, -0.01, 0.0, 0.009], 1e-3).expect("negative");
         let words = sentence(&words);
-        assert!(
-            words.contains("about (0.00, 1.00, 0.00) is -1.000e-2 kg·m²"),
-            "{words}"
-        );
+        assert!(words.contains("about (0.00, 1.00, 0.00) is -1.000e-2 kg·m²"), "{words}");
         // Two moments of which one is small and negative, by turned axes.
         let words = impossible([1.0, 1.5, 0.0, 1.0, 0.0, 1.0], 1e-3).expect("negative");
         let words = sentence(&words);

@@ -12,10 +12,7 @@ use crate::tree::{Body, Tree};
 /// The advice of the library; none for a tree that is too large for it.
 pub fn plausible(tree: &Tree, robot: &str) -> Vec<Advice> {
     let all = AnyModel::of(tree).map_or(Vec::new(), |model| model.advice());
-    all.iter()
-        .filter(|advice| !is_own(advice))
-        .map(|advice| placed(advice, tree, robot))
-        .collect()
+    all.iter().filter(|advice| !is_own(advice)).map(|advice| placed(advice, tree, robot)).collect()
 }
 
 /// Whether the importer has words of its own: on limits of torque it knows the accelerations that a
@@ -38,14 +35,10 @@ fn placed(advice: &library::Advice, tree: &Tree, robot: &str) -> Advice {
     // The text begins with what it is about, which stands in a column of its own.
     let text = advice.to_string();
     let (subject, reason) = text.split_once(": ").unwrap_or(("", &text));
-    let number = subject
-        .strip_prefix("body `")
-        .map(|name| name.trim_end_matches('`'));
+    let number = subject.strip_prefix("body `").map(|name| name.trim_end_matches('`'));
     let body = number.and_then(number_of).and_then(|i| tree.bodies.get(i));
     let joint = advice.joint().and_then(|joint| of_coordinate(tree, joint));
-    let name = body
-        .map(|body| &body.name)
-        .or(joint.map(|body| &body.joint));
+    let name = body.map(|body| &body.name).or(joint.map(|body| &body.joint));
     Advice {
         topic,
         line: body.or(joint).map_or(0, |body| body.line),

@@ -24,12 +24,7 @@ fn table(rows: &[Vec<String>]) -> String {
     let columns = rows.iter().map(Vec::len).max().unwrap_or_default();
     let cell = |row: &Vec<String>, k: usize| row.get(k).map_or(0, |cell| cell.chars().count());
     let widths: Vec<usize> = (0..columns)
-        .map(|k| {
-            rows.iter()
-                .map(|row| cell(row, k))
-                .max()
-                .unwrap_or_default()
-        })
+        .map(|k| rows.iter().map(|row| cell(row, k)).max().unwrap_or_default())
         .collect();
     let mut out = String::new();
     for row in &rows {
@@ -109,16 +104,7 @@ impl Report {
     }
 
     fn joints(&self) -> String {
-        let head = [
-            "joint",
-            "kind",
-            "body",
-            "on",
-            "kg",
-            "range",
-            "N·m or N",
-            "follows",
-        ];
+        let head = ["joint", "kind", "body", "on", "kg", "range", "N·m or N", "follows"];
         let mut rows = vec![head.map(str::to_owned).to_vec()];
         rows.extend(self.bodies.iter().map(|row| {
             vec![
@@ -130,8 +116,7 @@ impl Report {
                 row.range.map_or("no limits".to_owned(), |[lower, upper]| {
                     format!("{lower:.3} … {upper:.3}")
                 }),
-                row.effort
-                    .map_or(String::new(), |effort| format!("{effort}")),
+                row.effort.map_or(String::new(), |effort| format!("{effort}")),
                 row.follows.clone().unwrap_or_default(),
             ]
         }));
@@ -155,20 +140,15 @@ impl Report {
                 format!("{:.1e}", peer.difference),
                 format!("at most {MOST:.0e}"),
             ],
-            (None, reason) => vec![
-                "no peer".to_owned(),
-                String::new(),
-                reason.clone().unwrap_or_default(),
-            ],
+            (None, reason) => {
+                vec!["no peer".to_owned(), String::new(), reason.clone().unwrap_or_default()]
+            }
         });
         rows.push(vec![
             "exact values in place of roundings".to_owned(),
             format!("{:.1e}", check.snapping),
         ]);
-        rows.push(vec![
-            "f32 in place of f64".to_owned(),
-            format!("{:.1e}", check.f32),
-        ]);
+        rows.push(vec!["f32 in place of f64".to_owned(), format!("{:.1e}", check.f32)]);
         if let Some(loops) = check.loops {
             rows.push(vec![
                 "frames of loops on the file's links, m".to_owned(),
@@ -180,10 +160,7 @@ impl Report {
             true => format!("{:.1e}", 10.0_f64.powf(check.condition)),
             false => "singular".to_owned(),
         };
-        rows.push(vec![
-            "condition number of M, at least".to_owned(),
-            condition,
-        ]);
+        rows.push(vec!["condition number of M, at least".to_owned(), condition]);
         out += &table(&rows);
         if let (Some(cycles), Some(flash)) = (self.estimated_cycles, self.estimated_flash) {
             let _ = writeln!(

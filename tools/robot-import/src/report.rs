@@ -72,16 +72,12 @@ pub fn rows(tree: &Tree) -> Vec<Row> {
     let row = |body: &Body| Row {
         joint: body.joint.clone(),
         body: body.name.clone(),
-        parent: body
-            .parent
-            .map_or(tree.base.clone(), |parent| tree.bodies[parent].name.clone()),
+        parent: body.parent.map_or(tree.base.clone(), |parent| tree.bodies[parent].name.clone()),
         kind: format!("{:?}", body.kind).to_lowercase(),
         mass: body.inertia.mass,
         range: body.limits.position,
         effort: body.limits.effort,
-        follows: body
-            .follows
-            .map(|(leader, ..)| tree.bodies[leader].joint.clone()),
+        follows: body.follows.map(|(leader, ..)| tree.bodies[leader].joint.clone()),
     };
     tree.bodies.iter().map(row).collect()
 }

@@ -57,10 +57,7 @@ impl Selection {
         }
         let base = match &self.base {
             Some(name) => robot.link(name)?,
-            None => joint_of
-                .iter()
-                .position(Option::is_none)
-                .unwrap_or_default(),
+            None => joint_of.iter().position(Option::is_none).unwrap_or_default(),
         };
         let mut absent = vec![false; robot.links.len()];
         for name in &self.without {
@@ -86,7 +83,7 @@ impl Selection {
             while at != base {
                 let Some(j) = joint_of[at] else {
                     return Err(
-                        Problem::Value(format!("link `{tip}` is not below the base")).into(),
+                        Problem::Value(format!("link `{tip}` is not below the base")).into()
                     );
                 };
                 on_path[j] = true;
@@ -119,12 +116,7 @@ impl Selection {
             locked.insert(j, *position);
         }
         follow(robot, &mut roles, &order, &locked)?;
-        Ok(Selected {
-            base,
-            order,
-            roles,
-            free_base: self.free_base,
-        })
+        Ok(Selected { base, order, roles, free_base: self.free_base })
     }
 }
 
@@ -201,6 +193,5 @@ fn leaders(robot: &Description) -> Vec<Option<usize>> {
     let names = robot.joints.iter().enumerate();
     let index: HashMap<&str, usize> = names.map(|(j, joint)| (joint.name.as_str(), j)).collect();
     let each = robot.joints.iter();
-    each.map(|joint| index.get(joint.mimic.as_ref()?.joint.as_str()).copied())
-        .collect()
+    each.map(|joint| index.get(joint.mimic.as_ref()?.joint.as_str()).copied()).collect()
 }

@@ -91,9 +91,7 @@ pub fn permutation(rotation: &DMat3, resolution: f64) -> Option<(DMat3, f64)> {
     let exact = DMat3::from_cols_array(&rotation.to_cols_array().map(f64::round));
     let is_rotation = exact * exact.transpose() == DMat3::IDENTITY && exact.determinant() == 1.0;
     let apart = (exact - *rotation).to_cols_array();
-    let apart = apart
-        .into_iter()
-        .fold(0.0, |most: f64, x| most.max(x.abs()));
+    let apart = apart.into_iter().fold(0.0, |most: f64, x| most.max(x.abs()));
     let most = resolution.clamp(NO_ANGLE, MOST_ANGLE);
     (is_rotation && apart <= most).then_some((exact, apart))
 }

@@ -141,7 +141,5 @@ fn prose(text: &str, at_start: bool) -> String {
 /// assert_eq!(robot_import::text::c_comment("a*/ b"), r"a\u{2a}/ b");
 /// ```
 pub fn c_comment(text: &str) -> String {
-    visible(text)
-        .replace('*', "\\u{2a}")
-        .replace('?', "\\u{3f}")
+    visible(text).replace('*', "\\u{2a}").replace('?', "\\u{3f}")
 }

@@ -160,10 +160,7 @@ impl Tree {
 
     /// The number of joints that follow none.
     pub fn motors(&self) -> usize {
-        self.bodies
-            .iter()
-            .filter(|body| body.follows.is_none())
-            .count()
+        self.bodies.iter().filter(|body| body.follows.is_none()).count()
     }
 
     /// Whether a joint has a spring.
@@ -195,11 +192,8 @@ impl Tree {
 
     /// Resolves which body each follower follows, through followers of followers.
     fn couple(&mut self, robot: &Description, body_of_joint: &HashMap<&str, usize>) {
-        let joints: HashMap<&str, &Joint> = robot
-            .joints
-            .iter()
-            .map(|joint| (joint.name.as_str(), joint))
-            .collect();
+        let joints: HashMap<&str, &Joint> =
+            robot.joints.iter().map(|joint| (joint.name.as_str(), joint)).collect();
         for (name, &body) in body_of_joint {
             let (mut ratio, mut offset, mut at) = (1.0, 0.0, *name);
             // One that follows a joint that is not part of the robot moves by itself, and leads.
@@ -286,9 +280,7 @@ fn possible(kind: Kind, limits: &Limits) -> Limits {
     let positive = |limit: Option<f64>| limit.filter(|&limit| limit > 0.0);
     let bounded = kind != Kind::Continuous;
     Limits {
-        position: limits
-            .position
-            .filter(|[lower, upper]| bounded && lower < upper),
+        position: limits.position.filter(|[lower, upper]| bounded && lower < upper),
         velocity: positive(limits.velocity),
         effort: positive(limits.effort),
     }
@@ -300,10 +292,9 @@ pub fn displacement(joint: &Joint, position: f64) -> Pose {
     match joint.kind {
         _ if position == 0.0 => Pose::IDENTITY,
         Kind::Prismatic => Pose::translation(axis * position),
-        Kind::Revolute | Kind::Continuous => Pose {
-            position: DVec3::ZERO,
-            rotation: DMat3::from_axis_angle(axis, position),
-        },
+        Kind::Revolute | Kind::Continuous => {
+            Pose { position: DVec3::ZERO, rotation: DMat3::from_axis_angle(axis, position) }
+        }
         _ => Pose::IDENTITY,
     }
 }

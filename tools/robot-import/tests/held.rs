@@ -31,14 +31,7 @@ const CRANK: Light = Light {
 
 impl Light {
     fn urdf(&self) -> String {
-        let Self {
-            kind,
-            inertia,
-            com,
-            effort,
-            friction,
-            range: [lower, upper],
-        } = self;
+        let Self { kind, inertia, com, effort, friction, range: [lower, upper] } = self;
         let moments =
             |i: &str| format!("<inertia ixx='{i}' iyy='{i}' izz='{i}' ixy='0' ixz='0' iyz='0'/>");
         format!(
@@ -61,10 +54,7 @@ fn project(folder: &Folder, name: &str, file: &Path) -> (Project, Vec<String>) {
     let args = Args {
         file: file.to_path_buf(),
         name: Some(name.to_owned()),
-        options: Options {
-            python: "none".to_owned(),
-            ..Options::default()
-        },
+        options: Options { python: "none".to_owned(), ..Options::default() },
         ..Args::default()
     };
     let imported = import(&args, "today").unwrap_or_else(|error| panic!("{error}"));
@@ -113,72 +103,20 @@ fn run(projects: &[(&str, Project)]) -> String {
 #[test]
 fn light_joints_follow_their_motion() {
     let folder = Folder::new();
-    let friction = Light {
-        friction: 0.1,
-        ..CRANK
-    };
+    let friction = Light { friction: 0.1, ..CRANK };
     let range = [-0.1, 0.95];
     let variants = [
         ("friction", friction),
-        (
-            "little_friction",
-            Light {
-                friction: 0.01,
-                ..CRANK
-            },
-        ),
-        (
-            "no_friction",
-            Light {
-                inertia: 1e-7,
-                ..CRANK
-            },
-        ),
-        (
-            "much_friction",
-            Light {
-                friction: 0.9,
-                inertia: 1e-8,
-                ..CRANK
-            },
-        ),
+        ("little_friction", Light { friction: 0.01, ..CRANK }),
+        ("no_friction", Light { inertia: 1e-7, ..CRANK }),
+        ("much_friction", Light { friction: 0.9, inertia: 1e-8, ..CRANK }),
         (
             "large_effort",
-            Light {
-                kind: "revolute",
-                inertia: 5e-6,
-                com: 0.02,
-                effort: 1000.0,
-                range,
-                ..CRANK
-            },
+            Light { kind: "revolute", inertia: 5e-6, com: 0.02, effort: 1000.0, range, ..CRANK },
         ),
-        (
-            "sliding",
-            Light {
-                kind: "prismatic",
-                effort: 1e5,
-                friction: 0.2,
-                range,
-                ..CRANK
-            },
-        ),
-        (
-            "heavier",
-            Light {
-                friction: 0.1,
-                inertia: 1e-5,
-                ..CRANK
-            },
-        ),
-        (
-            "narrow",
-            Light {
-                kind: "revolute",
-                range: [-1e-6, 1e-6],
-                ..CRANK
-            },
-        ),
+        ("sliding", Light { kind: "prismatic", effort: 1e5, friction: 0.2, range, ..CRANK }),
+        ("heavier", Light { friction: 0.1, inertia: 1e-5, ..CRANK }),
+        ("narrow", Light { kind: "revolute", range: [-1e-6, 1e-6], ..CRANK }),
     ];
     let written = variants.map(|(name, light)| {
         let file = folder.write(&format!("{name}.urdf"), &light.urdf());
@@ -190,10 +128,7 @@ fn light_joints_follow_their_motion() {
         assert_eq!(is_held, name != "much_friction", "{name}: {words:?}");
         (name, project)
     });
-    let held: Vec<_> = written
-        .into_iter()
-        .filter(|(name, _)| *name != "much_friction")
-        .collect();
+    let held: Vec<_> = written.into_iter().filter(|(name, _)| *name != "much_friction").collect();
     let said = run(&held);
     assert!(said.contains("test result: ok. 28 passed"), "{said}");
 }
@@ -209,10 +144,7 @@ fn an_arm_is_held_along_its_excitation() {
     let said = run(&[("so101", project)]);
     assert!(said.contains("test result: ok. 4 passed"), "{said}");
     let said = run(&[("so101", soft)]);
-    assert!(
-        said.contains("test e0::it_stays_at_its_reference ... FAILED"),
-        "{said}"
-    );
+    assert!(said.contains("test e0::it_stays_at_its_reference ... FAILED"), "{said}");
 }
 
 /// A mass at the distance r falls with √(g / r), in rad/s.
@@ -220,24 +152,15 @@ fn an_arm_is_held_along_its_excitation() {
 fn a_feedback_is_faster_than_the_links_fall() {
     let folder = Folder::new();
     let of = |name: &str, com: f64| {
-        let light = Light {
-            inertia: 1e-10,
-            com,
-            ..CRANK
-        };
+        let light = Light { inertia: 1e-10, com, ..CRANK };
         // About an axis across the distance.
-        let urdf = light
-            .urdf()
-            .replace("<axis xyz='1 0 0'/>", "<axis xyz='0 1 0'/>");
+        let urdf = light.urdf().replace("<axis xyz='1 0 0'/>", "<axis xyz='0 1 0'/>");
         let file = folder.write(&format!("{name}.urdf"), &urdf);
         let (project, words) = project(&folder, name, &file);
         (project.robot.feedback.omega_n, words)
     };
     let (omega, words) = of("far", 0.1);
-    assert!(
-        omega == 25.0 && !words.concat().contains("gravity"),
-        "{omega} {words:?}"
-    );
+    assert!(omega == 25.0 && !words.concat().contains("gravity"), "{omega} {words:?}");
     let (omega, words) = of("near", 0.006);
     // √2 of 40 rad/s.
     assert!(
@@ -256,24 +179,11 @@ fn a_feedback_is_faster_than_the_links_fall() {
 #[test]
 fn a_failing_test_names_the_joint_and_what_to_do() {
     let folder = Folder::new();
-    let weak = Light {
-        kind: "revolute",
-        inertia: 1e-5,
-        com: 0.2,
-        effort: 1e-4,
-        ..CRANK
-    };
-    let file = folder.write(
-        "weak.urdf",
-        &weak
-            .urdf()
-            .replace("<axis xyz='1 0 0'/>", "<axis xyz='0 1 0'/>"),
-    );
+    let weak = Light { kind: "revolute", inertia: 1e-5, com: 0.2, effort: 1e-4, ..CRANK };
+    let file = folder
+        .write("weak.urdf", &weak.urdf().replace("<axis xyz='1 0 0'/>", "<axis xyz='0 1 0'/>"));
     let (project, words) = project(&folder, "weak", &file);
-    assert!(
-        words.iter().any(|text| text.contains("`grip` needs 0.0")),
-        "{words:?}"
-    );
+    assert!(words.iter().any(|text| text.contains("`grip` needs 0.0")), "{words:?}");
     let said = run(&[("weak", project)]);
     for part in [
         "joint `grip` needs 0.0",
@@ -309,9 +219,7 @@ fn a_joint_without_a_limit_of_torque_has_room_for_feedback() {
         let urdf = urdf.replace("'continuous'>", &limit);
         let file = folder.write("weak.urdf", &urdf);
         let (_, words) = self::project(&folder, &format!("weak{is_told}"), &file);
-        let told = words
-            .concat()
-            .contains("`turn` has a limit of torque of 0.2");
+        let told = words.concat().contains("`turn` has a limit of torque of 0.2");
         assert_eq!(told, is_told, "{words:?}");
     }
 }

@@ -19,11 +19,7 @@ fn import(text: &str) -> Result<Tree, ImportError> {
         check(&robot, &selected, 1)?;
         Tree::of(&robot, &selected, Numbers::Exact)
     });
-    assert!(
-        start.elapsed() < Duration::from_secs(2),
-        "{:?}",
-        start.elapsed()
-    );
+    assert!(start.elapsed() < Duration::from_secs(2), "{:?}", start.elapsed());
     done
 }
 
@@ -46,96 +42,37 @@ fn error_of(text: &str) -> ImportError {
 fn each_defect_is_an_error_that_names_line_and_element() {
     let ends = "<parent link='a'/><child link='b'/>";
     let cases = [
-        (
-            two(&format!("{ends}<origin xyz='0 0 nan'/>")),
-            "line 4: <origin>",
-            "finite",
-        ),
-        (
-            two(&format!("{ends}<origin xyz='0 0'/>")),
-            "line 4: <origin>",
-            "3 finite numbers",
-        ),
-        (
-            two(&format!("{ends}<origin rpy='0 0 1e999'/>")),
-            "line 4: <origin>",
-            "finite",
-        ),
-        (
-            two(&format!("{ends}<origin xyz='1e300 0 0'/>")),
-            "line 4: joint `j`",
-            "1e300",
-        ),
-        (
-            two(&format!("{ends}<axis xyz='0 0 0'/>")),
-            "line 4: joint `j`",
-            "length 0",
-        ),
+        (two(&format!("{ends}<origin xyz='0 0 nan'/>")), "line 4: <origin>", "finite"),
+        (two(&format!("{ends}<origin xyz='0 0'/>")), "line 4: <origin>", "3 finite numbers"),
+        (two(&format!("{ends}<origin rpy='0 0 1e999'/>")), "line 4: <origin>", "finite"),
+        (two(&format!("{ends}<origin xyz='1e300 0 0'/>")), "line 4: joint `j`", "1e300"),
+        (two(&format!("{ends}<axis xyz='0 0 0'/>")), "line 4: joint `j`", "length 0"),
         (two("<parent link='a'/>"), "line 4: joint `j`", "<child>"),
-        (
-            two("<parent link='a'/><child link='c'/>"),
-            "line 4: joint `j`",
-            "no link `c`",
-        ),
-        (
-            two("<parent link='b'/><child link='b'/>"),
-            "line 4: joint `j`",
-            "cycle",
-        ),
-        (
-            two(&format!("{ends}<limit effort='x'/>")),
-            "line 4: <limit>",
-            "effort",
-        ),
-        (
-            two(ends).replace("revolute", "telescopic"),
-            "line 4: joint `j`",
-            "telescopic",
-        ),
-        (
-            two(ends).replace("value='1'", "value='-1'"),
-            "line 3: link `b`",
-            "-1 kg",
-        ),
-        (
-            two(ends).replace("value='1'", "value='1e200'"),
-            "line 3: link `b`",
-            "1e200",
-        ),
+        (two("<parent link='a'/><child link='c'/>"), "line 4: joint `j`", "no link `c`"),
+        (two("<parent link='b'/><child link='b'/>"), "line 4: joint `j`", "cycle"),
+        (two(&format!("{ends}<limit effort='x'/>")), "line 4: <limit>", "effort"),
+        (two(ends).replace("revolute", "telescopic"), "line 4: joint `j`", "telescopic"),
+        (two(ends).replace("value='1'", "value='-1'"), "line 3: link `b`", "-1 kg"),
+        (two(ends).replace("value='1'", "value='1e200'"), "line 3: link `b`", "1e200"),
         (
             two(ends).replace("<link name='a'/>", "<link name='a'/><link name='b'/>"),
             "line 3: link `b`",
             "same name",
         ),
-        (
-            two(ends).replace("<link name='a'/>", "<link/>"),
-            "line 2: <link>",
-            "`name` is missing",
-        ),
+        (two(ends).replace("<link name='a'/>", "<link/>"), "line 2: <link>", "`name` is missing"),
         (two(ends).replace("</joint>", ""), "line 5", "XML"),
         (
             two(ends).replace("<robot name='r'>", "<robot name='r' version='2.0'>"),
             "line 1: robot `r`",
             "2.0",
         ),
-        (
-            two(ends).replace("robot", "sdf"),
-            "line 1: sdf `r`",
-            "neither",
-        ),
+        (two(ends).replace("robot", "sdf"), "line 1: sdf `r`", "neither"),
         (two(ends).replace("revolute", "fixed"), "", "no joint moves"),
-        (
-            two(&format!("{ends}<mimic joint='j'/>")),
-            "line 4: joint `j`",
-            "follows itself",
-        ),
+        (two(&format!("{ends}<mimic joint='j'/>")), "line 4: joint `j`", "follows itself"),
     ];
     for (text, place, words) in cases {
         let message = error_of(&text).to_string();
-        assert!(
-            message.starts_with(place) && message.contains(words),
-            "{message}\n{text}"
-        );
+        assert!(message.starts_with(place) && message.contains(words), "{message}\n{text}");
     }
     import(&two(ends)).expect("the same without a defect");
 }
@@ -150,19 +87,11 @@ fn cycles_second_parents_and_second_roots_are_named() {
     };
     let robot = |joints: &[(&str, &str)]| {
         let joints = joints.iter().enumerate();
-        let joints: String = joints
-            .map(|(i, (a, b))| joint(&format!("j{i}"), a, b))
-            .collect();
-        format!(
-            "<robot name='r'>{}{joints}</robot>",
-            ["a", "b", "c", "d"].map(link).concat()
-        )
+        let joints: String = joints.map(|(i, (a, b))| joint(&format!("j{i}"), a, b)).collect();
+        format!("<robot name='r'>{}{joints}</robot>", ["a", "b", "c", "d"].map(link).concat())
     };
     let problem = |joints: &[(&str, &str)]| error_of(&robot(joints)).problem;
-    assert!(matches!(
-        problem(&[("b", "c"), ("c", "d"), ("d", "b")]),
-        Problem::Cycle(_)
-    ));
+    assert!(matches!(problem(&[("b", "c"), ("c", "d"), ("d", "b")]), Problem::Cycle(_)));
     assert_eq!(
         problem(&[("a", "b"), ("a", "c"), ("c", "b"), ("c", "d")]),
         Problem::TwoParents("b".into())
@@ -184,16 +113,11 @@ fn a_truncated_file_is_refused_wherever_it_ends() {
 #[test]
 fn a_file_with_a_byte_changed_is_read_or_refused() {
     let mut read = 0;
-    let (step, least) = if cfg!(feature = "full") {
-        (11, 100)
-    } else {
-        (41, 50)
-    };
-    for (i, byte) in (0..SO101.len()).step_by(step).zip(
-        [b'<', b'"', b'9', b'e', b'-', b' ', 0xC3, b'&']
-            .iter()
-            .cycle(),
-    ) {
+    let (step, least) = if cfg!(feature = "full") { (11, 100) } else { (41, 50) };
+    for (i, byte) in (0..SO101.len())
+        .step_by(step)
+        .zip([b'<', b'"', b'9', b'e', b'-', b' ', 0xC3, b'&'].iter().cycle())
+    {
         let mut bytes = SO101.as_bytes().to_vec();
         bytes[i] = *byte;
         let text = String::from_utf8_lossy(&bytes);
@@ -236,29 +160,17 @@ fn huge_files_are_refused_with_their_size() {
         error_of(&links(2_000, "revolute")).to_string(),
         "coordinates of a robot: 1999, at most 136"
     );
-    assert_eq!(
-        error_of(&links(2_000, "fixed")).problem,
-        Problem::NothingMoves
-    );
+    assert_eq!(error_of(&links(2_000, "fixed")).problem, Problem::NothingMoves);
     let deep = "<robot>".repeat(100_000) + &"</robot>".repeat(100_000);
     assert!(error_of(&deep).to_string().starts_with("nested elements"));
     let long = format!("<robot name='{}'/>", "x".repeat(20 << 20));
     assert!(error_of(&long).to_string().starts_with("bytes in the file"));
     // The longest robot that is taken.
-    assert_eq!(
-        import(&links(137, "prismatic"))
-            .expect("of 136 joints")
-            .bodies
-            .len(),
-        136
-    );
+    assert_eq!(import(&links(137, "prismatic")).expect("of 136 joints").bodies.len(), 136);
 }
 
 #[test]
 fn a_missing_file_is_named() {
     let error = robot_import::source::read(Path::new("no/such.urdf")).expect_err("not there");
-    assert!(
-        error.to_string().starts_with("cannot read no/such.urdf: "),
-        "{error}"
-    );
+    assert!(error.to_string().starts_with("cannot read no/such.urdf: "), "{error}");
 }

@@ -41,38 +41,13 @@ fn every_kind_of_joint_has_the_torques_of_lagranges_equations() {
     let robot = read(ZOO);
     holds(&robot, &Selection::default());
     let free_base = true;
-    holds(
-        &robot,
-        &Selection {
-            free_base,
-            ..Selection::default()
-        },
-    );
+    holds(&robot, &Selection { free_base, ..Selection::default() });
     let lock = vec![("lift".into(), 0.4), ("turn".into(), -0.3)];
-    holds(
-        &robot,
-        &Selection {
-            lock,
-            ..Selection::default()
-        },
-    );
+    holds(&robot, &Selection { lock, ..Selection::default() });
     let (base, tip) = (Some("plate".into()), Some("finger".into()));
-    holds(
-        &robot,
-        &Selection {
-            base,
-            tip,
-            ..Selection::default()
-        },
-    );
+    holds(&robot, &Selection { base, tip, ..Selection::default() });
     let joints = vec!["lift".into(), "finger_joint".into()];
-    holds(
-        &robot,
-        &Selection {
-            joints,
-            ..Selection::default()
-        },
-    );
+    holds(&robot, &Selection { joints, ..Selection::default() });
 }
 
 #[test]
@@ -83,9 +58,7 @@ fn a_check_finds_wrong_numbers_of_the_tree() {
     type Change = fn(&mut Tree);
     let broken: [(&str, Change); 6] = [
         ("mass", |tree| tree.bodies[3].inertia.mass *= 1.0 + 1e-6),
-        ("centre of mass", |tree| {
-            tree.bodies[4].inertia.com[2] += 1e-8
-        }),
+        ("centre of mass", |tree| tree.bodies[4].inertia.com[2] += 1e-8),
         ("inertia", |tree| tree.bodies[1].inertia.inertia[1] += 1e-9),
         ("offset", |tree| tree.bodies[2].xyz[1] += 1e-8),
         ("axis", |tree| tree.bodies[5].axis[2] = -1.0),
@@ -96,11 +69,7 @@ fn a_check_finds_wrong_numbers_of_the_tree() {
         change(&mut wrong);
         let checked =
             check_trees(&robot, &selected, [&wrong, &given], 20).expect("of the library's sizes");
-        assert!(
-            !checked.holds() && checked.energy > 10.0 * MOST,
-            "{name}: {:e}",
-            checked.energy
-        );
+        assert!(!checked.holds() && checked.energy > 10.0 * MOST, "{name}: {:e}", checked.energy);
     }
     let right =
         check_trees(&robot, &selected, [&given, &given], 20).expect("of the library's sizes");
@@ -122,11 +91,7 @@ fn rounded_right_angles_and_zeros_become_exact() {
     assert_eq!(snapped, 20);
     let selected = Selection::default().of(&robot).expect("all joints");
     let checked = check(&robot, &selected, STATES).expect("of the library's sizes");
-    assert!(
-        (1e-7..1e-5).contains(&checked.snapping),
-        "{:e}",
-        checked.snapping
-    );
+    assert!((1e-7..1e-5).contains(&checked.snapping), "{:e}", checked.snapping);
 }
 
 #[test]
@@ -134,12 +99,7 @@ fn fixed_parts_are_merged_and_mimics_of_mimics_resolved() {
     let robot = read(ZOO);
     let tree = tree(&robot, &Selection::default());
     let names: Vec<&str> = tree.bodies.iter().map(|body| body.name.as_str()).collect();
-    assert_eq!(
-        names,
-        [
-            "carriage", "ball", "plate", "finger", "thumb", "tail", "drone"
-        ]
-    );
+    assert_eq!(names, ["carriage", "ball", "plate", "finger", "thumb", "tail", "drone"]);
     assert_eq!(tree.bodies[0].merged, ["bracket"]);
     assert_eq!(tree.bodies[0].inertia.mass, 3.5);
     assert_eq!(tree.bodies[4].follows, Some((3, -0.5, 0.1)));
@@ -153,16 +113,9 @@ fn fixed_parts_are_merged_and_mimics_of_mimics_resolved() {
 fn a_follower_of_a_locked_joint_is_locked_too() {
     let robot = read(ZOO);
     let lock = vec![("finger_joint".into(), 0.2)];
-    let selection = Selection {
-        lock,
-        ..Selection::default()
-    };
+    let selection = Selection { lock, ..Selection::default() };
     let tree = tree(&robot, &selection);
-    assert!(
-        tree.bodies
-            .iter()
-            .all(|body| !["finger", "thumb", "tail"].contains(&&*body.name))
-    );
+    assert!(tree.bodies.iter().all(|body| !["finger", "thumb", "tail"].contains(&&*body.name)));
     holds(&robot, &selection);
 }
 
@@ -191,28 +144,15 @@ fn an_unknown_selection_is_an_error_with_a_suggestion() {
     let error = |selection: Selection| selection.of(&robot).expect_err("not there").to_string();
     let joints = vec!["shoulder_pann".into()];
     assert_eq!(
-        error(Selection {
-            joints,
-            ..Selection::default()
-        }),
+        error(Selection { joints, ..Selection::default() }),
         "there is no joint `shoulder_pann`; did you mean `shoulder_pan`?"
     );
     let (base, tip) = (Some("wrist_link".into()), Some("shoulder_link".into()));
-    let text = error(Selection {
-        base,
-        tip,
-        ..Selection::default()
-    });
+    let text = error(Selection { base, tip, ..Selection::default() });
     assert_eq!(text, "link `shoulder_link` is not below the base");
     let lock = vec![("elbow_flex".into(), f64::NAN)];
-    let text = error(Selection {
-        lock,
-        ..Selection::default()
-    });
-    assert!(
-        text.contains("joint `elbow_flex`: it cannot be locked at NaN"),
-        "{text}"
-    );
+    let text = error(Selection { lock, ..Selection::default() });
+    assert!(text.contains("joint `elbow_flex`: it cannot be locked at NaN"), "{text}");
 }
 
 #[test]
@@ -221,10 +161,7 @@ fn each_topic_of_advice_names_its_line() {
     let selected = Selection::default().of(&robot).expect("all joints");
     let tree = Tree::of(&robot, &selected, Numbers::Exact).expect("a tree");
     let all = advice(&robot, &selected, &tree);
-    let found: Vec<(Topic, u32)> = all
-        .iter()
-        .map(|advice| (advice.topic, advice.line))
-        .collect();
+    let found: Vec<(Topic, u32)> = all.iter().map(|advice| (advice.topic, advice.line)).collect();
     assert_eq!(
         found,
         [
@@ -242,11 +179,7 @@ fn each_topic_of_advice_names_its_line() {
         ],
         "{all:#?}"
     );
-    assert!(
-        all[0]
-            .text
-            .contains("(0.00, 0.00, 1.00) exceeds the sum of the two others by 20.0 %")
-    );
+    assert!(all[0].text.contains("(0.00, 0.00, 1.00) exceeds the sum of the two others by 20.0 %"));
 }
 
 /// The SO-101 with the numbers of attributes changed, as advice on units and torques.
@@ -281,16 +214,11 @@ fn wrong_units_are_reported_by_joint_and_line() {
         panic!("{found:#?}");
     };
     assert_eq!((one.topic, &*one.name), (Topic::Units, "wrist_roll"));
-    assert!(
-        one.line > 0 && one.text.contains("these look like degrees"),
-        "{one:#?}"
-    );
+    assert!(one.line > 0 && one.text.contains("these look like degrees"), "{one:#?}");
     let inertias = ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"].map(|name| (name, 1e3));
     let found = plausible_with(&[&inertias[..], &[("value", 1e3)]].concat());
     assert!(
-        found
-            .iter()
-            .any(|one| one.text.contains("these look like g") && one.name == "so101"),
+        found.iter().any(|one| one.text.contains("these look like g") && one.name == "so101"),
         "{found:#?}"
     );
     let found = plausible_with(&[("effort", 0.01)]);
@@ -306,18 +234,9 @@ fn numbers_agree_with_another_reader() {
         let inertial = own.inertial.expect("each has one");
         let inertia = &other.inertial.inertia;
         assert_eq!(inertial.mass, other.inertial.mass.value);
-        assert_eq!(
-            inertial.frame.position.to_array(),
-            *other.inertial.origin.xyz
-        );
-        let entries = [
-            inertia.ixx,
-            inertia.ixy,
-            inertia.ixz,
-            inertia.iyy,
-            inertia.iyz,
-            inertia.izz,
-        ];
+        assert_eq!(inertial.frame.position.to_array(), *other.inertial.origin.xyz);
+        let entries =
+            [inertia.ixx, inertia.ixy, inertia.ixz, inertia.iyy, inertia.iyz, inertia.izz];
         assert_eq!(inertial.inertia, entries);
     }
     for (own, other) in own.joints.iter().zip(&other.joints) {
@@ -325,14 +244,8 @@ fn numbers_agree_with_another_reader() {
         let limits = [own.limits.velocity, own.limits.effort];
         if own.kind == Kind::Revolute {
             assert_eq!(own.axis.to_array(), *other.axis.xyz);
-            assert_eq!(
-                own.limits.position,
-                Some([other.limit.lower, other.limit.upper])
-            );
-            assert_eq!(
-                limits,
-                [Some(other.limit.velocity), Some(other.limit.effort)]
-            );
+            assert_eq!(own.limits.position, Some([other.limit.lower, other.limit.upper]));
+            assert_eq!(limits, [Some(other.limit.velocity), Some(other.limit.effort)]);
         }
     }
 }

@@ -52,10 +52,7 @@ fn differences(robot: &Description, model: &Model) -> Vec<String> {
     let mut compare = |what: String, ours: &[f64], theirs: &[f64]| {
         let scale = theirs.iter().fold(1.0, |most: f64, x| most.max(x.abs()));
         let near = ours.len() == theirs.len()
-            && ours
-                .iter()
-                .zip(theirs)
-                .all(|(a, b)| (a - b).abs() <= BOUND * scale);
+            && ours.iter().zip(theirs).all(|(a, b)| (a - b).abs() <= BOUND * scale);
         if !near {
             found.push(format!("{what}: {ours:?}, recorded {theirs:?}"));
         }
@@ -84,11 +81,7 @@ fn differences(robot: &Description, model: &Model) -> Vec<String> {
         );
         let ours = [joint.damping, joint.friction, joint.armature];
         let theirs = [properties.damping, properties.friction, properties.armature];
-        compare(
-            format!("damping, friction and armature of {name}"),
-            &ours,
-            &theirs,
-        );
+        compare(format!("damping, friction and armature of {name}"), &ours, &theirs);
         let [ours, theirs] = [joint.limits.effort, properties.effort];
         let vector = |effort: Option<f64>| effort.into_iter().collect::<Vec<_>>();
         compare(format!("effort of {name}"), &vector(ours), &vector(theirs));
@@ -104,11 +97,7 @@ fn differences(robot: &Description, model: &Model) -> Vec<String> {
             // Without mass there is no centre of it.
             if body.mass > 0.0 {
                 compare(format!("centre of {name} in state {i}"), &com, &body.com);
-                compare(
-                    format!("inertia of {name} in state {i}"),
-                    &inertia,
-                    &body.inertia,
-                );
+                compare(format!("inertia of {name} in state {i}"), &inertia, &body.inertia);
             }
         }
         for (name, joint) in &state.joints {
@@ -127,11 +116,7 @@ fn differences(robot: &Description, model: &Model) -> Vec<String> {
                     &across(anchor),
                     &across(joint.anchor),
                 ),
-                _ => compare(
-                    format!("anchor of {name} in state {i}"),
-                    &anchor,
-                    &joint.anchor,
-                ),
+                _ => compare(format!("anchor of {name} in state {i}"), &anchor, &joint.anchor),
             }
             if kind.has_axis() {
                 compare(format!("axis of {name} in state {i}"), &axis, &joint.axis);
@@ -169,12 +154,7 @@ fn descriptions_move_as_in_mujoco() {
         let found = differences(&robot, model);
         all.extend(found.into_iter().map(|found| format!("{file}: {found}")));
     }
-    assert!(
-        all.is_empty(),
-        "{} differences:\n{}",
-        all.len(),
-        all.join("\n")
-    );
+    assert!(all.is_empty(), "{} differences:\n{}", all.len(), all.join("\n"));
 }
 
 /// The comparison finds what it is for: each of these changes of a fixture's text is a difference.
@@ -182,46 +162,23 @@ fn descriptions_move_as_in_mujoco() {
 fn a_change_of_a_text_is_a_difference() {
     let recorded = recorded(&folder().join("recorded.json"));
     let changes = [
-        (
-            "default_classes.xml",
-            "childclass=\"arm\"",
-            "childclass=\"wrist\"",
-        ),
-        (
-            "joints_of_a_body.xml",
-            "pos=\"0.1 0 -0.2\"",
-            "pos=\"0.1 0 -0.1999999\"",
-        ),
+        ("default_classes.xml", "childclass=\"arm\"", "childclass=\"wrist\""),
+        ("joints_of_a_body.xml", "pos=\"0.1 0 -0.2\"", "pos=\"0.1 0 -0.1999999\""),
         ("euler_moving_axes.xml", "\"zyx\"", "\"ZYX\""),
         ("fullinertia.xml", "0.01 -0.02 0.005", "0.01 0.005 -0.02"),
         ("geoms.xml", "density=\"2700\"", "density=\"2700.00001\""),
         ("reference.xml", "ref=\"30\"", "ref=\"30.00001\""),
-        (
-            "equality.xml",
-            "polycoef=\"0.3 -2",
-            "polycoef=\"0.3 -2.0000001",
-        ),
-        (
-            "equality.xml",
-            "anchor=\"0.1 0.2 -0.1\"",
-            "anchor=\"0.1 0.2 -0.1000001\"",
-        ),
+        ("equality.xml", "polycoef=\"0.3 -2", "polycoef=\"0.3 -2.0000001"),
+        ("equality.xml", "anchor=\"0.1 0.2 -0.1\"", "anchor=\"0.1 0.2 -0.1000001\""),
         ("actuators.xml", "gear=\"-5\"", "gear=\"-5.00001\""),
-        (
-            "total_mass.xml",
-            "settotalmass=\"7\"",
-            "settotalmass=\"7.0000001\"",
-        ),
+        ("total_mass.xml", "settotalmass=\"7\"", "settotalmass=\"7.0000001\""),
     ];
     for (file, from, to) in changes {
         let text = std::fs::read_to_string(folder().join(file)).expect("a fixture");
         assert!(text.contains(from), "{file} has no {from}");
         let robot = robot_import::source::parse(&text.replacen(from, to, 1), &folder());
         let robot = robot.expect("a model");
-        assert!(
-            !differences(&robot, &recorded.models[file]).is_empty(),
-            "{file}: {to}"
-        );
+        assert!(!differences(&robot, &recorded.models[file]).is_empty(), "{file}: {to}");
     }
 }
 

@@ -15,10 +15,7 @@ fn args(file: PathBuf, out: Option<PathBuf>, report: Option<PathBuf>) -> Args {
         file,
         out,
         report,
-        options: Options {
-            python: "none".to_owned(),
-            ..Options::default()
-        },
+        options: Options { python: "none".to_owned(), ..Options::default() },
         ..Args::default()
     }
 }
@@ -45,9 +42,7 @@ fn an_output_replaces_neither_an_input_nor_another_output() {
             args(robot.clone(), Some(name.clone()), None),
             args(robot.clone(), None, Some(name.clone())),
         ] {
-            let error = run(&args, "today")
-                .expect_err("the description itself")
-                .to_string();
+            let error = run(&args, "today").expect_err("the description itself").to_string();
             assert!(
                 error.starts_with("cannot write ")
                     && error.contains("which is read and would be lost"),
@@ -58,20 +53,13 @@ fn an_output_replaces_neither_an_input_nor_another_output() {
     }
     // Two outputs, also where neither is there yet.
     for (out, report) in [("x", "x"), ("sub/x", "sub/../sub/x"), ("x.rs", "./x.rs")] {
-        let error = run(
-            &args(robot.clone(), Some(at(out)), Some(at(report))),
-            "today",
-        )
-        .expect_err("one file")
-        .to_string();
+        let error = run(&args(robot.clone(), Some(at(out)), Some(at(report))), "today")
+            .expect_err("one file")
+            .to_string();
         assert!(error.contains("which is written, too"), "{error}");
         assert!(!at(out).exists());
     }
-    run(
-        &args(robot.clone(), Some(at("x.rs")), Some(at("x.json"))),
-        "today",
-    )
-    .expect("two files");
+    run(&args(robot.clone(), Some(at("x.rs")), Some(at("x.json"))), "today").expect("two files");
     assert!(at("x.rs").exists());
 }
 
@@ -86,10 +74,7 @@ fn an_included_file_is_an_input() {
     let error = run(&args(at("r.xml"), Some(at("part.xml")), None), "today")
         .expect_err("a part")
         .to_string();
-    assert!(
-        error.contains("part.xml, which is read and would be lost"),
-        "{error}"
-    );
+    assert!(error.contains("part.xml, which is read and would be lost"), "{error}");
     assert_eq!(fs::read_to_string(at("part.xml")).expect("a part"), part);
 }
 
@@ -100,13 +85,9 @@ fn what_cannot_be_written_is_said_to_be_written() {
     let robot = folder.path().join("r.urdf");
     fs::write(&robot, PENDULUM).expect("a robot");
     for out in ["/nodir/x.rs", "/dev/full"] {
-        let error = run(&args(robot.clone(), Some(out.into()), None), "today")
-            .expect_err(out)
-            .to_string();
-        assert!(
-            error.starts_with(&format!("cannot write {out}: ")),
-            "{error}"
-        );
+        let error =
+            run(&args(robot.clone(), Some(out.into()), None), "today").expect_err(out).to_string();
+        assert!(error.starts_with(&format!("cannot write {out}: ")), "{error}");
     }
     // A device is no file that is replaced.
     let null = Path::new("/dev/null");
@@ -124,11 +105,7 @@ fn names_of_any_length_are_reported() {
         let imported = run(&args(robot.clone(), None, None), "today")
             .unwrap_or_else(|error| panic!("{error}"));
         let text = imported.report.text();
-        assert!(
-            text.contains("nnn…") && text.len() < 300_000,
-            "{} bytes",
-            text.len()
-        );
+        assert!(text.contains("nnn…") && text.len() < 300_000, "{} bytes", text.len());
     }
 }
 
@@ -136,9 +113,8 @@ fn names_of_any_length_are_reported() {
 fn a_robot_too_light_for_f32_is_refused_by_its_torques() {
     let folder = tempfile::tempdir().expect("a folder");
     let robot = folder.path().join("r.urdf");
-    let light = PENDULUM
-        .replace("value='1'", "value='1e-29'")
-        .replace("xyz='0.1 0 0'", "xyz='1e-9 0 0'");
+    let light =
+        PENDULUM.replace("value='1'", "value='1e-29'").replace("xyz='0.1 0 0'", "xyz='1e-9 0 0'");
     fs::write(
         &robot,
         light
@@ -147,11 +123,6 @@ fn a_robot_too_light_for_f32_is_refused_by_its_torques() {
             .replace("izz='1'", "izz='1e-36'"),
     )
     .expect("a robot");
-    let error = run(&args(robot, None, None), "today")
-        .expect_err("too light")
-        .to_string();
-    assert!(
-        error.contains("below 1e-30") && !error.contains("defect"),
-        "{error}"
-    );
+    let error = run(&args(robot, None, None), "today").expect_err("too light").to_string();
+    assert!(error.contains("below 1e-30") && !error.contains("defect"), "{error}");
 }

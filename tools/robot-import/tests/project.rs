@@ -20,20 +20,20 @@ use robot_import::project::{
 
 #[allow(dead_code, reason = "a robot's file has more than the test compares")]
 mod chain;
+// Formatted as users' files are.
+#[rustfmt::skip]
 #[path = "../template/rust/src/robot.rs"]
 #[allow(dead_code, reason = "a robot's file has more than the test compares")]
 mod pendulum;
+// Formatted as users' files are.
+#[rustfmt::skip]
 #[path = "../../../dynamics-core/src/robots/imported/so101.rs"]
 mod so101;
 
 /// The torques of the projects' probe, as bits.
 fn expected<T: Robot<N, N, N>, E: Effect<f32, N, N>, const N: usize>(effects: &E) -> String {
     let of = |first: f32, step: f32| core::array::from_fn(|joint| first + step * joint as f32);
-    let state = State {
-        q: of(0.1, 0.07),
-        qd: of(0.3, -0.05),
-        qdd: of(-0.2, 0.11),
-    };
+    let state = State { q: of(0.1, 0.07), qd: of(0.3, -0.05), qdd: of(-0.2, 0.11) };
     let torque: [f32; N] = Engine::<T>::rnea(&state, effects);
     let bits = torque.map(|torque| format!(" {:08x}", torque.to_bits()));
     format!("  bits:{}", bits.concat())
@@ -61,12 +61,8 @@ fn robot(
     }
 }
 
-const ALL: FileEffects = FileEffects {
-    viscous: true,
-    coulomb: true,
-    armature: true,
-    spring: false,
-};
+const ALL: FileEffects =
+    FileEffects { viscous: true, coulomb: true, armature: true, spring: false };
 
 /// A project in a folder outside the workspace, so that nothing of its configuration acts; it is
 /// built in the workspace's `target`, so that a second run is faster.
@@ -84,12 +80,7 @@ impl Trial {
     fn with(name: &str, robot: RobotFile, kind: Kind, library: Library) -> Self {
         let folder = env::temp_dir().join(format!("{name}-{}", std::process::id()));
         let _ = fs::remove_dir_all(&folder);
-        let project = Project {
-            name: name.into(),
-            robot,
-            library,
-            kind,
-        };
+        let project = Project { name: name.into(), robot, library, kind };
         let created = create(&folder, &project).unwrap_or_else(|error| panic!("{error}"));
         assert_eq!(created.robot_only, None);
         let built = Path::new(env!("CARGO_TARGET_TMPDIR")).join("projects");
@@ -116,19 +107,9 @@ impl Trial {
         let output = output.unwrap_or_else(|error| panic!("{command}: {error}"));
         let text = String::from_utf8_lossy(&output.stdout).into_owned();
         let errors = String::from_utf8_lossy(&output.stderr);
-        assert!(
-            output.status.success(),
-            "{command} {arguments:?}\n{text}\n{errors}"
-        );
-        assert!(
-            !errors.contains("warning"),
-            "{command} {arguments:?}\n{errors}"
-        );
-        eprintln!(
-            "{:6.1} s  {command} {}",
-            start.elapsed().as_secs_f32(),
-            arguments.join(" ")
-        );
+        assert!(output.status.success(), "{command} {arguments:?}\n{text}\n{errors}");
+        assert!(!errors.contains("warning"), "{command} {arguments:?}\n{errors}");
+        eprintln!("{:6.1} s  {command} {}", start.elapsed().as_secs_f32(), arguments.join(" "));
         text
     }
 
@@ -142,18 +123,12 @@ impl Trial {
         self.run("cargo", &["fmt", "--check"]);
         let built = self.built.join(board.target).join("release").join(name);
         let size = fs::metadata(&built).map(|file| file.len());
-        assert!(
-            size.is_ok_and(|bytes| bytes > 10_000),
-            "{}",
-            built.display()
-        );
+        assert!(size.is_ok_and(|bytes| bytes > 10_000), "{}", built.display());
         // Cargo has removed what the project does not use, and added nothing but the project.
         let known: Vec<&str> = before.split("\n[[package]]\n").collect();
         let after = lock(&self.folder);
-        let registry = after
-            .split("\n[[package]]\n")
-            .skip(1)
-            .filter(|one| one.contains("source ="));
+        let registry =
+            after.split("\n[[package]]\n").skip(1).filter(|one| one.contains("source ="));
         for package in registry {
             let version: String = package.lines().take(2).collect();
             let is_it = |one: &&str| one.lines().take(2).collect::<String>() == version;
@@ -164,15 +139,8 @@ impl Trial {
     /// Runs the part of a board's project that is not the board's, on devices of this computer.
     fn on_host(&self) {
         let manifest = fs::read_to_string(self.folder.join("Cargo.toml")).expect("a manifest");
-        let (_, dependencies) = manifest
-            .split_once("[dependencies]\n")
-            .expect("dependencies");
-        let needed = [
-            "dynamics-core",
-            "embedded-hal =",
-            "joint-drivers",
-            "motion-control",
-        ];
+        let (_, dependencies) = manifest.split_once("[dependencies]\n").expect("dependencies");
+        let needed = ["dynamics-core", "embedded-hal =", "joint-drivers", "motion-control"];
         let is_needed = |line: &&str| needed.iter().any(|name| line.starts_with(name));
         let lines: Vec<&str> = dependencies.lines().filter(is_needed).collect();
         let host = self.folder.join("on-host");
@@ -196,9 +164,7 @@ impl Trial {
     /// The line after the one that begins with `head`.
     fn after<'a>(text: &'a str, head: &str) -> &'a str {
         let mut lines = text.lines().skip_while(|line| !line.starts_with(head));
-        lines
-            .nth(1)
-            .unwrap_or_else(|| panic!("no {head:?} in\n{text}"))
+        lines.nth(1).unwrap_or_else(|| panic!("no {head:?} in\n{text}"))
     }
 }
 
@@ -234,11 +200,8 @@ fn rust_project(name: &str, robot: RobotFile, expected: &str) -> Trial {
     // The tracking error, too, is the same on the host, but for the line of the clock.
     let host = trial.run("cargo", &["run"]);
     assert_eq!(Trial::after(&host, FIRST), Trial::after(&device, FIRST));
-    let without_clock = |text: &str| {
-        text.lines()
-            .filter(|line| !line.starts_with("tick: "))
-            .collect::<String>()
-    };
+    let without_clock =
+        |text: &str| text.lines().filter(|line| !line.starts_with("tick: ")).collect::<String>();
     assert_eq!(without_clock(&host), without_clock(&device));
     // Without `--release` the dev profile, as it is written, computes the same in time.
     let dev = trial.run("cargo", &DEV);
@@ -257,15 +220,9 @@ fn c_project(name: &str, robot: RobotFile, expected: &str) {
     let trial = Trial::new(name, robot, Kind::C);
     let out = format!("OUT={}", trial.built.display());
     let device = trial.run("make", &[&out, "run"]);
-    assert_eq!(
-        Trial::after(&device, "inverse dynamics of the probe:"),
-        expected
-    );
+    assert_eq!(Trial::after(&device, "inverse dynamics of the probe:"), expected);
     assert_eq!(device.lines().last(), Some("good"), "{device}");
-    let costs: Vec<_> = device
-        .lines()
-        .filter(|line| line.contains(": status 0, "))
-        .collect();
+    let costs: Vec<_> = device.lines().filter(|line| line.contains(": status 0, ")).collect();
     assert_eq!(costs.len(), 12, "{device}");
     eprintln!("{}", costs.join("\n"));
     let check = trial.run("make", &[&out, "check"]);
@@ -279,17 +236,9 @@ fn c_project(name: &str, robot: RobotFile, expected: &str) {
 #[test]
 #[ignore = "builds firmware"]
 fn a_pendulum() {
-    let effects = FileEffects {
-        viscous: true,
-        ..FileEffects::default()
-    };
+    let effects = FileEffects { viscous: true, ..FileEffects::default() };
     let text = include_str!("../template/rust/src/robot.rs");
-    let robot = robot(
-        "Pendulum",
-        text,
-        [&pendulum::JOINTS, &pendulum::BODIES],
-        effects,
-    );
+    let robot = robot("Pendulum", text, [&pendulum::JOINTS, &pendulum::BODIES], effects);
     let scene = (Gravity::EARTH, Inertia, Coriolis, pendulum::VISCOUS);
     let expected = expected::<pendulum::Pendulum, _, 1>(&scene);
     rust_project("a-pendulum", robot.clone(), &expected);
@@ -300,12 +249,7 @@ fn a_pendulum() {
 #[ignore = "builds firmware"]
 fn an_arm() {
     let text = include_str!("../../../dynamics-core/src/robots/imported/so101.rs");
-    let robot = robot(
-        "So101",
-        text,
-        [&so101::JOINTS, &so101::BODIES],
-        FileEffects::default(),
-    );
+    let robot = robot("So101", text, [&so101::JOINTS, &so101::BODIES], FileEffects::default());
     let expected = expected::<so101::So101, _, 6>(&so101::SCENE);
     let trial = rust_project("an-arm", robot.clone(), &expected);
     // At opt-level 0 the build warns and the run fails: no tick of six joints ends within its
@@ -316,14 +260,8 @@ fn an_arm() {
     let [printed, errors] = [&slow.stdout, &slow.stderr].map(|text| String::from_utf8_lossy(text));
     assert!(!slow.status.success(), "{printed}");
     assert!(share_of_period(&printed) > 100.0, "{printed}");
-    assert!(
-        printed.contains("error: the longest tick takes"),
-        "{printed}"
-    );
-    assert!(
-        errors.contains("at opt-level 0 of this package"),
-        "{errors}"
-    );
+    assert!(printed.contains("error: the longest tick takes"), "{printed}");
+    assert!(errors.contains("at opt-level 0 of this package"), "{errors}");
     c_project("an-arm-for-c", robot, &expected);
 }
 
@@ -376,14 +314,8 @@ fn a_project_that_cannot_be_written_is_refused_at_once() {
             .output()
             .expect("it runs");
         let errors = String::from_utf8_lossy(&output.stderr);
-        assert!(
-            errors.starts_with("error: ") && errors.contains(said),
-            "{errors}"
-        );
-        assert!(
-            output.stdout.is_empty() && errors.lines().count() == 1,
-            "{errors}"
-        );
+        assert!(errors.starts_with("error: ") && errors.contains(said), "{errors}");
+        assert!(output.stdout.is_empty() && errors.lines().count() == 1, "{errors}");
     }
     assert_eq!(fs::read_dir(&folder).expect("a folder").count(), 1);
     fs::remove_dir_all(&folder).expect("removed");
@@ -400,10 +332,8 @@ fn a_robot_that_is_imported_again_keeps_its_type() {
     let zoo = include_str!("urdf/so101.urdf");
     fs::write(scratch.join("it's kestrel.urdf"), zoo).expect("a description");
     let shell = |folder: &Path, line: &str| {
-        let line = line.replace(
-            "robot-import ",
-            &format!("'{}' ", env!("CARGO_BIN_EXE_robot-import")),
-        );
+        let line =
+            line.replace("robot-import ", &format!("'{}' ", env!("CARGO_BIN_EXE_robot-import")));
         let mut shell = Command::new("sh");
         let output = shell.args(["-c", &line]).current_dir(folder).output();
         let output = output.expect("a shell");
@@ -419,9 +349,7 @@ fn a_robot_that_is_imported_again_keeps_its_type() {
         let robot = || fs::read_to_string(project.join("src/robot.rs")).expect("a robot");
         let (first, readme) = (robot(), fs::read_to_string(project.join("README.md")));
         let readme = readme.expect("a README");
-        let again = readme
-            .lines()
-            .find(|line| line.starts_with("robot-import import "));
+        let again = readme.lines().find(|line| line.starts_with("robot-import import "));
         let again = again.unwrap_or_else(|| panic!("no command in\n{readme}"));
         assert!(again.contains(" --tip=wrist_link "), "{again}");
         shell(&project, &again.replace(" 'it", " ../'it"));
@@ -445,21 +373,10 @@ fn a_robot_that_is_imported_again_keeps_its_type() {
 #[test]
 #[ignore = "builds firmware"]
 fn thirty_joints() {
-    let robot = robot(
-        "Chain",
-        include_str!("project/chain.rs"),
-        [&chain::JOINTS, &chain::JOINTS],
-        ALL,
-    );
+    let robot =
+        robot("Chain", include_str!("project/chain.rs"), [&chain::JOINTS, &chain::JOINTS], ALL);
     let friction = (chain::VISCOUS, chain::COULOMB, chain::ARMATURE);
-    let scene = (
-        Gravity::EARTH,
-        Inertia,
-        Coriolis,
-        friction.0,
-        friction.1,
-        friction.2,
-    );
+    let scene = (Gravity::EARTH, Inertia, Coriolis, friction.0, friction.1, friction.2);
     let expected = expected::<chain::Chain, _, 30>(&scene);
     rust_project("thirty-joints", robot.clone(), &expected);
     c_project("thirty-joints-for-c", robot, &expected);
@@ -469,35 +386,17 @@ fn thirty_joints() {
 #[test]
 #[ignore = "builds firmware"]
 fn two_robots_in_c() {
-    let effects = FileEffects {
-        viscous: true,
-        ..FileEffects::default()
-    };
+    let effects = FileEffects { viscous: true, ..FileEffects::default() };
     let text = include_str!("../template/rust/src/robot.rs");
-    let one = robot(
-        "Pendulum",
-        text,
-        [&pendulum::JOINTS, &pendulum::BODIES],
-        effects,
-    );
+    let one = robot("Pendulum", text, [&pendulum::JOINTS, &pendulum::BODIES], effects);
     let text = include_str!("../../../dynamics-core/src/robots/imported/so101.rs");
-    let other = robot(
-        "So101",
-        text,
-        [&so101::JOINTS, &so101::BODIES],
-        FileEffects::default(),
-    );
-    let (left, right) = (
-        Trial::new("left-arm", one, Kind::C),
-        Trial::new("right-arm", other, Kind::C),
-    );
+    let other = robot("So101", text, [&so101::JOINTS, &so101::BODIES], FileEffects::default());
+    let (left, right) =
+        (Trial::new("left-arm", one, Kind::C), Trial::new("right-arm", other, Kind::C));
     let program = left.folder.join("program");
     fs::create_dir_all(&program).unwrap_or_else(|error| panic!("{error}"));
     for (name, text) in [
-        (
-            "CMakeLists.txt",
-            include_str!("project/two_robots/CMakeLists.txt"),
-        ),
+        ("CMakeLists.txt", include_str!("project/two_robots/CMakeLists.txt")),
         ("main.c", include_str!("project/two_robots/main.c")),
     ] {
         fs::write(program.join(name), text).unwrap_or_else(|error| panic!("{error}"));
@@ -520,23 +419,16 @@ fn two_robots_in_c() {
     );
     let line = "-machine netduinoplus2 -nographic -semihosting-config enable=on,target=native -kernel \
                 device/two_robots";
-    let device = left.run(
-        "qemu-system-arm",
-        &line.split_whitespace().collect::<Vec<_>>(),
-    );
+    let device = left.run("qemu-system-arm", &line.split_whitespace().collect::<Vec<_>>());
     for text in [&host, &device] {
         assert_eq!(text.lines().last(), Some("good"), "{text}");
     }
     // The guide's code compiles with the header.
     let page = include_str!("../../../docs/guide/src/c.md");
     let blocks = page.split("```c\n").skip(1);
-    let code: String = blocks
-        .filter_map(|block| block.split("```").next())
-        .collect();
+    let code: String = blocks.filter_map(|block| block.split("```").next()).collect();
     assert!(code.contains("my_arm_controller_command"));
-    let code = code
-        .replace("my_arm", "left_arm")
-        .replace("MY_ARM", "LEFT_ARM");
+    let code = code.replace("my_arm", "left_arm").replace("MY_ARM", "LEFT_ARM");
     let file = program.join("guide.c");
     fs::write(&file, code).unwrap_or_else(|error| panic!("{error}"));
     let line = "-std=c11 -Wall -Wextra -Werror -Iinclude -fsyntax-only program/guide.c";

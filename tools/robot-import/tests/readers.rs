@@ -30,11 +30,7 @@ fn of(text: &str) -> Result<Description, ImportError> {
 
 /// One joint and 1.5 kg.
 fn is_whole(robot: &Description) {
-    let joints: Vec<&str> = robot
-        .joints
-        .iter()
-        .map(|joint| joint.name.as_str())
-        .collect();
+    let joints: Vec<&str> = robot.joints.iter().map(|joint| joint.name.as_str()).collect();
     assert_eq!(joints, ["swing"]);
     let masses = robot.links.iter().filter_map(|link| link.inertial);
     assert_eq!(masses.map(|own| own.mass).sum::<f64>(), 1.5);
@@ -45,27 +41,15 @@ fn is_whole(robot: &Description) {
 fn tolerated(text: &str) -> Vec<(String, &'static str)> {
     let inside = |what: &str| text.replacen('\n', &format!("\n{what}"), 1);
     vec![
-        (
-            format!("\n<?xml version='1.0'?>\n{text}"),
-            "Line 2: white space before the declaration",
-        ),
+        (format!("\n<?xml version='1.0'?>\n{text}"), "Line 2: white space before the declaration"),
         (
             format!("\n\n  \t<?xml version='1.0' encoding='utf-8'?>{text}"),
             "Line 3: white space before the declaration",
         ),
-        (
-            format!("exported\n{text}"),
-            "Line 1: a text before the root",
-        ),
-        (
-            inside("<!-- ---- mount -- plate ---- -->"),
-            "Line 2: `--` in a comment",
-        ),
+        (format!("exported\n{text}"), "Line 1: a text before the root"),
+        (inside("<!-- ---- mount -- plate ---- -->"), "Line 2: `--` in a comment"),
         (inside("<!-- a --->"), "Line 2: `--` in a comment"),
-        (
-            format!("<!-- a -- b -->{text}"),
-            "Line 1: `--` in a comment",
-        ),
+        (format!("<!-- a -- b -->{text}"), "Line 1: `--` in a comment"),
         (inside("<!DOCTYPE robot>"), "Line 2: a document type"),
         (format!("<!DOCTYPE robot>{text}"), "Line 1: a document type"),
         (
@@ -75,25 +59,18 @@ fn tolerated(text: &str) -> Vec<(String, &'static str)> {
         (inside("<!made by hand>"), "Line 2: markup"),
         (inside("a & b"), "Line 2: an `&`"),
         (inside("]]>"), "Line 2: `]]>`"),
-        (
-            format!("{text}\n</robot>"),
-            "after the end of the root, which is left out, `</robot>`",
-        ),
+        (format!("{text}\n</robot>"), "after the end of the root, which is left out, `</robot>`"),
         (
             format!("{text}</mujoco>\n</mujoco>"),
             "after the end of the root, which is left out, `</mujoco>`",
         ),
-        (
-            format!("{text}\n<other/>"),
-            "after the end of the root, which is left out, `<other/>`",
-        ),
+        (format!("{text}\n<other/>"), "after the end of the root, which is left out, `<other/>`"),
         (
             format!("{text}\nend & <of> file"),
             "after the end of the root, which is left out, `end & <of>`",
         ),
         (
-            text.replace("axis='0 1 0' ", "axis='0 1 0'")
-                .replace("lower='-2.5' ", "lower='-2.5'"),
+            text.replace("axis='0 1 0' ", "axis='0 1 0'").replace("lower='-2.5' ", "lower='-2.5'"),
             "no space between two attributes",
         ),
     ]
@@ -130,17 +107,8 @@ fn characters_in_attributes_are_read_as_they_stand() {
         let robot = of(&urdf().replace("'swing'", &format!("'{name}'")))
             .unwrap_or_else(|error| panic!("{name}: {error}"));
         assert_eq!(robot.joints[0].name, read);
-        assert_eq!(
-            robot.notes.len(),
-            usize::from(!note.is_empty()),
-            "{:?}",
-            robot.notes
-        );
-        assert!(
-            robot.notes.iter().all(|other| other.contains(note)),
-            "{:?}",
-            robot.notes
-        );
+        assert_eq!(robot.notes.len(), usize::from(!note.is_empty()), "{:?}", robot.notes);
+        assert!(robot.notes.iter().all(|other| other.contains(note)), "{:?}", robot.notes);
     }
 }
 
@@ -170,14 +138,7 @@ fn undeclared_prefixes_are_names_like_others() {
             .replace("<robot", &format!("<robot{declared}"));
         let robot = of(&text).expect("a robot");
         is_whole(&robot);
-        assert!(
-            robot
-                .notes
-                .iter()
-                .any(|note| note.contains("<drake:joint>")),
-            "{:?}",
-            robot.notes
-        );
+        assert!(robot.notes.iter().any(|note| note.contains("<drake:joint>")), "{:?}", robot.notes);
     }
     // Declared below the root, and used there, is well-formed.
     let robot = of(&with("<gazebo xmlns:a='u'><a:b a:c='d'/></gazebo>")).expect("declared");
@@ -197,30 +158,14 @@ fn undeclared_prefixes_are_names_like_others() {
 fn what_no_reader_takes_is_refused_at_its_line() {
     let inside = |what: &str| urdf().replacen('\n', &format!("\n{what}"), 1);
     let cases = [
-        (
-            inside("<!-- no end"),
-            2,
-            "a comment that begins in column 1 has no end",
-        ),
+        (inside("<!-- no end"), 2, "a comment that begins in column 1 has no end"),
         (inside("<![CDATA[ no end"), 2, "a section of characters"),
         (inside("  <link name='x"), 2, "at 2:28"),
-        (
-            format!("<!-- c -->\n<?xml version='1.0'?>{}", urdf()),
-            2,
-            "declaration",
-        ),
+        (format!("<!-- c -->\n<?xml version='1.0'?>{}", urdf()), 2, "declaration"),
         (inside("<link name='x' name='y'/>"), 2, "is already defined"),
         (inside("<link name=x/>"), 2, ""),
-        (
-            "\n<?xml version='1.0'?>\n<robot name='r'>&&&<a></b></robot>".to_owned(),
-            3,
-            "at 3:23",
-        ),
-        (
-            format!("<!DOCTYPE robot [<!ENTITY a 'b'>]>{}", urdf()),
-            1,
-            "remove the <!DOCTYPE>",
-        ),
+        ("\n<?xml version='1.0'?>\n<robot name='r'>&&&<a></b></robot>".to_owned(), 3, "at 3:23"),
+        (format!("<!DOCTYPE robot [<!ENTITY a 'b'>]>{}", urdf()), 1, "remove the <!DOCTYPE>"),
         (
             format!("\n<!DOCTYPE robot PUBLIC 'a' 'http://x/y.dtd'>{}", urdf()),
             2,
@@ -231,10 +176,7 @@ fn what_no_reader_takes_is_refused_at_its_line() {
     for (text, line, words) in cases {
         let error = of(&text).expect_err(words);
         assert_eq!(error.place.line, line, "{error}\n{text}");
-        assert!(
-            error.to_string().contains("XML") && error.to_string().contains(words),
-            "{error}"
-        );
+        assert!(error.to_string().contains("XML") && error.to_string().contains(words), "{error}");
     }
 }
 
@@ -259,10 +201,7 @@ fn files_are_read_in_the_encoding_that_they_declare() {
         declaration + &urdf().replace("swing", "Drehgelenk_ä")
     };
     let latin = |encoding: &str| -> Vec<u8> {
-        text(encoding)
-            .chars()
-            .map(|c| u8::try_from(u32::from(c)).expect("Latin-1"))
-            .collect()
+        text(encoding).chars().map(|c| u8::try_from(u32::from(c)).expect("Latin-1")).collect()
     };
     let mark = |text: String| format!("\u{feff}{text}");
     let cases = [
@@ -296,56 +235,31 @@ fn files_are_read_in_the_encoding_that_they_declare() {
 fn an_encoding_that_is_not_the_files_is_named() {
     let with = |encoding: &str| format!("<?xml version='1.0' encoding='{encoding}'?>\n{}", urdf());
     for name in ["EBCDIC-CP-FR", "no-such-code", "UTF-32"] {
-        let error = read(file(with(name).as_bytes()).path())
-            .expect_err(name)
-            .to_string();
-        assert!(
-            error.contains(&format!("encoding `{name}` is not known")),
-            "{error}"
-        );
+        let error = read(file(with(name).as_bytes()).path()).expect_err(name).to_string();
+        assert!(error.contains(&format!("encoding `{name}` is not known")), "{error}");
     }
-    let error = read(file(&[0xFF, 0xFE, 0, 0, b'<', 0, 0, 0]).path())
-        .expect_err("UTF-32")
-        .to_string();
+    let error =
+        read(file(&[0xFF, 0xFE, 0, 0, b'<', 0, 0, 0]).path()).expect_err("UTF-32").to_string();
     assert!(error.contains("`UTF-32`"), "{error}");
     // An old declaration, and bytes of Latin-1 without one.
     let robot = read(file(with("UTF-16").as_bytes()).path()).expect("UTF-8");
-    assert!(
-        robot.notes[0].contains("declares the encoding UTF-16"),
-        "{:?}",
-        robot.notes
-    );
+    assert!(robot.notes[0].contains("declares the encoding UTF-16"), "{:?}", robot.notes);
     let latin = urdf().replacen('\n', "\n<!-- 90\u{b0} -->", 1);
-    let latin: Vec<u8> = latin
-        .chars()
-        .map(|c| u8::try_from(u32::from(c)).expect("Latin-1"))
-        .collect();
+    let latin: Vec<u8> =
+        latin.chars().map(|c| u8::try_from(u32::from(c)).expect("Latin-1")).collect();
     let robot = read(file(&latin).path()).expect("Latin-1");
     is_whole(&robot);
-    assert!(
-        robot.notes[0].contains("on line 2: it is read as windows-1252"),
-        "{:?}",
-        robot.notes
-    );
-    let odd = [
-        b"\xff\xfe".as_slice(),
-        &utf_16(&urdf(), u16::to_le_bytes),
-        b"<",
-    ]
-    .concat();
-    let error = read(file(&odd).path())
-        .expect_err("half a character")
-        .to_string();
+    assert!(robot.notes[0].contains("on line 2: it is read as windows-1252"), "{:?}", robot.notes);
+    let odd = [b"\xff\xfe".as_slice(), &utf_16(&urdf(), u16::to_le_bytes), b"<"].concat();
+    let error = read(file(&odd).path()).expect_err("half a character").to_string();
     assert!(error.contains("encoding"), "{error}");
 }
 
 #[test]
 fn numbers_that_stand_for_no_limit_are_none() {
     let limit = |text: &str| {
-        let robot = of(&urdf().replace(
-            "<limit lower='-2.5' upper='2.5' effort='20' velocity='8'/>",
-            text,
-        ));
+        let robot =
+            of(&urdf().replace("<limit lower='-2.5' upper='2.5' effort='20' velocity='8'/>", text));
         robot.unwrap_or_else(|error| panic!("{text}: {error}"))
     };
     for x in [
@@ -359,22 +273,15 @@ fn numbers_that_stand_for_no_limit_are_none() {
         "1.7976931348623157e308",
         "1e400",
     ] {
-        let robot = limit(&format!(
-            "<limit lower='-{x}' upper='{x}' effort='{x}' velocity='{x}'/>"
-        ));
+        let robot =
+            limit(&format!("<limit lower='-{x}' upper='{x}' effort='{x}' velocity='{x}'/>"));
         let limits = robot.joints[0].limits;
-        assert_eq!(
-            (limits.position, limits.velocity, limits.effort),
-            (None, None, None),
-            "{x}"
-        );
+        assert_eq!((limits.position, limits.velocity, limits.effort), (None, None, None), "{x}");
         assert_eq!(robot.joints[0].kind, Kind::Revolute);
         let note = &robot.notes[0];
         assert!(
             note.contains("`swing`")
-                && ["speed", "torque", "position"]
-                    .iter()
-                    .all(|what| note.contains(what)),
+                && ["speed", "torque", "position"].iter().all(|what| note.contains(what)),
             "{note}"
         );
     }
@@ -385,38 +292,24 @@ fn numbers_that_stand_for_no_limit_are_none() {
     let one = limit("<limit lower='-1e16' upper='0.5' effort='5' velocity='8'/>");
     assert_eq!(one.joints[0].limits.position, Some([-1e9, 0.5]));
     assert!(one.notes[0].contains("at one end"), "{:?}", one.notes);
-    let robot = of(&mjcf().replace(
-        "range='-140 140'",
-        "range='-inf inf' actuatorfrcrange='-1e10 1e10'",
-    ))
-    .expect("MJCF");
-    assert_eq!(
-        (robot.joints[0].kind, robot.joints[0].limits.effort),
-        (Kind::Continuous, None)
-    );
-    let error = of(&urdf().replace("effort='20'", "effort='nan'"))
-        .expect_err("no number")
-        .to_string();
+    let robot =
+        of(&mjcf().replace("range='-140 140'", "range='-inf inf' actuatorfrcrange='-1e10 1e10'"))
+            .expect("MJCF");
+    assert_eq!((robot.joints[0].kind, robot.joints[0].limits.effort), (Kind::Continuous, None));
+    let error =
+        of(&urdf().replace("effort='20'", "effort='nan'")).expect_err("no number").to_string();
     assert!(error.contains("`effort=\"nan\"`"), "{error}");
 }
 
 #[test]
 fn a_number_beyond_its_bound_is_named_with_the_bound() {
     // Neither M nor inverse dynamics depends on them.
-    for (name, x) in [
-        ("damping", 1e11),
-        ("frictionloss", 9_999_999_999.0),
-        ("armature", 1e10),
-    ] {
+    for (name, x) in [("damping", 1e11), ("frictionloss", 9_999_999_999.0), ("armature", 1e10)] {
         let robot = of(&mjcf().replace("axis=", &format!("{name}='{x}' axis=")))
             .unwrap_or_else(|error| panic!("{name}: {error}"));
         let joint = &robot.joints[0];
         assert_eq!(joint.damping + joint.friction + joint.armature, x);
-        assert!(
-            robot.notes[0].contains("`--lock swing=0`"),
-            "{:?}",
-            robot.notes
-        );
+        assert!(robot.notes[0].contains("`--lock swing=0`"), "{:?}", robot.notes);
     }
     let cases = [
         (
@@ -427,30 +320,18 @@ fn a_number_beyond_its_bound_is_named_with_the_bound() {
             mjcf().replace("axis=", "frictionloss='1e30' axis="),
             "`frictionloss` is 1e30, at most 1e18",
         ),
-        (
-            mjcf().replace("axis=", "armature='-1e30' axis="),
-            "`armature` is -1e30, at most 1e18",
-        ),
-        (
-            mjcf().replace("mass='1.5'", "mass='2e9'"),
-            "link `rod`: `mass` is 2e9, at most 1e9",
-        ),
+        (mjcf().replace("axis=", "armature='-1e30' axis="), "`armature` is -1e30, at most 1e18"),
+        (mjcf().replace("mass='1.5'", "mass='2e9'"), "link `rod`: `mass` is 2e9, at most 1e9"),
         (
             urdf().replace("<axis", "<dynamics friction='1e20'/><axis"),
             "joint `swing`: `friction` is 1e20, at most 1e18",
         ),
-        (
-            urdf().replace("ixz='0'", "ixz='3e10'"),
-            "link `rod`: `ixz` is 3e10, at most 1e9",
-        ),
+        (urdf().replace("ixz='0'", "ixz='3e10'"), "link `rod`: `ixz` is 3e10, at most 1e9"),
         (
             urdf().replace("xyz='0.1 0 -0.25'", "xyz='0.1 4e9 -0.25'"),
             "link `rod`: `xyz` is 4e9, at most 1e9",
         ),
-        (
-            urdf().replace("value='1.5'", "value='1e-320'"),
-            "link `rod`: its mass is 1e-320 kg",
-        ),
+        (urdf().replace("value='1.5'", "value='1e-320'"), "link `rod`: its mass is 1e-320 kg"),
     ];
     for (text, words) in cases {
         let error = of(&text).expect_err(words).to_string();
@@ -471,10 +352,7 @@ fn includes_are_read_below_a_folder_that_the_user_names() {
     write("lab/common/defaults.xml", defaults);
     write("secret/defaults.xml", defaults);
     let model = |name: &str, file: &str| {
-        write(
-            name,
-            &mjcf().replacen('\n', &format!("\n<include file='{file}'/>"), 1),
-        );
+        write(name, &mjcf().replacen('\n', &format!("\n<include file='{file}'/>"), 1));
         at(name)
     };
     let absolute = at("lab/common/defaults.xml").display().to_string();
@@ -487,21 +365,10 @@ fn includes_are_read_below_a_folder_that_the_user_names() {
         let path = model("lab/robot/arm.xml", file);
         let error = read(&path).expect_err(file);
         assert_eq!(error.place.line, 2);
-        assert!(
-            error.to_string().contains("`--include-root FOLDER`"),
-            "{error}"
-        );
+        assert!(error.to_string().contains("`--include-root FOLDER`"), "{error}");
         let robot = read_below(&path, Some(&at("lab"))).unwrap_or_else(|error| panic!("{error}"));
-        assert_eq!(
-            (robot.joints[0].damping, robot.joints[0].armature),
-            (0.1, 0.01)
-        );
-        assert_eq!(
-            robot.files,
-            [at("lab/common/defaults.xml")
-                .canonicalize()
-                .expect("a file")]
-        );
+        assert_eq!((robot.joints[0].damping, robot.joints[0].armature), (0.1, 0.01));
+        assert_eq!(robot.files, [at("lab/common/defaults.xml").canonicalize().expect("a file")]);
     }
     // Nothing else is read, also by a link of the file system, whether it is there or not.
     #[cfg(unix)]
@@ -514,9 +381,7 @@ fn includes_are_read_below_a_folder_that_the_user_names() {
         "../..",
     ] {
         let path = model("lab/robot/arm.xml", file);
-        let error = read_below(&path, Some(&at("lab")))
-            .expect_err(file)
-            .to_string();
+        let error = read_below(&path, Some(&at("lab"))).expect_err(file).to_string();
         assert!(
             error.contains("is not below the folder of the model nor below `--include-root"),
             "{file}: {error}"
@@ -525,11 +390,7 @@ fn includes_are_read_below_a_folder_that_the_user_names() {
     // A note on an included file has its name.
     write("lab/robot/part.xml", &format!("{defaults}</x>"));
     let robot = read(&model("lab/robot/arm.xml", "part.xml")).expect("a part");
-    assert!(
-        robot.notes[0].starts_with("Included file part.xml: Line 1"),
-        "{:?}",
-        robot.notes
-    );
+    assert!(robot.notes[0].starts_with("Included file part.xml: Line 1"), "{:?}", robot.notes);
 }
 
 /// Nothing here is quadratic in the length of a file, or takes memory that is.
@@ -537,9 +398,7 @@ fn includes_are_read_below_a_folder_that_the_user_names() {
 fn what_is_tolerated_takes_linear_time() {
     let attributes: String = (0..20_000).map(|i| format!(" a{i}='1'")).collect();
     let prefixes: String = (0..20_000).map(|i| format!("<p{i}:a/>")).collect();
-    let declared: String = (0..20_000)
-        .map(|i| format!("<a xmlns:p{i}='u' p{i}:b='c'/>"))
-        .collect();
+    let declared: String = (0..20_000).map(|i| format!("<a xmlns:p{i}='u' p{i}:b='c'/>")).collect();
     let cases = [
         (
             urdf().replace("<axis", &format!("<axis{attributes}")),
@@ -549,10 +408,7 @@ fn what_is_tolerated_takes_linear_time() {
             urdf().replace("</robot>", &format!("{prefixes}</robot>")),
             "prefixes of names, or more: 65, at most 64",
         ),
-        (
-            urdf().replace("</robot>", &format!("{declared}</robot>")),
-            "prefixes of names",
-        ),
+        (urdf().replace("</robot>", &format!("{declared}</robot>")), "prefixes of names"),
         (
             urdf().replace("</robot>", &format!("{}</robot>", "&".repeat(1 << 20))),
             "places that are not well-formed XML",
@@ -562,16 +418,10 @@ fn what_is_tolerated_takes_linear_time() {
             "places that are not well-formed XML",
         ),
         (
-            urdf().replace(
-                "</robot>",
-                &format!("{}</robot>", "<!DOCTYPE a>".repeat(50_000)),
-            ),
+            urdf().replace("</robot>", &format!("{}</robot>", "<!DOCTYPE a>".repeat(50_000))),
             "places that are not",
         ),
-        (
-            format!("{}{}", "<!---->".repeat(100_000), "<robot>".repeat(600)),
-            "nested elements",
-        ),
+        (format!("{}{}", "<!---->".repeat(100_000), "<robot>".repeat(600)), "nested elements"),
         ("<".repeat(1 << 20), "XML"),
         (format!("<robot {}", "a=".repeat(1 << 19)), "XML"),
     ];
@@ -579,11 +429,7 @@ fn what_is_tolerated_takes_linear_time() {
         let start = Instant::now();
         let error = of(&text).expect_err(words).to_string();
         assert!(error.contains(words), "{error}");
-        assert!(
-            start.elapsed() < Duration::from_secs(8),
-            "{words}: {:?}",
-            start.elapsed()
-        );
+        assert!(start.elapsed() < Duration::from_secs(8), "{words}: {:?}", start.elapsed());
     }
     let gears: String = (0..20_000)
         .map(|i| {
@@ -595,11 +441,7 @@ fn what_is_tolerated_takes_linear_time() {
         .collect();
     let start = Instant::now();
     let robot = of(&urdf().replace("</robot>", &format!("{gears}</robot>"))).expect("a robot");
-    assert!(
-        start.elapsed() < Duration::from_secs(8),
-        "{:?}",
-        start.elapsed()
-    );
+    assert!(start.elapsed() < Duration::from_secs(8), "{:?}", start.elapsed());
     assert!(
         robot
             .notes

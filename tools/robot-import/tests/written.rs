@@ -1,10 +1,13 @@
 //! Written files compile, are those of today's importer, and have the numbers that were checked.
 
+#[rustfmt::skip]
 #[path = "robots/parallelogram.rs"]
 mod parallelogram;
 // Machines whose motors have no limit, and that have no motor: that they compile is what is tested.
+#[rustfmt::skip]
 #[path = "robots/driven_loop.rs"]
 mod driven_loop;
+#[rustfmt::skip]
 #[path = "robots/passive_loop.rs"]
 mod passive_loop;
 
@@ -33,9 +36,7 @@ fn imported(file: &str, name: &str, without: &[&str], written: &str) -> (String,
     let day = written.split_once("Imported on ").expect("a day").1;
     let day = day.split_once(' ').expect("a sentence").0;
     let args = Args {
-        file: Path::new(env!("CARGO_MANIFEST_DIR"))
-            .join("tests")
-            .join(file),
+        file: Path::new(env!("CARGO_MANIFEST_DIR")).join("tests").join(file),
         name: Some(name.to_owned()),
         options: Options {
             python: "none".to_owned(),
@@ -67,11 +68,7 @@ fn same_numbers<const N: usize>(written: &ArmModel<f64, N>, tree: &Tree) {
         let number = |i: usize, size: f64| size * (1.3 * k as f64 + 2.1 * i as f64).sin();
         let [q, qd, qdd] = [1.5, 3.0, 10.0].map(|size| std::array::from_fn(|i| number(i, size)));
         let torque = rnea(&Unknown(written), &State { q, qd, qdd }, &RIGID_BODY);
-        let motion = Motion {
-            q: q.into(),
-            qd: qd.into(),
-            qdd: qdd.into(),
-        };
+        let motion = Motion { q: q.into(), qd: qd.into(), qdd: qdd.into() };
         assert_eq!(torque.to_vec(), checked.torque(&motion));
     }
 }
@@ -90,12 +87,7 @@ fn written_files_are_todays_and_have_the_checked_numbers() {
 
 #[test]
 fn loops_without_limits_of_torque_have_their_motors() {
-    let (source, _) = imported(
-        "mjcf/driven_loop_no_ctrlrange.xml",
-        "driven_loop",
-        &[],
-        DRIVEN,
-    );
+    let (source, _) = imported("mjcf/driven_loop_no_ctrlrange.xml", "driven_loop", &[], DRIVEN);
     assert_eq!(source, DRIVEN);
     // A motor without a range, and a drive of position.
     assert_eq!(driven_loop::DrivenLoop::LOOPS.actuated(), &[0, 3]);
@@ -109,9 +101,7 @@ fn loops_without_limits_of_torque_have_their_motors() {
 fn a_loop_without_enough_motors_gets_advice() {
     let of = |file: &str, motors: &[&str]| {
         let args = Args {
-            file: Path::new(env!("CARGO_MANIFEST_DIR"))
-                .join("tests")
-                .join(file),
+            file: Path::new(env!("CARGO_MANIFEST_DIR")).join("tests").join(file),
             options: Options {
                 python: "none".to_owned(),
                 motors: motors.iter().map(|&name| name.to_owned()).collect(),
@@ -127,30 +117,17 @@ fn a_loop_without_enough_motors_gets_advice() {
     assert!(report.contains(words), "{report}");
     let named = passive(&["p", "s"]).expect("a machine");
     assert!(named.source.contains("Loops<1, 3, 2>"), "{}", named.source);
-    assert!(
-        !named.report.text().contains("motor"),
-        "{}",
-        named.report.text()
-    );
+    assert!(!named.report.text().contains("motor"), "{}", named.report.text());
     let error = passive(&["p", "t"]).expect_err("no joint");
-    assert!(
-        error.contains("`--motors t`: no joint of this name moves"),
-        "{error}"
-    );
+    assert!(error.contains("`--motors t`: no joint of this name moves"), "{error}");
     let error = of("urdf/so101.urdf", &["elbow_flex"]).expect_err("no loop");
     assert!(error.contains("has no loop"), "{error}");
     // Nobody has said which of the joints have motors, but the file compiles.
-    for (file, sizes) in [
-        ("loop_name", "<1, 3, 1>"),
-        ("loop_no_motor", "<1, 3, 3>"),
-        ("weld", "<1, 6, 1>"),
-    ] {
+    for (file, sizes) in
+        [("loop_name", "<1, 3, 1>"), ("loop_no_motor", "<1, 3, 3>"), ("weld", "<1, 6, 1>")]
+    {
         let machine = of(&format!("mjcf/{file}.xml"), &[]).expect(file);
-        assert!(
-            machine.source.contains(&format!("Loops{sizes}")),
-            "{}",
-            machine.source
-        );
+        assert!(machine.source.contains(&format!("Loops{sizes}")), "{}", machine.source);
     }
 }
 
@@ -160,36 +137,18 @@ fn a_refused_loop_is_named_with_its_line() {
     let file = folder.path().join("m.xml");
     let text = include_str!("mjcf/passive_loop.xml");
     let ends = [
-        (
-            "body1=\"c\" body2=\"d\" anchor=\".1 0 0\"",
-            "site1=\"one\" site2=\"two\"",
-        ),
+        ("body1=\"c\" body2=\"d\" anchor=\".1 0 0\"", "site1=\"one\" site2=\"two\""),
         ("<joint name=\"r\"", "<site name=\"one\"/><joint name=\"r\""),
-        (
-            "<joint name=\"s\"",
-            "<site name=\"two\" pos=\".1 0 0\"/><joint name=\"s\"",
-        ),
+        ("<joint name=\"s\"", "<site name=\"two\" pos=\".1 0 0\"/><joint name=\"s\""),
         ("pos=\".5 0 0\"", "pos=\"50 0 0\""),
     ];
-    let text = ends
-        .iter()
-        .fold(text.to_owned(), |text, (from, to)| text.replace(from, to));
+    let text = ends.iter().fold(text.to_owned(), |text, (from, to)| text.replace(from, to));
     std::fs::write(&file, text).expect("a model");
-    let options = Options {
-        python: "none".to_owned(),
-        ..Options::default()
-    };
-    let args = Args {
-        file,
-        options,
-        ..Args::default()
-    };
+    let options = Options { python: "none".to_owned(), ..Options::default() };
+    let args = Args { file, options, ..Args::default() };
     let error = import(&args, "today").expect_err("open").to_string();
     let words = "loop `loop_0`: one link is longer than all the others together";
-    assert!(
-        error.starts_with("line 1: ") && error.contains(words),
-        "{error}"
-    );
+    assert!(error.starts_with("line 1: ") && error.contains(words), "{error}");
 }
 
 #[test]
@@ -197,10 +156,7 @@ fn a_loop_is_closed_where_its_machine_is() {
     use parallelogram::Parallelogram;
     let error = |q: [f64; 3]| {
         let found = constraints(&Parallelogram::MODEL, &Parallelogram::LOOPS, &State::at(q));
-        found
-            .position
-            .into_iter()
-            .fold(0.0, |most: f64, x| most.max(x.abs()))
+        found.position.into_iter().fold(0.0, |most: f64, x| most.max(x.abs()))
     };
     assert_eq!(error([0.0; 3]), 0.0);
     assert!(error([0.4, -0.4, 0.4]) < 1e-15);

@@ -19,21 +19,12 @@ pub enum Error {
         ports: String,
     },
     #[error("cannot start `{program}`: {source}")]
-    Start {
-        program: String,
-        source: std::io::Error,
-    },
+    Start { program: String, source: std::io::Error },
     /// A program ended before it connected.
     #[error("`{program}` ended ({status}) before it sent anything")]
-    Ended {
-        program: String,
-        status: std::process::ExitStatus,
-    },
+    Ended { program: String, status: std::process::ExitStatus },
     #[error("`{program}` failed ({status})")]
-    Failed {
-        program: String,
-        status: std::process::ExitStatus,
-    },
+    Failed { program: String, status: std::process::ExitStatus },
     #[error("cannot read from {source_name} or write to it: {source}")]
     Read {
         /// The port, program or file.
@@ -50,16 +41,10 @@ pub enum Error {
         hint: String,
     },
     #[error("cannot write {}: {source}", path.display())]
-    Record {
-        path: PathBuf,
-        source: std::io::Error,
-    },
+    Record { path: PathBuf, source: std::io::Error },
     /// An MCAP record cannot be written.
     #[error("cannot write {}: {source}", path.display())]
-    Mcap {
-        path: PathBuf,
-        source: mcap::McapError,
-    },
+    Mcap { path: PathBuf, source: mcap::McapError },
     /// A record has an unknown ending.
     #[error("{}: a record ends with .csv or .mcap", path.display())]
     Ending { path: PathBuf },

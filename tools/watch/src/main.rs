@@ -81,14 +81,8 @@ fn run(args: &Args) -> Result<()> {
         _ => Place::Program(args.program.clone()),
     };
     let show = if args.json { Show::Nothing } else { Show::Live };
-    let limit = args
-        .seconds
-        .map(|seconds| Duration::from_secs_f64(seconds.max(0.0)));
-    let options = Options {
-        show,
-        limit,
-        pace: args.pace,
-    };
+    let limit = args.seconds.map(|seconds| Duration::from_secs_f64(seconds.max(0.0)));
+    let options = Options { show, limit, pace: args.pace };
     let mut source = place.open()?;
     let start = Instant::now();
     let view = session::run(&mut source, recorder, options)?;

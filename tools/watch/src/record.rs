@@ -59,34 +59,22 @@ impl Recorder {
     /// It cannot be created, or its ending is neither `.csv` nor `.mcap`.
     pub fn create(path: &Path) -> Result<Self> {
         let ending = path.extension().and_then(|ending| ending.to_str());
-        let open = || {
-            File::create(path).map_err(|source| Error::Record {
-                path: path.to_owned(),
-                source,
-            })
-        };
+        let open =
+            || File::create(path).map_err(|source| Error::Record { path: path.to_owned(), source });
         let form = match ending {
             Some("csv") => Form::Csv(Box::new(csv::Writer::from_writer(open()?)), false),
             Some("mcap") => {
                 let failed = |source| mcap_error(path, source);
                 let mut writer = mcap::Writer::new(BufWriter::new(open()?)).map_err(failed)?;
-                let schema = writer
-                    .add_schema("tick", "jsonschema", SCHEMA)
-                    .map_err(failed)?;
+                let schema = writer.add_schema("tick", "jsonschema", SCHEMA).map_err(failed)?;
                 let channel = writer.add_channel(schema, "tick", "json", &BTreeMap::new());
                 Form::Mcap(Box::new(writer), channel.map_err(failed)?)
             }
             _ => {
-                return Err(Error::Ending {
-                    path: path.to_owned(),
-                });
+                return Err(Error::Ending { path: path.to_owned() });
             }
         };
-        Ok(Self {
-            path: path.to_owned(),
-            form,
-            period: None,
-        })
+        Ok(Self { path: path.to_owned(), form, period: None })
     }
 
     /// Sets the period of a tick, µs, for the times in the file.
@@ -106,8 +94,7 @@ impl Recorder {
                     source: error.into(),
                 };
                 if !std::mem::replace(titled, true) {
-                    file.write_record(titles(tick.joints.len()))
-                        .map_err(failed)?;
+                    file.write_record(titles(tick.joints.len())).map_err(failed)?;
                 }
                 file.write_record(fields(tick, self.period)).map_err(failed)
             }
@@ -135,15 +122,12 @@ impl Recorder {
     /// The file cannot be written.
     pub fn finish(self) -> Result<()> {
         match self.form {
-            Form::Csv(mut file, _) => file.flush().map_err(|source| Error::Record {
-                path: self.path,
-                source,
-            }),
+            Form::Csv(mut file, _) => {
+                file.flush().map_err(|source| Error::Record { path: self.path, source })
+            }
             Form::Mcap(mut writer, _) => {
                 let summary = writer.finish();
-                summary
-                    .map(|_| ())
-                    .map_err(|source| mcap_error(&self.path, source))
+                summary.map(|_| ()).map_err(|source| mcap_error(&self.path, source))
             }
         }
     }
@@ -171,9 +155,7 @@ fn titles(joints: usize) -> Vec<String> {
     let first = "number,tick,mode,fault,limited,dropped,time_s".split(',');
     let of_joint = |j| ["reference", "estimate", "torque"].map(|what| format!("{what}_{j}"));
     let costs = PHASES.map(|phase| format!("{phase}_counts"));
-    let titles = first
-        .map(str::to_owned)
-        .chain((0..joints).flat_map(of_joint));
+    let titles = first.map(str::to_owned).chain((0..joints).flat_map(of_joint));
     titles.chain(costs).collect()
 }
 
@@ -186,9 +168,7 @@ fn fields(tick: &Tick, period: Option<u32>) -> Vec<String> {
         tick.number.to_string(),
         tick.tick.to_string(),
         mode(status.mode).to_owned(),
-        status
-            .fault
-            .map_or(String::new(), |fault| fault.to_string()),
+        status.fault.map_or(String::new(), |fault| fault.to_string()),
         status.limited.to_string(),
         tick.dropped.to_string(),
         period.map_or(String::new(), |period| format!("{:.6}", seconds(period))),

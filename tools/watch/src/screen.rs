@@ -50,11 +50,7 @@ fn draw_head(frame: &mut Frame<'_>, area: Rect, view: &View, source: &str) {
         Span::from(format!("{state:8}")).style(status.map_or(Style::new(), |s| colour(s.mode))),
         Span::from(if limited { "limited  " } else { "         " }).yellow(),
         Span::from(format!("{} ticks, ", view.ticks)),
-        Span::from(text).style(if bad > 0 {
-            Style::new().yellow()
-        } else {
-            Style::new()
-        }),
+        Span::from(text).style(if bad > 0 { Style::new().yellow() } else { Style::new() }),
     ]);
     frame.render_widget(Paragraph::new(line).block(block), area);
 }
@@ -88,15 +84,9 @@ fn draw_joints(frame: &mut Frame<'_>, area: Rect, view: &View) {
 fn joint_row(view: &View, number: usize, joint: &Joint) -> Row<'static> {
     let axis = view.machine.as_ref().and_then(|m| m.joints.get(number));
     let slides = axis.is_some_and(|axis| axis.prismatic);
-    let (unit, small, force) = if slides {
-        ("m", "mm", "N")
-    } else {
-        ("rad", "mrad", "N·m")
-    };
+    let (unit, small, force) = if slides { ("m", "mm", "N") } else { ("rad", "mrad", "N·m") };
     let largest = view.extremes.get(number).map_or(0.0, |e| e.error);
-    let share = view
-        .torque_limit(number)
-        .map(|limit| joint.torque.abs() / limit);
+    let share = view.torque_limit(number).map(|limit| joint.torque.abs() / limit);
     let share_style = match share {
         Some(share) if share >= 0.99 => Style::new().red(),
         _ => Style::new().cyan(),
@@ -142,10 +132,7 @@ fn bar(share: f32) -> String {
 
 fn draw_costs(frame: &mut Frame<'_>, area: Rect, view: &View) {
     let period = view.machine.as_ref().map_or(0, |machine| machine.tick_us);
-    let last = view
-        .last
-        .as_ref()
-        .map_or([0; PHASES.len()], |tick| tick.cost);
+    let last = view.last.as_ref().map_or([0; PHASES.len()], |tick| tick.cost);
     let phases = PHASES.into_iter().zip(last.into_iter().zip(view.cost));
     let total = ("all phases", (last.iter().sum(), view.cost.iter().sum()));
     let rows = phases.chain([total]).map(|(name, (last, largest))| {
@@ -164,10 +151,7 @@ fn draw_costs(frame: &mut Frame<'_>, area: Rect, view: &View) {
     let widths = [11, 11, 11, SHARE as u16, 7].map(Constraint::Length);
     let titles = ["phase", "      last", "   largest", "of tick", ""];
     let table = Table::new(rows, widths).header(Row::new(titles).bold());
-    frame.render_widget(
-        table.block(Block::bordered().title(" cost of a tick ")),
-        area,
-    );
+    frame.render_widget(table.block(Block::bordered().title(" cost of a tick ")), area);
 }
 
 fn draw_events(frame: &mut Frame<'_>, area: Rect, view: &View) {

@@ -42,11 +42,7 @@ pub struct Options {
 
 impl Options {
     /// It shows nothing, and reads to the end of its source.
-    pub const QUIET: Self = Self {
-        show: Show::Nothing,
-        limit: None,
-        pace: false,
-    };
+    pub const QUIET: Self = Self { show: Show::Nothing, limit: None, pace: false };
 }
 
 /// Reads until the source ends, the user ends it, a signal does, or its time is over; returns what
@@ -115,10 +111,7 @@ impl Session {
                 self.take(bytes, recorder)?;
                 self.silence(source, self.heard.elapsed() > PATIENCE)?;
             }
-            let is_over = self
-                .options
-                .limit
-                .is_some_and(|limit| start.elapsed() >= limit);
+            let is_over = self.options.limit.is_some_and(|limit| start.elapsed() >= limit);
             if is_over || ENDED.load(Relaxed) || self.shows(source, terminal)? {
                 return Ok(());
             }
@@ -184,11 +177,7 @@ impl Session {
                 self.view.counts.frames
             ),
         };
-        Err(Error::Silent {
-            source_name: source.name.clone(),
-            patience: PATIENCE,
-            hint,
-        })
+        Err(Error::Silent { source_name: source.name.clone(), patience: PATIENCE, hint })
     }
 }
 

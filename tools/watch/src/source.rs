@@ -55,11 +55,7 @@ fn open_port(port: &str, rate: u32) -> Result<Source> {
         source,
         ports: ports(),
     })?;
-    Ok(Source {
-        name: port.to_owned(),
-        bytes: Box::new(bytes),
-        child: None,
-    })
+    Ok(Source { name: port.to_owned(), bytes: Box::new(bytes), child: None })
 }
 
 /// The serial ports of this machine, as a sentence.
@@ -74,50 +70,29 @@ fn ports() -> String {
 
 fn open_file(path: &Path) -> Result<Source> {
     let name = path.display().to_string();
-    let file = std::fs::File::open(path).map_err(|source| Error::Read {
-        source_name: name.clone(),
-        source,
-    })?;
-    Ok(Source {
-        name,
-        bytes: Box::new(file),
-        child: None,
-    })
+    let file = std::fs::File::open(path)
+        .map_err(|source| Error::Read { source_name: name.clone(), source })?;
+    Ok(Source { name, bytes: Box::new(file), child: None })
 }
 
 fn start(words: &[String]) -> Result<Source> {
     let program = words.first().cloned().unwrap_or_default();
-    let failed = |source| Error::Start {
-        program: program.clone(),
-        source,
-    };
+    let failed = |source| Error::Start { program: program.clone(), source };
     let listener = TcpListener::bind("127.0.0.1:0").map_err(failed)?;
     listener.set_nonblocking(true).map_err(failed)?;
     let port = listener.local_addr().map_err(failed)?.port().to_string();
     let mut command = Command::new(&program);
-    command.args(
-        words
-            .iter()
-            .skip(1)
-            .map(|word| word.replace(TCP_PORT, &port)),
-    );
+    command.args(words.iter().skip(1).map(|word| word.replace(TCP_PORT, &port)));
     // Its log is no telemetry, and would write over the screen.
     command.stdin(Stdio::null()).stdout(Stdio::null());
     let mut child = command.spawn().map_err(failed)?;
     let stream = accept(&listener, &mut child, &program)?;
-    Ok(Source {
-        name: program,
-        bytes: Box::new(stream),
-        child: Some(child),
-    })
+    Ok(Source { name: program, bytes: Box::new(stream), child: Some(child) })
 }
 
 /// Waits until the program connects or ends.
 fn accept(listener: &TcpListener, child: &mut Child, program: &str) -> Result<TcpStream> {
-    let failed = |source| Error::Start {
-        program: program.to_owned(),
-        source,
-    };
+    let failed = |source| Error::Start { program: program.to_owned(), source };
     loop {
         match listener.accept() {
             Ok((stream, _)) => {
@@ -131,10 +106,7 @@ fn accept(listener: &TcpListener, child: &mut Child, program: &str) -> Result<Tc
             Err(error) => return Err(failed(error)),
         }
         if let Some(status) = child.try_wait().map_err(failed)? {
-            return Err(Error::Ended {
-                program: program.to_owned(),
-                status,
-            });
+            return Err(Error::Ended { program: program.to_owned(), status });
         }
         std::thread::sleep(Duration::from_millis(5));
     }
@@ -154,10 +126,7 @@ impl Source {
                     Ok(Some(&[]))
                 }
                 ErrorKind::ConnectionReset => self.end().map(|()| None),
-                _ => Err(Error::Read {
-                    source_name: self.name.clone(),
-                    source: error,
-                }),
+                _ => Err(Error::Read { source_name: self.name.clone(), source: error }),
             },
         }
     }
@@ -167,10 +136,9 @@ impl Source {
     /// # Errors
     /// The port or program does not take them; a file takes none.
     pub fn send(&mut self, bytes: &[u8]) -> Result<()> {
-        self.bytes.write_all(bytes).map_err(|source| Error::Read {
-            source_name: self.name.clone(),
-            source,
-        })
+        self.bytes
+            .write_all(bytes)
+            .map_err(|source| Error::Read { source_name: self.name.clone(), source })
     }
 
     /// Waits for the end of a program that has closed its line.
@@ -178,10 +146,9 @@ impl Source {
         let Some(mut child) = self.child.take() else {
             return Ok(());
         };
-        let status = child.wait().map_err(|source| Error::Read {
-            source_name: self.name.clone(),
-            source,
-        })?;
+        let status = child
+            .wait()
+            .map_err(|source| Error::Read { source_name: self.name.clone(), source })?;
         if status.success() {
             return Ok(());
         }

@@ -56,9 +56,7 @@ impl Summary {
             rms_error: view.rms(number),
             max_error: extremes.error,
             max_torque: extremes.torque,
-            max_torque_share: view
-                .torque_limit(number)
-                .map(|limit| extremes.torque / limit),
+            max_torque_share: view.torque_limit(number).map(|limit| extremes.torque / limit),
         };
         let phase = |(phase, max_counts)| PhaseSummary {
             phase,
@@ -66,10 +64,7 @@ impl Summary {
             max_us: view.microseconds(max_counts),
         };
         Self {
-            machine: view
-                .machine
-                .as_ref()
-                .map(|machine| machine.name.to_string()),
+            machine: view.machine.as_ref().map(|machine| machine.name.to_string()),
             ticks: view.ticks,
             seconds: view.seconds(),
             bad_frames: view.counts.bad,
@@ -79,11 +74,7 @@ impl Summary {
             mode: view.last.as_ref().map(|tick| mode(tick.status.mode)),
             joints: view.extremes.iter().enumerate().map(joint).collect(),
             cost: PHASES.into_iter().zip(view.cost).map(phase).collect(),
-            events: view
-                .events
-                .iter()
-                .map(|event| (event.first, event.words()))
-                .collect(),
+            events: view.events.iter().map(|event| (event.first, event.words())).collect(),
         }
     }
 }
@@ -94,10 +85,7 @@ pub fn duration(view: &View, took: Duration) -> String {
     let took = took.as_secs_f64();
     match view.seconds() {
         Some(seconds) => {
-            format!(
-                "{} ticks: {seconds:.2} s of the machine, in {took:.2} s",
-                view.ticks
-            )
+            format!("{} ticks: {seconds:.2} s of the machine, in {took:.2} s", view.ticks)
         }
         None => format!("{} ticks in {took:.2} s", view.ticks),
     }
@@ -109,17 +97,10 @@ pub fn line(view: &View) -> String {
     let Some(last) = &view.last else {
         return "no tick yet".to_owned();
     };
-    let error = last
-        .joints
-        .iter()
-        .map(|joint| joint.error().abs())
-        .fold(0.0, f32::max);
+    let error = last.joints.iter().map(|joint| joint.error().abs()).fold(0.0, f32::max);
     let us = view.microseconds(last.cost.iter().sum());
     let cost = us.map_or(String::new(), |us| format!(", {us:.1} µs"));
-    let fault = last
-        .status
-        .fault
-        .map_or(String::new(), |fault| format!(" ({fault})"));
+    let fault = last.status.fault.map_or(String::new(), |fault| format!(" ({fault})"));
     let counts = view.counts;
     format!(
         "tick {}: {}{fault}, error {:.3} mrad or mm at most{cost}; {} bad frames, {} dropped, {} \

@@ -30,9 +30,7 @@ impl Event {
     /// Its text, with the number of its repetitions.
     #[must_use]
     pub fn words(&self) -> String {
-        let Self {
-            last, count, text, ..
-        } = self;
+        let Self { last, count, text, .. } = self;
         match count {
             1 => text.clone(),
             _ => format!("{text}  ({count} times to tick {last})"),
@@ -105,17 +103,9 @@ impl View {
         };
         let number = tick.number;
         // A fault that comes and goes changes the mode in almost every tick.
-        let again = self
-            .events
-            .iter_mut()
-            .rev()
-            .take(ALTERNATING)
-            .find(|event| {
-                event.text == text
-                    && number
-                        .checked_sub(event.last)
-                        .is_some_and(|since| since <= AGAIN)
-            });
+        let again = self.events.iter_mut().rev().take(ALTERNATING).find(|event| {
+            event.text == text && number.checked_sub(event.last).is_some_and(|since| since <= AGAIN)
+        });
         if let Some(event) = again {
             (event.last, event.count) = (number, event.count + 1);
             return;
@@ -123,12 +113,7 @@ impl View {
         if self.events.len() == EVENTS {
             self.events.pop_front();
         }
-        self.events.push_back(Event {
-            first: number,
-            last: number,
-            count: 1,
-            text,
-        });
+        self.events.push_back(Event { first: number, last: number, count: 1, text });
     }
 
     /// The time of the machine in the ticks that arrived, s, if it has said how long one is.

@@ -18,21 +18,14 @@ use telemetry_watch::{Decoder, Machine, Message, Tick, screen};
 /// A machine with one joint that turns and one that slides.
 fn machine() -> Machine {
     let axis = |upper: f32, torque, prismatic| Axis {
-        limits: JointLimits {
-            lower: -upper,
-            upper,
-            velocity: 2.0,
-            torque,
-        },
+        limits: JointLimits { lower: -upper, upper, velocity: 2.0, torque },
         prismatic,
     };
     Machine {
         name: "two_axes".try_into().expect("short enough"),
         tick_us: 1000,
         timer_hz: 168_000_000,
-        joints: [axis(3.0, 150.0, false), axis(0.5, 80.0, true)]
-            .into_iter()
-            .collect(),
+        joints: [axis(3.0, 150.0, false), axis(0.5, 80.0, true)].into_iter().collect(),
     }
 }
 
@@ -45,9 +38,7 @@ fn tick(number: u32) -> Tick {
     let mut tick = Tick {
         number,
         tick: number,
-        joints: [joint(1.5, 2e-3, 75.0), joint(-0.5, 0.0, -20.0)]
-            .into_iter()
-            .collect(),
+        joints: [joint(1.5, 2e-3, 75.0), joint(-0.5, 0.0, -20.0)].into_iter().collect(),
         cost: [1680, 168, 3360, 336, 840],
         ..Tick::default()
     };
@@ -122,9 +113,7 @@ fn session(name: &str, bytes: &[u8], record: Option<&Path>) -> Result<View, Stri
 /// The screen as lines of text.
 fn drawn(view: &View) -> String {
     let mut terminal = Terminal::new(TestBackend::new(92, 24)).expect("a terminal");
-    terminal
-        .draw(|frame| screen::draw(frame, view, "QEMU"))
-        .expect("drawn");
+    terminal.draw(|frame| screen::draw(frame, view, "QEMU")).expect("drawn");
     let lines = terminal.backend().to_string();
     let lines = lines.lines().map(|line| line.trim_matches('"').trim_end());
     lines.collect::<Vec<_>>().join("\n")
@@ -162,26 +151,14 @@ fn numbers_that_are_none_are_drawn() {
 #[test]
 fn the_summary_counts_what_is_missing_and_why() {
     let summary = Summary::of(&session("summary", &recorded(), None).expect("frames"));
-    let counts = (
-        summary.ticks,
-        summary.bad_frames,
-        summary.dropped,
-        summary.lost,
-    );
+    let counts = (summary.ticks, summary.bad_frames, summary.dropped, summary.lost);
     assert_eq!(counts, (23, 1, 1, 1));
     assert_eq!(summary.machine.as_deref(), Some("two_axes"));
     assert_eq!(summary.joints[0].max_torque_share, Some(0.5));
     assert!((summary.joints[0].rms_error - 2e-3).abs() < 1e-6);
     assert_eq!(summary.cost[2].max_us, Some(20.0));
-    let events: Vec<&str> = summary
-        .events
-        .iter()
-        .map(|(_, text)| text.as_str())
-        .collect();
-    assert_eq!(
-        events,
-        ["hold", "stopped: joint 1: its encoder reports an error"]
-    );
+    let events: Vec<&str> = summary.events.iter().map(|(_, text)| text.as_str()).collect();
+    assert_eq!(events, ["hold", "stopped: joint 1: its encoder reports an error"]);
 }
 
 #[test]
@@ -234,16 +211,9 @@ fn a_csv_record_has_a_line_for_each_tick() {
     let lines: Vec<&str> = text.lines().collect();
     assert_eq!(lines.len(), 1 + 23);
     let columns: Vec<usize> = lines.iter().map(|line| line.split(',').count()).collect();
-    assert!(
-        columns.iter().all(|&columns| columns == 7 + 2 * 3 + 5),
-        "{columns:?}"
-    );
+    assert!(columns.iter().all(|&columns| columns == 7 + 2 * 3 + 5), "{columns:?}");
     assert!(lines[0].starts_with("number,tick,mode,fault,limited,dropped,time_s,reference_0,"));
-    assert!(
-        lines[1].starts_with("0,0,full,,false,0,0.000000,1.5,1.498,75,"),
-        "{}",
-        lines[1]
-    );
+    assert!(lines[1].starts_with("0,0,full,,false,0,0.000000,1.5,1.498,75,"), "{}", lines[1]);
 }
 
 #[test]
@@ -264,10 +234,7 @@ fn an_mcap_record_is_read_back() {
 #[test]
 fn bytes_without_a_frame_are_an_error_that_counts_them() {
     let error = session("noise", &[7, 0, 9, 9, 0], None).expect_err("no frame");
-    assert!(
-        error.contains("of 5 bytes 1 were ends of bad frames"),
-        "{error}"
-    );
+    assert!(error.contains("of 5 bytes 1 were ends of bad frames"), "{error}");
     let error = session("nothing", &[], None).expect_err("no byte");
     assert!(error.contains("nothing was received"), "{error}");
 }
@@ -284,10 +251,7 @@ fn a_paced_session_takes_as_long_as_its_ticks() {
     let file = Scratch::holding("paced", &bytes);
     for pace in [true, false] {
         let mut source = Place::File(file.0.clone()).open().expect("it is there");
-        let options = Options {
-            pace,
-            ..Options::QUIET
-        };
+        let options = Options { pace, ..Options::QUIET };
         let start = std::time::Instant::now();
         let view = session::run(&mut source, None, options).expect("frames");
         assert_eq!(view.ticks, 400);

@@ -195,12 +195,7 @@ pub fn measure(
         tools.toolchain.rustc_version()?,
         tools.qemu.version.clone(),
     )?;
-    Ok(Measured {
-        report,
-        recording,
-        elf: elf.to_owned(),
-        raw: (raw, metered),
-    })
+    Ok(Measured { report, recording, elf: elf.to_owned(), raw: (raw, metered) })
 }
 
 /// The brackets of the longest tick with feed-forward and of its phases, by two more runs side by
@@ -215,9 +210,8 @@ pub fn brackets(
     measured: &Measured,
 ) -> Result<Vec<[u64; 2]>> {
     let name = &*measured.report.scene;
-    let spinner = Spinner::start(&format!(
-        "running scene {name} by two more readings of the manual"
-    ));
+    let spinner =
+        Spinner::start(&format!("running scene {name} by two more readings of the manual"));
     let longest = |reading: &'static str| -> Result<Vec<u64>> {
         let regions = workspace.output(&format!("{name}.{reading}.regions"))?;
         let mut run = Run::logging(name, &measured.elf, Some((plugin, &regions)));
@@ -238,8 +232,7 @@ pub fn brackets(
     drop(spinner);
     let chosen = measured.report.tick.values().map(|cost| cost.cycles.max);
     let all = least?.into_iter().zip(chosen).zip(most?);
-    all.map(|((least, chosen), most)| bracket([least, chosen, most]))
-        .collect()
+    all.map(|((least, chosen), most)| bracket([least, chosen, most])).collect()
 }
 
 /// Runs a scene, with the meter and its file or without, and returns what it said, and that as it
@@ -268,21 +261,12 @@ fn record(
 /// Refuses a run that is not a repetition of the first: whose log has other bytes, or whose regions
 /// have other instructions.
 fn same_run(first: &(Vec<u8>, String), log: &[u8], samples: &[Sample]) -> Result<()> {
-    refuse_if!(
-        first.0 != log,
-        "two runs of the same ELF logged different bytes"
-    );
+    refuse_if!(first.0 != log, "two runs of the same ELF logged different bytes");
     let of_first =
         cycle_meter::parse_samples(&first.1).map_err(|e| check!("the first run: {e}"))?;
     let executed = |sample: &Sample| (sample.region, sample.instructions);
-    let same = of_first
-        .iter()
-        .map(executed)
-        .eq(samples.iter().map(executed));
-    refuse_if!(
-        !same,
-        "two runs of the same ELF executed different instructions"
-    );
+    let same = of_first.iter().map(executed).eq(samples.iter().map(executed));
+    refuse_if!(!same, "two runs of the same ELF executed different instructions");
     Ok(())
 }
 

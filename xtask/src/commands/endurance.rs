@@ -38,10 +38,7 @@ pub fn miri() -> Result<ExitCode> {
     let workspace = Workspace::find()?;
     let nightly = |arguments: &str| {
         let mut command = toolchain::rustup("nightly", "cargo");
-        command
-            .arg("miri")
-            .args(arguments.split(' '))
-            .current_dir(&workspace.root);
+        command.arg("miri").args(arguments.split(' ')).current_dir(&workspace.root);
         command.env("CARGO_TARGET_DIR", workspace.target.join("miri"));
         command
     };

@@ -60,11 +60,7 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
     }
     // A measured figure is not estimated.
     let is_measured = matches!(&measured, Some(Ok(rows)) if !rows.is_empty());
-    output::print(if is_measured {
-        without_estimate(&text)
-    } else {
-        &text
-    })?;
+    output::print(if is_measured { without_estimate(&text) } else { &text })?;
     match measured {
         Some(Ok(rows)) => output::print(&format!("\n{MODEL}:\n{}", table(&rows).text()))?,
         Some(Err(error)) => output::note(&format!("not measured: {error}")),
@@ -77,8 +73,7 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
 /// The importer's report up to its last paragraph, the estimate of the cycles.
 fn without_estimate(text: &str) -> &str {
     let estimate = "\nInverse dynamics by the engine: about ";
-    text.rsplit_once(estimate)
-        .map_or(text, |(before, _)| before)
+    text.rsplit_once(estimate).map_or(text, |(before, _)| before)
 }
 
 /// The file itself, where it is not kept.
@@ -90,21 +85,10 @@ fn show(file: &Path, kept: bool) -> Result<()> {
 }
 
 pub fn table(rows: &[Row]) -> Table {
-    let mut table = Table::new(&[
-        "inverse dynamics",
-        "form",
-        "cycles",
-        "instructions",
-        "code, B",
-        "stack, B",
-    ]);
+    let mut table =
+        Table::new(&["inverse dynamics", "form", "cycles", "instructions", "code, B", "stack, B"]);
     for row in rows {
-        let figures = [
-            row.cycles.max,
-            row.instructions.max,
-            row.code_bytes,
-            row.stack_bytes,
-        ];
+        let figures = [row.cycles.max, row.instructions.max, row.code_bytes, row.stack_bytes];
         let names = [row.inputs.clone(), row.form.clone()];
         table.row(names.into_iter().chain(figures.map(thousands)));
     }

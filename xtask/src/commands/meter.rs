@@ -84,12 +84,8 @@ pub fn run(options: Options, args: &Args) -> Result<ExitCode> {
     // Not there if QEMU did not start.
     let _ = std::fs::remove_file(&out);
     let (ended, samples) = samples?;
-    let report = Report {
-        model: MODEL,
-        ended,
-        regions: regions(&samples),
-        foreign: foreign(&image),
-    };
+    let report =
+        Report { model: MODEL, ended, regions: regions(&samples), foreign: foreign(&image) };
     if report.regions.is_empty() {
         let when = ["in its time", "before it ended"][usize::from(ended)];
         let seconds = args.seconds;

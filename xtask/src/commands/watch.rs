@@ -108,9 +108,7 @@ pub fn run(options: Options, args: &Args) -> Result<ExitCode> {
 /// The path of a record: another ending is refused before anything is built.
 fn recorded(text: &str) -> std::result::Result<PathBuf, &'static str> {
     let is_known = text.ends_with(".csv") || text.ends_with(".mcap");
-    is_known
-        .then(|| text.into())
-        .ok_or("a record ends with .csv or .mcap")
+    is_known.then(|| text.into()).ok_or("a record ends with .csv or .mcap")
 }
 
 /// The program of a project that sends its ticks, built as the project's own manifest says.
@@ -172,34 +170,21 @@ pub fn check(workspace: &Workspace, tools: &Tools, plugin: &Path) -> Result<Stri
     let said = verdict(&meter::read(&out)?, &alone, &full)?;
     let cycles = longest(&alone);
     let bar = format!("{} watched tick", SCENES[0]);
-    bars::hold(
-        &budgets::bars(workspace)?,
-        &bar,
-        [("cycles", cycles as f64)],
-    )?;
-    Ok(format!(
-        "{said}; with detectors and record a tick takes {cycles} cycles at most"
-    ))
+    bars::hold(&budgets::bars(workspace)?, &bar, [("cycles", cycles as f64)])?;
+    Ok(format!("{said}; with detectors and record a tick takes {cycles} cycles at most"))
 }
 
 /// The cycles of the longest tick with those of its record.
 fn longest(samples: &[Sample]) -> u64 {
     let of = |region: u8| samples.iter().filter(move |sample| sample.region == region);
-    let sums = of(TICK)
-        .zip(of(RECORD))
-        .map(|(tick, record)| tick.cycles + record.cycles);
+    let sums = of(TICK).zip(of(RECORD)).map(|(tick, record)| tick.cycles + record.cycles);
     sums.max().unwrap_or(u64::MAX)
 }
 
 /// Fails if a function masks interrupts that is neither the initialisation, the interrupt, nor the
 /// log.
 fn masked_nowhere_else(image: &Image) -> Result<()> {
-    const KNOWN: [&str; 4] = [
-        "cortex_m_rt_main",
-        "watch5watch",
-        "_defmt_acquire",
-        "SysTick",
-    ];
+    const KNOWN: [&str; 4] = ["cortex_m_rt_main", "watch5watch", "_defmt_acquire", "SysTick"];
     const CPSID_I: u16 = 0xb672;
     let masks = |one: &Instruction| one.code[0] == CPSID_I;
     let others = image.instructions().find(|(function, one)| {
@@ -243,10 +228,7 @@ fn verdict(heard: &[Sample], alone: &[Sample], full: &[Sample]) -> Result<String
     let found = with.len() / meter::REGIONS.len();
     refuse_if!(found != TICKS, "{found} ticks were measured, not {TICKS}");
     for (what, others) in [("a listener", with), ("a full queue", ticks(full))] {
-        let pairs = others
-            .iter()
-            .zip(&without)
-            .position(|(one, other)| one != other);
+        let pairs = others.iter().zip(&without).position(|(one, other)| one != other);
         let differs = pairs.or((others.len() != without.len()).then_some(without.len()));
         if let Some(at) = differs {
             let tick = at / meter::REGIONS.len();

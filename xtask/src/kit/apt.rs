@@ -30,10 +30,7 @@ fn update_command(privilege: Privilege) -> Command {
 /// The commands that install Debian packages as this user, to be shown.
 pub fn lines(packages: &[&str]) -> Vec<String> {
     let privilege = Privilege::this();
-    let commands = [
-        update_command(privilege),
-        install_command(privilege, packages),
-    ];
+    let commands = [update_command(privilege), install_command(privilege, packages)];
     let lines = commands.iter().map(shell::display);
     // Without root and sudo the reader has to become root in a way of their own.
     let is_lost = privilege == Privilege::None;
@@ -54,9 +51,7 @@ pub fn install(packages: &[&str]) -> Result<()> {
     };
     // An index that cannot be refreshed may still do: what counts is the installation.
     if let Err(error) = run(&mut update_command(privilege)) {
-        output::note(&format!(
-            "warning: {error}; trying with the package index as it is"
-        ));
+        output::note(&format!("warning: {error}; trying with the package index as it is"));
     }
     run(install_command(privilege, packages).args(WAITS))
 }

@@ -91,13 +91,8 @@ impl Compared {
 
     /// The bar and what was measured, in print.
     fn numbers(&self) -> [String; 2] {
-        [self.most, self.measured].map(|x| {
-            if self.ratio {
-                format!("{x:.3}×")
-            } else {
-                thousands(x as u64)
-            }
-        })
+        [self.most, self.measured]
+            .map(|x| if self.ratio { format!("{x:.3}×") } else { thousands(x as u64) })
     }
 }
 

@@ -228,10 +228,7 @@ mod tests {
         assert_eq!(counted.expect("all are known"), 3);
         let refused = image([0xBF00, 0xEE30, 0x0B01, 0x4770]).m4f_instructions(); // vadd.f64 d0, d0, d1
         let error = refused.expect_err("a double").to_string();
-        assert!(
-            error.contains("`tick` has [ee30, b01] at 0x1002"),
-            "{error}"
-        );
+        assert!(error.contains("`tick` has [ee30, b01] at 0x1002"), "{error}");
     }
 
     #[test]
@@ -247,10 +244,7 @@ mod tests {
         let jumps = image([0xbf00, 0x469f, 0x4770]); // mov pc, r3
         let error = Reach::of(&jumps, |f| f.is_named(|name| name == "tick")).err();
         let error = error.expect("refused").to_string();
-        assert!(
-            error.contains("tick → callee calls through a register at 0x1012"),
-            "{error}"
-        );
+        assert!(error.contains("tick → callee calls through a register at 0x1012"), "{error}");
         assert!(Reach::of(&jumps, |_| false).is_err());
     }
 
@@ -258,9 +252,7 @@ mod tests {
     fn a_jump_into_a_table_of_branches_is_followed() {
         // addw r1, pc, #4; add.w r2, r1, r9, lsl #2; mov pc, r2; nop; b.w 0x2000; then with a table
         // elsewhere, and without one
-        let code = [
-            0xF20F, 0x0108, 0xEB01, 0x0289, 0x4697, 0xBF00, 0xF000, 0xBFF8,
-        ];
+        let code = [0xF20F, 0x0108, 0xEB01, 0x0289, 0x4697, 0xBF00, 0xF000, 0xBFF8];
         let with = |at: usize, halfword: u16| {
             let mut changed = code;
             changed[at] = halfword;

@@ -70,15 +70,10 @@ fn themed(svg: &str) -> Result<String> {
     let themes = THEME.map(|(RGBColor(r, g, b), dark)| (format!("#{r:02X}{g:02X}{b:02X}"), dark));
     for colour in svg.split("=\"#").skip(1) {
         let known = |(light, _): &(String, _)| colour.starts_with(&light[1..]);
-        refuse_if!(
-            !themes.iter().any(known),
-            "a colour of no theme: #{colour:.6}"
-        );
+        refuse_if!(!themes.iter().any(known), "a colour of no theme: #{colour:.6}");
     }
     let rules = themes.map(|(light, dark)| {
-        ["fill", "stroke"]
-            .map(|of| format!("[{of}=\"{light}\"]{{{of}:{dark}}}"))
-            .concat()
+        ["fill", "stroke"].map(|of| format!("[{of}=\"{light}\"]{{{of}:{dark}}}")).concat()
     });
     let font = format!(" font-family=\"{FONT}\"");
     let svg = svg.replace(" opacity=\"1\"", "").replace(&font, "");
@@ -234,11 +229,7 @@ impl ValueFormatter<f64> for Axis {
 /// A number as an exponent.
 fn raised(power: i32) -> String {
     let digits: Vec<char> = "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().collect();
-    let raised = |letter: char| {
-        letter
-            .to_digit(10)
-            .map_or('⁻', |digit| digits[digit as usize])
-    };
+    let raised = |letter: char| letter.to_digit(10).map_or('⁻', |digit| digits[digit as usize]);
     power.to_string().chars().map(raised).collect()
 }
 

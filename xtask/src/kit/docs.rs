@@ -25,11 +25,8 @@ pub struct Page<'a> {
 }
 
 /// The cost of a tick of the default scene.
-pub const TICK: Page<'_> = Page {
-    file: "docs/scenes.md",
-    name: "demo",
-    command: "cargo xtask demo --write-docs",
-};
+pub const TICK: Page<'_> =
+    Page { file: "docs/scenes.md", name: "demo", command: "cargo xtask demo --write-docs" };
 
 impl Page<'_> {
     /// Puts a text between the markers.
@@ -81,10 +78,7 @@ impl Page<'_> {
         if self.name.is_empty() {
             return text.to_owned();
         }
-        seal::sealed(&format!(
-            "<!-- written by `{}`: do not edit -->\n{text}",
-            self.command
-        ))
+        seal::sealed(&format!("<!-- written by `{}`: do not edit -->\n{text}", self.command))
     }
 
     fn split<'a>(&self, page: &'a str) -> Result<(&'a str, &'a str, &'a str)> {
@@ -206,9 +200,7 @@ pub fn compare_picture(
     if same {
         return Ok(());
     }
-    Err(check!(
-        "{file} is not the picture of today's figures: `{command}` draws it anew"
-    ))
+    Err(check!("{file} is not the picture of today's figures: `{command}` draws it anew"))
 }
 
 /// A picture with each number in it replaced by the same sign.

@@ -120,9 +120,7 @@ fn functions(file: &object::File<'_>) -> Vec<Function> {
     };
     let mut marks: Vec<(u64, bool)> = file.symbols().filter_map(mark).collect();
     marks.sort_unstable();
-    let code = file
-        .symbols()
-        .filter(|symbol| symbol.kind() == SymbolKind::Text);
+    let code = file.symbols().filter(|symbol| symbol.kind() == SymbolKind::Text);
     let mut symbols: Vec<_> = code.filter(|symbol| symbol.size() > 0).collect();
     symbols.sort_by_key(ObjectSymbol::address);
     let mut functions: Vec<Function> = Vec::new();

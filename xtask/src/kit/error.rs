@@ -17,10 +17,7 @@ pub type Result<T> = std::result::Result<T, Error>;
 pub enum Error {
     /// A program could not be started at all.
     #[error("cannot start `{command}`: {source}")]
-    Spawn {
-        command: String,
-        source: std::io::Error,
-    },
+    Spawn { command: String, source: std::io::Error },
     #[error("`{command}` failed ({status}){output}")]
     Failed {
         command: String,
@@ -78,19 +75,13 @@ impl Error {
 
     pub fn failed(command: &Command, status: ExitStatus, output: String) -> Self {
         let command = display(command);
-        Self::Failed {
-            command,
-            status,
-            output,
-        }
+        Self::Failed { command, status, output }
     }
 
     /// The error of a program of ours in its own words; the command is for those who ask for it.
     pub fn reason(self) -> Self {
         let text = self.to_string();
-        let said = text
-            .split_once("\nerror: ")
-            .map(|(_, said)| said.to_owned());
+        let said = text.split_once("\nerror: ").map(|(_, said)| said.to_owned());
         let said = said.filter(|_| !VERBOSE.load(Ordering::Relaxed));
         said.map_or(self, Self::Check)
     }

@@ -38,9 +38,7 @@ pub fn build_with(
     command.args(bins.iter().flat_map(|bin| ["--bin", bin]));
     command.envs(included);
     shell::capture(&mut command)?;
-    bins.iter()
-        .map(|bin| existing(toolchain.elf(workspace, profile, bin)))
-        .collect()
+    bins.iter().map(|bin| existing(toolchain.elf(workspace, profile, bin))).collect()
 }
 
 /// The feature of the bins for robots from files.

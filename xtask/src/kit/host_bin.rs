@@ -86,10 +86,7 @@ pub fn same_lines(name: &str, on_target: &[impl AsRef<str>], on_host: &str) -> R
     let on_host: Vec<&str> = on_host.lines().collect();
     for (target, host) in std::iter::zip(on_target, &on_host) {
         let target = target.as_ref();
-        refuse_if!(
-            target != *host,
-            "`{name}` differs:\n  QEMU: {target}\n  host: {host}"
-        );
+        refuse_if!(target != *host, "`{name}` differs:\n  QEMU: {target}\n  host: {host}");
     }
     let (there, here) = (on_target.len(), on_host.len());
     refuse_if!(

@@ -40,15 +40,8 @@ pub fn command<W: AsRef<OsStr>>(
 /// Imports a file for a report of its own; the Rust file is written to `file`.
 pub fn import(workspace: &Workspace, words: &[&str], file: PathBuf) -> Result<Robot> {
     let path = file.to_string_lossy().into_owned();
-    let text = command(
-        workspace,
-        "import",
-        &[words, &["--json", "--out", &path]].concat(),
-    )?;
-    Ok(Robot {
-        file,
-        report: report(&text)?,
-    })
+    let text = command(workspace, "import", &[words, &["--json", "--out", &path]].concat())?;
+    Ok(Robot { file, report: report(&text)? })
 }
 
 /// The report of `robot-import` from its JSON.

@@ -108,9 +108,7 @@ mod tests {
     #[test]
     fn what_is_in_no_phase_is_between_them() {
         let mut samples = [Sample::of(0, [19, 39, 0]); REGIONS.len()];
-        (0..)
-            .zip(&mut samples)
-            .for_each(|(region, one)| one.region = region);
+        (0..).zip(&mut samples).for_each(|(region, one)| one.region = region);
         samples[0] = Sample::of(0, [100, 210, 0]);
         let costs = costs(&samples, 1, |_| true).expect("complete");
         let between = costs[REGIONS.len()];

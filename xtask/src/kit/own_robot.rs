@@ -102,10 +102,7 @@ mod tests {
         assert!(reason([41, 41, 41]).starts_with("41 joints are more than the 40"));
         // A universal joint, and a free base.
         for sizes in [[6, 7, 7], [7, 13, 12]] {
-            assert!(
-                reason(sizes).contains("joints of one coordinate"),
-                "{sizes:?}"
-            );
+            assert!(reason(sizes).contains("joints of one coordinate"), "{sizes:?}");
         }
         assert!(refusal(&json!({ "sizes": [21, 21, 21] }), 20).is_some());
     }

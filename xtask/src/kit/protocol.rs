@@ -119,10 +119,9 @@ impl Recording {
                 self.ticks = ticks.parse().ok()?;
                 self.bound = number(bound)?;
             }
-            ["effect", name, bytes] => self.effects.push(Named {
-                name: name.into(),
-                bytes: bytes.parse().ok()?,
-            }),
+            ["effect", name, bytes] => {
+                self.effects.push(Named { name: name.into(), bytes: bytes.parse().ok()? })
+            }
             ["gains", omega_n, zeta, ref pose @ ..] => {
                 self.gains = Some(Gains {
                     omega_n: number(omega_n)?,
@@ -170,9 +169,7 @@ impl Recording {
         if self.stack.is_none() {
             lacks.push("its `stack`".to_owned());
         }
-        let needed = PLANTS
-            .iter()
-            .flat_map(|plant| [FEEDFORWARD, PD].map(|law| (plant, law)));
+        let needed = PLANTS.iter().flat_map(|plant| [FEEDFORWARD, PD].map(|law| (plant, law)));
         let missing = needed.filter(|(plant, law)| self.trajectory(plant, law).is_none());
         lacks.extend(missing.map(|(plant, law)| format!("`run {plant} {law}`")));
         for run in &self.runs {
@@ -225,10 +222,7 @@ impl Recording {
 /// This number of finite numbers, at least one of them.
 fn numbers(words: &[&str], count: usize) -> Option<Vec<f64>> {
     let is_all = count > 0 && words.len() == count;
-    words
-        .iter()
-        .map(|word| number(word).filter(|_| is_all))
-        .collect()
+    words.iter().map(|word| number(word).filter(|_| is_all)).collect()
 }
 
 fn number(word: &str) -> Option<f64> {
@@ -263,16 +257,9 @@ mod tests {
             "max [1e-3, 2e-3]",
             "stack 512",
         ] {
-            assert!(
-                recording.line(line).is_ok_and(|accepted| accepted),
-                "{line}"
-            );
+            assert!(recording.line(line).is_ok_and(|accepted| accepted), "{line}");
         }
-        assert!(
-            recording
-                .line("hello there")
-                .is_ok_and(|accepted| !accepted)
-        );
+        assert!(recording.line("hello there").is_ok_and(|accepted| !accepted));
         for line in [
             "sample 1 0.1",
             "rms NaN 0",

@@ -70,15 +70,7 @@ pub struct Run<'a> {
 impl<'a> Run<'a> {
     /// A firmware that logs, and is measured if there is a meter.
     pub fn logging(name: &'a str, elf: &'a Path, meter: Option<(&'a Path, &'a Path)>) -> Self {
-        Self {
-            name,
-            elf,
-            meter,
-            reading: "",
-            logs: true,
-            serial: "none",
-            words: &[],
-        }
+        Self { name, elf, meter, reading: "", logs: true, serial: "none", words: &[] }
     }
 }
 
@@ -110,11 +102,7 @@ impl Qemu {
         let program = program.into();
         let text = shell::capture(Command::new(&program).arg("--version"))?;
         let version = text.lines().next().unwrap_or_default().trim().to_owned();
-        Ok(Self {
-            version,
-            program,
-            interface: OnceLock::new(),
-        })
+        Ok(Self { version, program, interface: OnceLock::new() })
     }
 
     /// Whether QEMUs of this version are known to take the meter.
@@ -249,11 +237,7 @@ impl Qemu {
         let command = self.command(MACHINE, run)?;
         listener.arg("--").arg(command.get_program());
         listener.args(command.get_args());
-        listener.envs(
-            command
-                .get_envs()
-                .filter_map(|(name, value)| Some((name, value?))),
-        );
+        listener.envs(command.get_envs().filter_map(|(name, value)| Some((name, value?))));
         Ok(())
     }
 
@@ -305,9 +289,6 @@ impl Decoder for Defmt<'_> {
     fn decode(&mut self) -> std::result::Result<Line, DecodeError> {
         let frame = self.0.decode()?;
         let is_error = frame.level().is_some_and(|level| level.as_str() == "error");
-        Ok(Line {
-            text: frame.display_message().to_string(),
-            is_error,
-        })
+        Ok(Line { text: frame.display_message().to_string(), is_error })
     }
 }

@@ -53,11 +53,7 @@ impl Row {
     /// A row for tests, of robot, algorithm, form and inputs, with sines and cosines computed
     /// inside.
     pub fn sample([robot, algorithm, form, inputs]: [&str; 4], cycles: u64) -> Self {
-        let spread = Spread {
-            min: cycles,
-            median: cycles,
-            max: cycles,
-        };
+        let spread = Spread { min: cycles, median: cycles, max: cycles };
         Self {
             robot: robot.into(),
             algorithm: algorithm.into(),
@@ -79,10 +75,7 @@ impl Row {
 impl Row {
     pub fn key(&self) -> String {
         let trig = if self.trig { " trig" } else { "" };
-        format!(
-            "{} {} {} {}{trig}",
-            self.robot, self.algorithm, self.form, self.inputs
-        )
+        format!("{} {} {} {}{trig}", self.robot, self.algorithm, self.form, self.inputs)
     }
 
     /// The figures that bars are set for.
@@ -138,9 +131,8 @@ pub fn run(
 ) -> Result<(Vec<Row>, Vec<String>)> {
     let image = Image::read(elf)?;
     let (lines, samples) = watch(tools, meter, name, elf, "")?;
-    let rows = cut(&lines, &samples, |address| {
-        code_bytes(&image, address, |name| name.contains("libm"))
-    })?;
+    let rows =
+        cut(&lines, &samples, |address| code_bytes(&image, address, |name| name.contains("libm")))?;
     Ok((rows, lines))
 }
 

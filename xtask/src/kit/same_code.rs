@@ -23,17 +23,10 @@ pub fn same(image: &Image, one: u64, other: u64) -> Result<usize> {
     let [a, b] = [one, other].map(|address| function(image, address).map(acts));
     let (a, b) = (a?, b?);
     if let Some(at) = std::iter::zip(&a, &b).position(|(a, b)| a != b) {
-        bail!(
-            "instruction {at} of {one:#x} is {:x?}, that of {other:#x} {:x?}",
-            a[at],
-            b[at]
-        );
+        bail!("instruction {at} of {one:#x} is {:x?}, that of {other:#x} {:x?}", a[at], b[at]);
     }
     let [many, others] = [a.len(), b.len()];
-    refuse_if!(
-        many != others,
-        "{one:#x} has {many} instructions, {other:#x} {others}"
-    );
+    refuse_if!(many != others, "{one:#x} has {many} instructions, {other:#x} {others}");
     Ok(many)
 }
 
@@ -55,11 +48,7 @@ fn acts(function: &Function) -> Vec<Act> {
 }
 
 fn act(function: &Function, instruction: Instruction) -> Act {
-    let plain = Act {
-        opcode: instruction.code,
-        leaves: None,
-        words: Vec::new(),
-    };
+    let plain = Act { opcode: instruction.code, leaves: None, words: Vec::new() };
     let Some(reached) = instruction.relative() else {
         return plain;
     };

@@ -102,10 +102,7 @@ impl Options {
     /// The options of a step that runs beside others, where a question would stand among their
     /// output: it installs what the user has agreed to, and nothing else.
     pub fn without_questions(self) -> Self {
-        Self {
-            no_install: !self.agrees(),
-            ..self
-        }
+        Self { no_install: !self.agrees(), ..self }
     }
 }
 
@@ -114,9 +111,7 @@ impl Options {
 /// # Errors
 /// The user says no or cannot be asked, or may not install packages.
 pub fn may_install(options: Options, commands: &[String], packages: bool) -> Result<()> {
-    let missing = || Error::Missing {
-        commands: commands.to_vec(),
-    };
+    let missing = || Error::Missing { commands: commands.to_vec() };
     if options.no_install || packages && Privilege::this() == Privilege::None {
         return Err(missing());
     }
@@ -135,9 +130,7 @@ pub fn may_install(options: Options, commands: &[String], packages: bool) -> Res
     let _ = write!(std::io::stderr(), "Run these commands? [y/N] ");
     let mut answer = String::new();
     let is_read = std::io::stdin().read_line(&mut answer).is_ok();
-    (is_read && is_yes(&answer))
-        .then_some(())
-        .ok_or_else(missing)
+    (is_read && is_yes(&answer)).then_some(()).ok_or_else(missing)
 }
 
 fn is_yes(answer: &str) -> bool {

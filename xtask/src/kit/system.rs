@@ -114,10 +114,7 @@ mod tests {
         for (text, system) in [
             ("ID=debian\n", System::Debian),
             ("ID=ubuntu\nID_LIKE=debian\n", System::Debian),
-            (
-                "NAME=\"Rocky\"\nID=\"rocky\"\nID_LIKE=\"rhel centos fedora\"\n",
-                System::Fedora,
-            ),
+            ("NAME=\"Rocky\"\nID=\"rocky\"\nID_LIKE=\"rhel centos fedora\"\n", System::Fedora),
             ("ID=nixos\n", System::Other),
         ] {
             assert_eq!(System::from_os_release(text), system, "{text}");

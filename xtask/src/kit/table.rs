@@ -10,10 +10,7 @@ pub struct Table {
 
 impl Table {
     pub fn new(head: &[&str]) -> Self {
-        Self {
-            head: head.iter().map(ToString::to_string).collect(),
-            rows: Vec::new(),
-        }
+        Self { head: head.iter().map(ToString::to_string).collect(), rows: Vec::new() }
     }
 
     pub fn row(&mut self, cells: impl IntoIterator<Item = String>) {
@@ -91,9 +88,7 @@ pub fn plain(markdown: &str) -> String {
 /// one again.
 fn folded(rows: &[Vec<&str>], room: usize) -> String {
     let widths = rows.first().map_or_else(Vec::new, |head| {
-        head.iter()
-            .map(|cell| cell.chars().count() + 2)
-            .collect::<Vec<_>>()
+        head.iter().map(|cell| cell.chars().count() + 2).collect::<Vec<_>>()
     });
     let (mut text, mut from) = (String::new(), 1);
     while from < widths.len() || text.is_empty() && !rows.is_empty() {
@@ -104,17 +99,11 @@ fn folded(rows: &[Vec<&str>], room: usize) -> String {
         });
         let to = from + fits.count().max(1);
         for row in rows {
-            let cells = row[..1]
-                .iter()
-                .chain(row.get(from..to.min(row.len())).unwrap_or_default());
+            let cells = row[..1].iter().chain(row.get(from..to.min(row.len())).unwrap_or_default());
             let line: Vec<&str> = cells.copied().collect();
             let line = line.join("  ");
             let is_rule = line.starts_with("---");
-            let line = if is_rule {
-                line.replace(['-', ':'], "─")
-            } else {
-                line
-            };
+            let line = if is_rule { line.replace(['-', ':'], "─") } else { line };
             text += &format!("  {}\n", line.trim_end());
         }
         from = to;
@@ -144,11 +133,8 @@ mod tests {
 
     #[test]
     fn a_wide_table_continues_below() {
-        let rows = [
-            vec!["mrad", "one", "two"],
-            vec!["----", "--:", "--:"],
-            vec!["RMS ", "  1", "  2"],
-        ];
+        let rows =
+            [vec!["mrad", "one", "two"], vec!["----", "--:", "--:"], vec!["RMS ", "  1", "  2"]];
         let whole = "  mrad  one  two\n  ────  ───  ───\n  RMS     1    2\n";
         assert_eq!(folded(&rows, 16), whole);
         let parts =
@@ -163,13 +149,7 @@ mod tests {
     fn a_table_lines_up() {
         let mut table = Table::new(&["phase", "µs"]);
         table.row(["read".into(), thousands(1234)]);
-        assert_eq!(
-            table.text(),
-            "  phase     µs\n  ─────  ─────\n  read   1,234\n"
-        );
-        assert_eq!(
-            table.markdown(),
-            "| phase |    µs |\n| ----- | ----: |\n| read  | 1,234 |\n"
-        );
+        assert_eq!(table.text(), "  phase     µs\n  ─────  ─────\n  read   1,234\n");
+        assert_eq!(table.markdown(), "| phase |    µs |\n| ----- | ----: |\n| read  | 1,234 |\n");
     }
 }

@@ -106,9 +106,7 @@ fn native_paths() -> Option<&'static str> {
 /// rust-src, writes their paths as one that has none: the firmware's messages name them, so that
 /// its size would depend on the component.
 fn recorded_paths(sysroot: &Path, version: &str) -> Option<String> {
-    let hash = version
-        .lines()
-        .find_map(|line| line.strip_prefix("commit-hash: "))?;
+    let hash = version.lines().find_map(|line| line.strip_prefix("commit-hash: "))?;
     let sources = sysroot.join("lib/rustlib/src/rust");
     has_sources(sysroot).then(|| {
         format!(
@@ -233,19 +231,13 @@ mod tests {
         let setting = recorded_paths(sysroot.path(), version).expect("the sources are there");
         let root = sysroot.path().display();
         let flag = format!("--remap-path-prefix={root}/lib/rustlib/src/rust=/rustc/5980");
-        assert_eq!(
-            setting,
-            format!("target.thumbv7em-none-eabihf.rustflags=['{flag}']")
-        );
+        assert_eq!(setting, format!("target.thumbv7em-none-eabihf.rustflags=['{flag}']"));
     }
 
     #[test]
     fn a_release_is_read_from_what_programs_say_of_themselves() {
         assert_eq!(release("rustc 1.96.0 (ac68faa20 2026-05-25)"), (1, 96));
-        assert_eq!(
-            release("QEMU emulator version 7.2.22 (Debian 1:7.2)"),
-            (7, 2)
-        );
+        assert_eq!(release("QEMU emulator version 7.2.22 (Debian 1:7.2)"), (7, 2));
         assert_eq!(release("1.95"), (1, 95));
     }
 }

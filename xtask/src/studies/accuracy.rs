@@ -37,13 +37,7 @@ pub use robot::Robot;
 #[command(group = ArgGroup::new("chosen").args(["robot", "file"]))]
 pub struct Args {
     /// Only this robot
-    #[arg(
-        long,
-        value_enum,
-        value_name = "NAME",
-        ignore_case = true,
-        conflicts_with = "file"
-    )]
+    #[arg(long, value_enum, value_name = "NAME", ignore_case = true, conflicts_with = "file")]
     robot: Option<Robot>,
     #[command(flatten)]
     own: own_robot::Args,
@@ -75,10 +69,7 @@ pub struct Args {
 
 /// Measures, writes page and pictures, and prints; or chooses.
 pub fn run(options: Options, args: Args) -> Result<ExitCode> {
-    if args
-        .proven_error
-        .is_some_and(|allowed| allowed.kind != Kind::Inverse)
-    {
+    if args.proven_error.is_some_and(|allowed| allowed.kind != Kind::Inverse) {
         bail!("only errors of torques are proven: --proven-error 0.01Nm");
     }
     let budget = match (args.error.or(args.proven_error), args.cycles) {
@@ -155,11 +146,7 @@ fn show(budget: Budget, points: &[Point], json: bool) -> Result<()> {
 /// are.
 pub fn check(bench: &Bench<'_>) -> Result<String> {
     let (workspace, tools) = (bench.workspace, bench.tools()?);
-    let plan = Plan {
-        robots: Robot::COMPUTED.to_vec(),
-        quick: true,
-        kind: Some(Kind::Inverse),
-    };
+    let plan = Plan { robots: Robot::COMPUTED.to_vec(), quick: true, kind: Some(Kind::Inverse) };
     let measured = plan.run(workspace, tools)?;
     let (single, host, rustc) = (&measured.single, &measured.host, &measured.rustc);
     let generated = printed::check(&measured.generated, &measured.single)?;

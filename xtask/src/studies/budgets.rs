@@ -16,15 +16,8 @@ use crate::studies::scenes::report::Report;
 const OTHER_RUSTC_FLASH: f64 = 0.06;
 
 /// The figures that bars are set for.
-const BARRED: [&str; 7] = [
-    "instructions",
-    "cycles",
-    "code_bytes",
-    "stack_bytes",
-    "flash_bytes",
-    "ram_bytes",
-    "ns",
-];
+const BARRED: [&str; 7] =
+    ["instructions", "cycles", "code_bytes", "stack_bytes", "flash_bytes", "ram_bytes", "ns"];
 
 const FILE: &str = "budgets.toml";
 
@@ -55,10 +48,7 @@ struct Budgets {
 impl Budgets {
     fn of(&self, scene: &str) -> Option<Budget> {
         self.scenes.iter().find_map(|(rustc, scenes)| {
-            Some(Budget {
-                rustc: rustc.clone(),
-                figures: *scenes.get(scene)?,
-            })
+            Some(Budget { rustc: rustc.clone(), figures: *scenes.get(scene)? })
         })
     }
 
@@ -113,10 +103,7 @@ impl Budget {
     /// The figures that exceed this budget, in words.
     fn exceeded_by(&self, measured: &Self) -> Vec<String> {
         let mut wrong = Vec::new();
-        for (what, (most, now)) in FIGURES
-            .iter()
-            .zip(self.figures.iter().zip(measured.figures))
-        {
+        for (what, (most, now)) in FIGURES.iter().zip(self.figures.iter().zip(measured.figures)) {
             let more = match *what {
                 _ if self.rustc == measured.rustc => 0.0,
                 "flash_bytes" => OTHER_RUSTC_FLASH,
@@ -161,9 +148,7 @@ fn put(workspace: &Workspace, scene: &str, budget: Budget) -> Result<()> {
 
 /// The bars of rows and of pairs of rows.
 pub fn bars(workspace: &Workspace) -> Result<Bars> {
-    let Budgets {
-        mut bars, ratios, ..
-    } = read(workspace)?;
+    let Budgets { mut bars, ratios, .. } = read(workspace)?;
     bars.extend(ratios);
     Ok(bars)
 }
@@ -188,9 +173,7 @@ fn hold_scene(budgets: &Budgets, scene: &str, measured: &Budget) -> Result<Strin
         !exceeded.is_empty(),
         "over budget: {exceeded} (budget of {ours}, measured with {theirs})"
     );
-    Ok(format!(
-        "tick {cycles} of {most} cycles, stack {stack} of {most_stack} B"
-    ))
+    Ok(format!("tick {cycles} of {most} cycles, stack {stack} of {most_stack} B"))
 }
 
 #[cfg(test)]

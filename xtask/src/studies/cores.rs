@@ -98,26 +98,16 @@ pub fn check(bench: &Bench<'_>) -> Result<String> {
     let lacks = lacking.iter().flat_map(|core| core.missing());
     let lacks: Vec<String> = lacks.chain(boards.iter().map(add)).collect();
     if cores.is_empty() {
-        return Err(Error::Skipped(format!(
-            "not installed: {}",
-            lacks.join(", ")
-        )));
+        return Err(Error::Skipped(format!("not installed: {}", lacks.join(", "))));
     }
     let report = Report::measure(workspace, &cores)?;
     let written = PAGE.written(&page)?;
     let fresh = report.markdown()?;
     let names: Vec<&str> = cores.iter().map(|core| core.name).collect();
-    let (written, fresh) = (
-        rows_of(written, &names, &boards),
-        rows_of(&fresh, &names, &boards),
-    );
+    let (written, fresh) = (rows_of(written, &names, &boards), rows_of(&fresh, &names, &boards));
     docs::compare(PAGE.file, PAGE.command, &written, &fresh, &report.rustc)?;
     let skipped = lacks.iter().map(|lack| format!("; skipped: {lack}"));
-    Ok(format!(
-        "{}{}",
-        names.join(", "),
-        skipped.collect::<String>()
-    ))
+    Ok(format!("{}{}", names.join(", "), skipped.collect::<String>()))
 }
 
 /// Fails unless a core computes the same bits as the host.
@@ -150,10 +140,8 @@ impl Report {
             let mine: Vec<&Torques> = row.scenes.iter().map(|scene| &scene.torques).collect();
             same_bits(core.name, &mine, &torques)?;
             for scene in &row.scenes {
-                let (tick, stack) = (
-                    format!("{} tick", scene.torques.scene),
-                    scene.bound.unwrap_or(scene.stack),
-                );
+                let (tick, stack) =
+                    (format!("{} tick", scene.torques.scene), scene.bound.unwrap_or(scene.stack));
                 bars::hold(&bars, &tick, [("stack_bytes", stack as f64)])
                     .map_err(|error| check!("{}, {error}", core.name))?;
             }
@@ -173,11 +161,7 @@ mod tests {
     use super::{Torques, same_bits};
 
     fn torques(scene: &str, digest: &str) -> Torques {
-        Torques {
-            scene: scene.into(),
-            ticks: 10,
-            digest: digest.into(),
-        }
+        Torques { scene: scene.into(), ticks: 10, digest: digest.into() }
     }
 
     #[test]
@@ -189,10 +173,7 @@ mod tests {
         let error = same_bits("M33", &[small, &other], &host).expect_err("another bit");
         assert!(error.to_string().contains("12aa"), "{error}");
         assert!(same_bits("M33", &[small], &host).is_err());
-        let shorter = Torques {
-            ticks: 9,
-            ..ur5e.clone()
-        };
+        let shorter = Torques { ticks: 9, ..ur5e.clone() };
         assert!(same_bits("M33", &[small, &shorter], &host).is_err());
     }
 }

@@ -86,8 +86,7 @@ fn run_own(options: Options, robot: &OwnRobot, json: bool) -> Result<ExitCode> {
     )?;
     drop(building);
     let mut rows = rows::run_all(&workspace, &tools, bins, &elves)?.0;
-    rows.iter_mut()
-        .for_each(|row| row.robot.clone_from(&robot.name));
+    rows.iter_mut().for_each(|row| row.robot.clone_from(&robot.name));
     if bins.len() < OWN_BINS.len() {
         let why = "M, forward dynamics and Jacobians are not measured: the firmware's RAM";
         output::note(&format!("{why} has room for {FORWARD_JOINTS} joints"));
@@ -112,12 +111,7 @@ fn measure_first(workspace: &Workspace, tools: &Tools) -> Result<Report> {
 fn report(workspace: &Workspace, tools: &Tools, rows: Vec<Row>, bars: Bars) -> Result<Report> {
     let mut small = rows::measure(workspace, tools, SMALL, &BINS[..1])?;
     small.retain(|row| row.form == "engine");
-    Ok(Report {
-        rows,
-        small,
-        bars,
-        rustc: tools.toolchain.rustc_version()?,
-    })
+    Ok(Report { rows, small, bars, rustc: tools.toolchain.rustc_version()? })
 }
 
 /// Fails unless the page says what every row costs today and every bar holds. A full run measures

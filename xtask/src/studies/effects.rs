@@ -173,11 +173,7 @@ mod tests {
 
     #[test]
     fn an_effect_costs_what_its_scene_takes_more() {
-        let rows = [
-            row("viscous", 130),
-            row("rigid_body", 100),
-            row("less_gravity", 80),
-        ];
+        let rows = [row("viscous", 130), row("rigid_body", 100), row("less_gravity", 80)];
         let lines = [
             "holds ur5e core viscous 40",
             "config …",
@@ -188,10 +184,8 @@ mod tests {
         let torques = ["effect ur5e viscous 3.5", "effect ur5e less_gravity 40"];
         let torques = torques.iter().filter_map(|line| torque(line)).collect();
         let prices = priced(&rows, &sizes, &torques).expect("complete");
-        let found: Vec<_> = prices
-            .iter()
-            .map(|p| (&*p.effect, p.cycles, p.ram_bytes, p.torque_rms_nm))
-            .collect();
+        let found: Vec<_> =
+            prices.iter().map(|p| (&*p.effect, p.cycles, p.ram_bytes, p.torque_rms_nm)).collect();
         assert_eq!(found, [("viscous", 30, 24, 3.5), ("gravity", 20, 16, 40.0)]);
         assert!(priced(&rows, &sizes, &BTreeMap::new()).is_err());
         assert!(priced(&rows[..1], &sizes, &torques).is_err());

@@ -21,10 +21,7 @@ use crate::studies::study::{Bench, Found};
 /// Lines of flags; the first is that of `.cargo/config.toml`.
 const LINES: [(&str, Option<&str>); 4] = [
     ("fast", None),
-    (
-        "quiet",
-        Some("-Ctarget-cpu=cortex-m4 -Cllvm-args=-misched-prera-direction=topdown"),
-    ),
+    ("quiet", Some("-Ctarget-cpu=cortex-m4 -Cllvm-args=-misched-prera-direction=topdown")),
     (QUALIFIABLE, Some("-Ctarget-cpu=cortex-m4")),
     ("none", Some("")),
 ];
@@ -50,13 +47,9 @@ pub fn measure(bench: &Bench<'_>) -> Result<Found> {
             let mut command = tools.toolchain.firmware(workspace, "build");
             command.args(["--profile", RELEASE]);
             command.args(bins.iter().flat_map(|bin| ["--bin", bin]));
-            command
-                .envs(flags.iter().map(|flags| ("RUSTFLAGS", flags)))
-                .envs(debug);
+            command.envs(flags.iter().map(|flags| ("RUSTFLAGS", flags))).envs(debug);
             shell::capture(&mut command)?;
-            let elves = bins
-                .iter()
-                .map(|bin| tools.toolchain.elf(workspace, RELEASE, bin));
+            let elves = bins.iter().map(|bin| tools.toolchain.elf(workspace, RELEASE, bin));
             Ok(elves.collect::<Vec<_>>())
         };
         let mut rows = rows::run_all(workspace, tools, &BINS, &build(&BINS, None)?)?.0;
@@ -128,10 +121,7 @@ fn functions_of_rust(elf: &Path) -> Result<BTreeMap<String, BTreeSet<String>>> {
     let reach = Reach::of(&image, |f| f.is_named(|name| name.contains("marked_tick")))?;
     let mut found: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
     for one in reach.functions().flat_map(|(f, _)| f.instructions()) {
-        let mut frames = context
-            .find_frames(one.address)
-            .skip_all_loads()
-            .map_err(wrong)?;
+        let mut frames = context.find_frames(one.address).skip_all_loads().map_err(wrong)?;
         while let Some(frame) = frames.next().map_err(wrong)? {
             let path = frame.location.and_then(|at| at.file);
             let path = path.and_then(|path| path.split_once(RUST));
@@ -179,9 +169,8 @@ mod tests {
     /// By how much the first figures of pairs exceed the second: `37 to 40 %`.
     fn excess(pairs: &[[f64; 2]]) -> String {
         let excess = pairs.iter().map(|[more, less]| 100.0 * (more / less - 1.0));
-        let [least, most] = excess.fold([f64::INFINITY, 0.0], |[least, most], one| {
-            [least.min(one), most.max(one)]
-        });
+        let [least, most] =
+            excess.fold([f64::INFINITY, 0.0], |[least, most], one| [least.min(one), most.max(one)]);
         match [least, most].map(|percent| format!("{percent:.0}")) {
             [least, most] if least == most => format!("{least} %"),
             [least, most] => format!("{least} to {most} %"),
@@ -193,11 +182,8 @@ mod tests {
         let (flags, guide) = (read("docs/flags.md"), read(PAGE));
         let rows = rows_of(&flags);
         let pairs = |end: &str, [more, less]: [usize; 2]| -> Vec<[f64; 2]> {
-            let rows = rows
-                .iter()
-                .filter(|row| row.len() == 5 && row[0].ends_with(end));
-            rows.map(|row| [cycles(row[more]), cycles(row[less])])
-                .collect()
+            let rows = rows.iter().filter(|row| row.len() == 5 && row[0].ends_with(end));
+            rows.map(|row| [cycles(row[more]), cycles(row[less])]).collect()
         };
         let profiles = rows_of(&guide);
         let of_profile = |name: &str, column: usize| {
@@ -210,9 +196,7 @@ mod tests {
         let mut full = pairs("rnea engine full", [none, quiet]);
         full.push(project(3));
         let gravity = excess(&pairs("engine gravity", [none, quiet]));
-        let all = [" full", " gravity"]
-            .map(|end| pairs(end, [quiet, fast]))
-            .concat();
+        let all = [" full", " gravity"].map(|end| pairs(end, [quiet, fast])).concat();
         let without = format!("inverse dynamics takes {} more cycles", excess(&full));
         let tick = format!("a tick takes {} more cycles", excess(&[project(1)]));
         let megabytes = of_profile("dev at 0, `package", 4) / 1e6;
@@ -242,11 +226,7 @@ mod tests {
         let rows = rows.iter().filter(|row| row.len() == 5);
         let in_time = rows.map(|row| {
             let share = row[2].trim_end_matches(" %");
-            assert_eq!(
-                row[0].starts_with("dev at 0"),
-                number(share) > 100.0,
-                "{row:?}"
-            );
+            assert_eq!(row[0].starts_with("dev at 0"), number(share) > 100.0, "{row:?}");
         });
         assert_eq!(in_time.count(), 10);
     }

@@ -81,8 +81,7 @@ impl Suite {
             false => which == row.scalar,
         };
         let rows = self.rows.iter().filter(|row| row.number == case.number);
-        rows.filter(naive)
-            .max_by(|a, b| a.share().total_cmp(&b.share()))
+        rows.filter(naive).max_by(|a, b| a.share().total_cmp(&b.share()))
     }
 
     /// A row for each case.

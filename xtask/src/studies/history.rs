@@ -62,26 +62,19 @@ pub fn measure(bench: &Bench<'_>) -> Result<Found> {
         eliminations: SHARED.text(workspace, "eliminations")?.trim_end().into(),
         rustc: bench.rustc()?,
     };
-    Ok(Found {
-        rustc: Some(report.rustc.clone()),
-        ..Found::new(report.markdown()?, &report.rows)?
-    })
+    Ok(Found { rustc: Some(report.rustc.clone()), ..Found::new(report.markdown()?, &report.rows)? })
 }
 
 impl Report {
     /// The rows of an algorithm, by length.
     fn of<'a>(&'a self, algorithm: &'a str) -> impl Iterator<Item = &'a Row> {
-        self.rows
-            .iter()
-            .filter(move |row| row.algorithm == algorithm)
+        self.rows.iter().filter(move |row| row.algorithm == algorithm)
     }
 
     /// An algorithm's row at a length.
     fn at(&self, algorithm: &str, joints: usize) -> Option<&Row> {
         let key = (algorithm, joints);
-        self.rows
-            .iter()
-            .find(|row| (&*row.algorithm, row.joints) == key)
+        self.rows.iter().find(|row| (&*row.algorithm, row.joints) == key)
     }
 
     /// Flops, cycles, and the cycles in relation to those of the core, at [`COMPARED`].
@@ -129,9 +122,7 @@ impl Report {
             let each = all.iter().filter(|(key, _)| !key.starts_with("engine"));
             let shares = each.filter_map(|(key, name)| Some((cycles(key)? / cycles(core)?, name)));
             let fewer = shares.filter(|(share, _)| *share < 1.0);
-            fewer
-                .map(|(share, name)| format!("{name} {share:.3}"))
-                .collect()
+            fewer.map(|(share, name)| format!("{name} {share:.3}")).collect()
         };
         [of(&TORQUES, "rnea"), of(&INERTIA, "crba")].concat()
     }

@@ -109,12 +109,8 @@ mod tests {
 
     /// The files that no study writes: those of the demo, which the step `readme` compares, and the
     /// film, which a test of its program compares.
-    const OF_THE_DEMO: [&str; 4] = [
-        "README.md",
-        "docs/scenes.md",
-        "docs/film.svg",
-        "docs/ur5e.svg",
-    ];
+    const OF_THE_DEMO: [&str; 4] =
+        ["README.md", "docs/scenes.md", "docs/film.svg", "docs/ur5e.svg"];
 
     fn below(directory: &str) -> Vec<String> {
         let entries = std::fs::read_dir(root().join(directory)).expect("a directory");

@@ -81,13 +81,8 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
     let slow = builds.iter().filter(|(_, seconds)| *seconds > BUILD);
     let slow = slow.map(|(function, seconds)| format!("{function}: built in {seconds:.0} s"));
     let unmet: Vec<String> = unmet.filter_map(Compared::complaint).chain(slow).collect();
-    let report = Report {
-        rows,
-        builds,
-        compared,
-        versions,
-        date: docs::today_and_commit(&workspace),
-    };
+    let report =
+        Report { rows, builds, compared, versions, date: docs::today_and_commit(&workspace) };
     let page = report.markdown();
     workspace::write(&workspace.report(PAGE), docs::seal::sealed(&page))?;
     first_screen::write_why(&workspace)?;

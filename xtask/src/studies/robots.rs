@@ -118,10 +118,7 @@ fn write_library(
     }
     let unpacked = unpacked(package, folder, python)?.join(&package.folder);
     for own in &package.library {
-        let file = workspace
-            .root
-            .join(IMPORTED)
-            .join(format!("{}.rs", own.name));
+        let file = workspace.root.join(IMPORTED).join(format!("{}.rs", own.name));
         let path = unpacked.join(&own.file).to_string_lossy().into_owned();
         let mut words = vec![&*path, "--name", &own.name];
         words.extend(own.options.iter().map(String::as_str));
@@ -190,10 +187,8 @@ fn measure(workspace: &Workspace, tools: &Tools, folder: &Path, lines: &mut [Lin
     let mut robots = Vec::new();
     for (i, line) in lines.iter().enumerate() {
         let Some(report) = &line.report else { continue };
-        let robot = Robot {
-            file: folder.join(format!("{}.rs", line.name)),
-            report: report.clone(),
-        };
+        let robot =
+            Robot { file: folder.join(format!("{}.rs", line.name)), report: report.clone() };
         let joints = robot.report["sizes"][2].as_u64();
         if importer::is_measurable(&robot) && joints <= Some(MOST_JOINTS) {
             robots.push((i, robot));
@@ -232,12 +227,5 @@ pub fn check(bench: &Bench<'_>) -> Result<String> {
     let written = workspace::read(&workspace.root.join(PAGE))?;
     let same_compiler = docs::rustc_of(&written) == Some(&*rustc);
     compare(&written, &page(&[line], &rustc), name, same_compiler)?;
-    Ok(format!(
-        "{name}, {}",
-        if same_compiler {
-            "measured"
-        } else {
-            "another compiler"
-        }
-    ))
+    Ok(format!("{name}, {}", if same_compiler { "measured" } else { "another compiler" }))
 }

@@ -13,11 +13,8 @@ use crate::kit::table::{Table, thousands};
 use crate::studies::scenes::render::{gate, milli};
 use crate::studies::scenes::report::{Errors, Report};
 
-pub const PAGE: Page<'_> = Page {
-    file: "docs/scenes.md",
-    name: "scenes",
-    command: "cargo xtask demo --all --write-docs",
-};
+pub const PAGE: Page<'_> =
+    Page { file: "docs/scenes.md", name: "scenes", command: "cargo xtask demo --all --write-docs" };
 
 pub fn text(reports: &[&Report]) -> String {
     let plain = |name: &str| name.to_uppercase();
@@ -43,11 +40,7 @@ fn table(reports: &[&Report], set_off: impl Fn(&str) -> String) -> Table {
     for report in reports {
         let dash = || "–".to_owned();
         let saved = |saved: i64| {
-            if saved == 0 {
-                "0".into()
-            } else {
-                signed_change(-saved)
-            }
+            if saved == 0 { "0".into() } else { signed_change(-saved) }
         };
         let row = |name: String, costs: [String; 5], errors: &Errors, bound: String| {
             let share = 100.0 * errors.rms_rad / report.tracking.pd.rms_rad;
@@ -77,13 +70,7 @@ fn table(reports: &[&Report], set_off: impl Fn(&str) -> String) -> Table {
                 continue;
             };
             let [cycles, flash] = [worth.cycles, worth.flash_bytes].map(saved);
-            let costs = [
-                cycles,
-                dash(),
-                flash,
-                dash(),
-                saved(worth.ram_bytes.cast_signed()),
-            ];
+            let costs = [cycles, dash(), flash, dash(), saved(worth.ram_bytes.cast_signed())];
             table.row(row(less, costs, &worth.without, dash()));
         }
         for (law, errors) in &report.tracking.beside {

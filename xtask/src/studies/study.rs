@@ -79,22 +79,12 @@ pub struct Bench<'a> {
 
 impl<'a> Bench<'a> {
     pub fn new(workspace: &'a Workspace, options: Options) -> Self {
-        Self {
-            workspace,
-            options,
-            full: true,
-            tools: OnceCell::new(),
-        }
+        Self { workspace, options, full: true, tools: OnceCell::new() }
     }
 
     /// With tools that are set up already, for one of the tests.
     pub fn of_test(workspace: &'a Workspace, options: Options, full: bool, tools: Tools) -> Self {
-        Self {
-            workspace,
-            options,
-            full,
-            tools: tools.into(),
-        }
+        Self { workspace, options, full, tools: tools.into() }
     }
 
     /// The compiler of the firmware and the emulator, set up when the first study asks: a study of
@@ -132,11 +122,7 @@ pub struct Found {
 
 impl Found {
     pub fn new(text: String, measurements: &impl Serialize) -> Result<Self> {
-        Ok(Self {
-            text,
-            json: docs::json(measurements)?,
-            ..Self::default()
-        })
+        Ok(Self { text, json: docs::json(measurements)?, ..Self::default() })
     }
 
     fn verdict(&self) -> Result<()> {
@@ -225,11 +211,7 @@ impl Study {
     }
 
     fn part<'a>(&self, file: &'a str, command: &'a str) -> Page<'a> {
-        Page {
-            file,
-            name: self.name,
-            command,
-        }
+        Page { file, name: self.name, command }
     }
 
     fn page<'a>(&self, command: &'a str) -> Page<'a> {
@@ -237,11 +219,7 @@ impl Study {
             Form::Part(_) => self.name,
             _ => "",
         };
-        Page {
-            file: self.files[0],
-            name,
-            command,
-        }
+        Page { file: self.files[0], name, command }
     }
 }
 
@@ -284,9 +262,7 @@ mod tests {
         }
         for form in [Form::Part, Form::Whole] {
             let study = study(form(|_| Ok(Found::default())));
-            study
-                .write(&workspace, &found("| 1 |\n", "<svg/>"))
-                .expect("written");
+            study.write(&workspace, &found("| 1 |\n", "<svg/>")).expect("written");
             let compare = |found| study.compare(&workspace, &found);
             compare(found("| 1 |\n", "<svg/>")).expect("the same");
             compare(found("| 2 |\n", "<svg/>")).expect_err("another page");

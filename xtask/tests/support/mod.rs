@@ -36,9 +36,7 @@ impl Dir {
 
 /// The cargo that runs the tests.
 pub fn cargo() -> PathBuf {
-    std::env::var_os("CARGO")
-        .expect("cargo runs the tests")
-        .into()
+    std::env::var_os("CARGO").expect("cargo runs the tests").into()
 }
 
 /// xtask in the workspace, with nobody to ask, not on CI.

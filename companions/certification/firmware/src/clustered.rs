@@ -44,11 +44,8 @@ static CERTIFIED_JOINTS: [[f32; 4]; N] = {
     let mut i = 0;
     while i < N {
         let limits = FourBarLeg::MODEL.links[JOINTS[i]].limits;
-        let [lower, upper] = if i == 1 {
-            [-CRANK, CRANK]
-        } else {
-            [limits.lower as f32, limits.upper as f32]
-        };
+        let [lower, upper] =
+            if i == 1 { [-CRANK, CRANK] } else { [limits.lower as f32, limits.upper as f32] };
         joints[i] = [1.0, lower, upper, limits.velocity as f32];
         i += 1;
     }
@@ -95,10 +92,7 @@ static CERTIFIED_FIRMWARE: Inverse = firmware;
 #[cortex_m_rt::entry]
 fn main() -> ! {
     let function = black_box(CERTIFIED_FIRMWARE);
-    for (state, trig) in black_box(&CERTIFIED_STATES)
-        .iter()
-        .zip(black_box(&CERTIFIED_TRIGS))
-    {
+    for (state, trig) in black_box(&CERTIFIED_STATES).iter().zip(black_box(&CERTIFIED_TRIGS)) {
         let result = measured::<0, _>(|| function(trig, state, &CERTIFIED_EFFECTS));
         // A cluster that does not close has no bits.
         let bits = result.map_or([0; N], |tau| tau.map(f32::to_bits));

@@ -21,12 +21,8 @@ const fn joints() -> [[f32; 4]; N] {
         assert!(coordinates < 2, "each joint has one coordinate at most");
         if coordinates == 1 {
             let limits = link.limits;
-            joints[link.idx_v] = [
-                turns,
-                limits.lower as f32,
-                limits.upper as f32,
-                limits.velocity as f32,
-            ];
+            joints[link.idx_v] =
+                [turns, limits.lower as f32, limits.upper as f32, limits.velocity as f32];
         }
         i += 1;
     }

@@ -42,27 +42,16 @@ const fn bodies() -> [[f64; 25]; B] {
     let mut i = 0;
     while i < B {
         let (link, number) = (&links[i], &mut bodies[i]);
-        number[0] = if link.parent == BASE {
-            -1.0
-        } else {
-            link.parent as f64
-        };
+        number[0] = if link.parent == BASE { -1.0 } else { link.parent as f64 };
         number[1] = match link.joint.kind {
             JointKind::Fixed => 0.0,
             JointKind::Revolute | JointKind::Continuous => 1.0,
             JointKind::Prismatic => 2.0,
             _ => 3.0,
         };
-        number[2] = if link.idx_v == BASE {
-            -1.0
-        } else {
-            link.idx_v as f64
-        };
+        number[2] = if link.idx_v == BASE { -1.0 } else { link.idx_v as f64 };
         let (placement, inertia) = (&link.placement, &link.inertia);
-        let (rot, moments) = (
-            placement.rot.to_cols_array(),
-            inertia.rotational.to_cols_array(),
-        );
+        let (rot, moments) = (placement.rot.to_cols_array(), inertia.rotational.to_cols_array());
         let (pos, first) = (placement.pos.to_array(), inertia.first_moment.to_array());
         let mut k = 0;
         while k < 3 {

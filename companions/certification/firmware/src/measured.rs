@@ -22,10 +22,7 @@ pub fn run() {
     each("gravity", |state| gravity(state, &(CERTIFIED_EFFECTS.0,)));
     each("core", |state| core(state, &CERTIFIED_EFFECTS));
     // Torques are where the state has accelerations. A matrix that is refused has no bits.
-    let both = [
-        ("forward_dynamics", forward),
-        ("core_forward_dynamics", core_forward),
-    ];
+    let both = [("forward_dynamics", forward), ("core_forward_dynamics", core_forward)];
     for (name, forward) in both {
         each(name, |state| {
             forward(state, &state.state().qdd, &CERTIFIED_EFFECTS).unwrap_or([0.0; N])
@@ -42,10 +39,7 @@ pub fn run() {
 }
 
 fn each(name: &str, function: impl Fn(StateWithTrig<'static, f32, N, N>) -> [f32; N]) {
-    for (state, trig) in black_box(&CERTIFIED_STATES)
-        .iter()
-        .zip(black_box(&CERTIFIED_TRIGS))
-    {
+    for (state, trig) in black_box(&CERTIFIED_STATES).iter().zip(black_box(&CERTIFIED_TRIGS)) {
         let state = trig.with(state);
         let result = measured::<0, _>(|| function(state));
         hprintln!("{} {:x?}", name, result.map(f32::to_bits));

@@ -25,12 +25,7 @@ struct Args {
     #[arg(long, value_name = "NAME|FILE")]
     robot: Option<String>,
     /// The functions
-    #[arg(
-        long,
-        value_enum,
-        value_delimiter = ',',
-        default_value = "rnea,gravity"
-    )]
+    #[arg(long, value_enum, value_delimiter = ',', default_value = "rnea,gravity")]
     function: Vec<Function>,
     /// The greatest acceleration of each joint, rad/s² or m/s²
     #[arg(long, value_name = "A", default_value = "10", value_parser = magnitude, allow_hyphen_values = true)]
@@ -44,12 +39,7 @@ struct Args {
     /// A narrower range of a joint's position, JOINT:LOW..HIGH, speed, JOINT:v:MOST, or
     /// acceleration, JOINT:a:MOST, in rad or m and s; joints count from 1, and --box
     /// 2:-1.5..1.5,2:v:0.5 has two
-    #[arg(
-        long = "box",
-        value_name = "RANGE",
-        value_delimiter = ',',
-        requires = "robot"
-    )]
+    #[arg(long = "box", value_name = "RANGE", value_delimiter = ',', requires = "robot")]
     narrow: Vec<Narrow>,
     /// Into how many parts the box of each result is split: more time, tighter bounds
     #[arg(long, value_name = "N", default_value_t = 4000)]
@@ -260,9 +250,7 @@ fn hashes(args: &Args, programs: &[(Program, Robot)]) -> Result<String> {
         let today = configurations::hashes(&Image::read(&program.elf)?, &robot)?;
         configurations::check(&recorded, &program.robot, &today)?;
     }
-    Ok(format!(
-        "{PAGE} and {CONFIGURED} are of today's machine code"
-    ))
+    Ok(format!("{PAGE} and {CONFIGURED} are of today's machine code"))
 }
 
 /// The part of the page that has a function's certificates.
@@ -311,10 +299,6 @@ fn spent(args: &Args, function: Function, robot: &str) -> Spent {
             _ if is_page => PAGE_POINTS,
             _ => POINTS,
         }),
-        search: Effort {
-            random: states / 3,
-            generations: 96,
-            children,
-        },
+        search: Effort { random: states / 3, generations: 96, children },
     }
 }

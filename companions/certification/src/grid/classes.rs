@@ -30,11 +30,7 @@ pub(super) struct Place<'a> {
 impl<'a> Place<'a> {
     /// With coefficients that keep their own roundings.
     pub(super) fn part(lattice: &'a Lattice, part: &'a [Interval]) -> Self {
-        Self {
-            lattice,
-            part,
-            rounding: 0.0,
-        }
+        Self { lattice, part, rounding: 0.0 }
     }
 }
 
@@ -148,9 +144,7 @@ impl Program {
                 hidden: 0.0,
             });
             let terms = self.sums[nodes + k].iter();
-            class
-                .sum
-                .extend(terms.map(|(place, most)| (*place, weight * most)));
+            class.sum.extend(terms.map(|(place, most)| (*place, weight * most)));
             class.hidden += weight * self.absolute[nodes + k] * at.rounding;
         }
         let mut classes: Vec<Class> = of_degrees.into_values().collect();
@@ -206,11 +200,7 @@ impl Program {
         let all: f64 = parts.iter().sum();
         let [operations, literals, sines] =
             parts.map(|part| if all > 0.0 { total * part / all } else { 0.0 });
-        Bound {
-            operations,
-            literals,
-            sines,
-        }
+        Bound { operations, literals, sines }
     }
 }
 

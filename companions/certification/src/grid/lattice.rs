@@ -33,10 +33,7 @@ impl Lattice {
     pub fn new(sizes: Vec<usize>, degrees: &[usize]) -> Self {
         let each = sizes.iter().zip(degrees);
         let above = each.map(|(size, most)| (0..=*most).map(|n| between(n, *size)).collect());
-        Self {
-            above: above.collect(),
-            sizes,
-        }
+        Self { above: above.collect(), sizes }
     }
 
     /// That of at most so many points which loses least; `None` if these degrees ask for more.
@@ -73,10 +70,7 @@ impl Lattice {
     /// How much more a polynomial of these degrees may be between the points.
     pub fn between(&self, degrees: &[u8]) -> f64 {
         let each = self.above.iter().zip(degrees);
-        (1.0 + 1e-12)
-            * each
-                .map(|(above, n)| above[usize::from(*n)])
-                .product::<f64>()
+        (1.0 + 1e-12) * each.map(|(above, n)| above[usize::from(*n)]).product::<f64>()
     }
 }
 

@@ -50,12 +50,7 @@ impl Program {
         known: &[f64],
     ) -> Option<Bound> {
         let counted = Counted::All;
-        let subject = Subject {
-            graph,
-            robot,
-            counted,
-            known,
-        };
+        let subject = Subject { graph, robot, counted, known };
         self.proven(subject, &[sines], points)?.pop()
     }
 
@@ -69,12 +64,7 @@ impl Program {
         counted: Counted,
         points: usize,
     ) -> Option<Vec<Bound>> {
-        let subject = Subject {
-            graph,
-            robot,
-            counted,
-            known: &[],
-        };
+        let subject = Subject { graph, robot, counted, known: &[] };
         self.proven(subject, sines, points)
     }
 
@@ -87,16 +77,10 @@ impl Program {
         let graph = subject.graph;
         if self.parted.contains(&true) {
             let each = sines.iter();
-            return each
-                .map(|sines| self.by_parts(subject, *sines, points))
-                .collect();
+            return each.map(|sines| self.by_parts(subject, *sines, points)).collect();
         }
         let lattice = Lattice::best(&self.highest(&self.degrees), points)?;
-        let at = Place {
-            lattice: &lattice,
-            part: &[],
-            rounding: rounding(graph.nodes.len()),
-        };
+        let at = Place { lattice: &lattice, part: &[], rounding: rounding(graph.nodes.len()) };
         let bounds = self.over::<Plain>(subject, sines, &at).into_iter();
         let shared =
             bounds.map(|(total, weights)| self.shared::<Plain>(graph, &weights, &at, total));
@@ -114,24 +98,16 @@ impl Program {
         for ([value, _], known) in values.iter_mut().zip(subject.known) {
             *value = value.min(*known);
         }
-        let weights = sines
-            .iter()
-            .map(|sines| self.weights(subject, &values, *sines));
+        let weights = sines.iter().map(|sines| self.weights(subject, &values, *sines));
         let weights: Vec<Vec<f64>> = weights.collect();
         if weights.iter().flatten().any(|weight| !weight.is_finite()) {
             // A quotient or a root has no bound over so large a part.
-            return weights
-                .into_iter()
-                .map(|weights| (f64::INFINITY, weights))
-                .collect();
+            return weights.into_iter().map(|weights| (f64::INFINITY, weights)).collect();
         }
         let classes = weights.iter().map(|weights| self.classes::<L>(weights, at));
         let classes: Vec<Vec<Class>> = classes.collect();
-        let sums: Vec<Weighted> = classes
-            .iter()
-            .flatten()
-            .map(|class| joined(&class.sum))
-            .collect();
+        let sums: Vec<Weighted> =
+            classes.iter().flatten().map(|class| joined(&class.sum)).collect();
         let sums: Vec<&[(u32, f64)]> = sums.iter().map(Vec::as_slice).collect();
         let mut on_grid = self.greatest::<L>(&self.steps, at, &sums).into_iter();
         let up = 1.0 + rounding(values.len());
@@ -147,21 +123,15 @@ impl Program {
 
     /// Branch and bound over the coordinates without a grid: so many points in all.
     fn by_parts(&self, subject: Subject<'_>, sines: SineErrors, points: usize) -> Option<Bound> {
-        let lattice = Lattice::best(
-            &self.highest(&self.degrees),
-            (points as f64).powf(PER_PART) as usize,
-        )?;
+        let lattice =
+            Lattice::best(&self.highest(&self.degrees), (points as f64).powf(PER_PART) as usize)?;
         let whole = subject.robot.whole();
         let bounded = |positions: Vec<Interval>| {
             let at = Place::part(&lattice, &positions);
             let (bound, _) = self.over::<Ball>(subject, &[sines], &at).remove(0);
             let parted = (0..positions.len()).filter(|joint| self.parted[*joint]);
             let share = |joint: &usize| positions[*joint].width() / whole[*joint].width();
-            Part {
-                bound,
-                axis: parted.max_by(|a, b| share(a).total_cmp(&share(b))),
-                positions,
-            }
+            Part { bound, axis: parted.max_by(|a, b| share(a).total_cmp(&share(b))), positions }
         };
         let mut queue = BinaryHeap::from([bounded(whole[..self.parted.len()].to_vec())]);
         for _ in 0..points / lattice.points() / 2 {
@@ -170,14 +140,10 @@ impl Program {
             queue.pop();
             queue.extend(halves.map(bounded));
         }
-        let Part {
-            bound, positions, ..
-        } = queue.pop()?;
+        let Part { bound, positions, .. } = queue.pop()?;
         let at = Place::part(&lattice, &positions);
         let (_, weights) = self.over::<Ball>(subject, &[sines], &at).remove(0);
-        bound
-            .is_finite()
-            .then(|| self.shared::<Ball>(subject.graph, &weights, &at, bound))
+        bound.is_finite().then(|| self.shared::<Ball>(subject.graph, &weights, &at, bound))
     }
 
     /// The greatest of some degrees in each angle.
@@ -200,22 +166,14 @@ impl Program {
         let on_grid = self.greatest::<L>(&self.steps[..self.forward], at, &sums);
         let everywhere = |k: usize| {
             let most = on_grid[k] * (1.0 + 1e-12) + at.rounding * self.absolute[k];
-            [
-                most * at.lattice.between(&self.degrees[k]),
-                on_grid[nodes + k] * (1.0 + 1e-12),
-            ]
+            [most * at.lattice.between(&self.degrees[k]), on_grid[nodes + k] * (1.0 + 1e-12)]
         };
         (0..nodes).map(everywhere).collect()
     }
 
     /// What each node adds to the error of the result, for an adjoint of one.
     fn weights(&self, subject: Subject<'_>, values: &[[f64; 2]], sines: SineErrors) -> Vec<f64> {
-        let Subject {
-            graph,
-            robot,
-            counted,
-            ..
-        } = subject;
+        let Subject { graph, robot, counted, .. } = subject;
         let nodes = graph.nodes.len();
         let rounds = counted != Counted::LiteralsAlone;
         let (mut errors, mut weights) = (vec![0.0; nodes], vec![0.0; nodes]);
@@ -228,10 +186,9 @@ impl Program {
                 Node::Input(_) | Node::Literal(_) => (0.0, 0.0),
                 Node::Neg(a) | Node::Abs(a) => (errors[a], 0.0),
                 Node::Add(a, b) | Node::Sub(a, b) => (errors[a] + errors[b], 0.0),
-                Node::Mul(a, b) => (
-                    values[a][0] * errors[b] + values[b][0] * errors[a],
-                    errors[a] * errors[b],
-                ),
+                Node::Mul(a, b) => {
+                    (values[a][0] * errors[b] + values[b][0] * errors[a], errors[a] * errors[b])
+                }
                 // d = (d_a − v d_b)/b · 1/(1 + d_b/b)
                 Node::Div(a, b) => {
                     let first = (errors[a] + value * errors[b]) * inverse;
@@ -264,10 +221,7 @@ impl Program {
                     let least = (inverse * inverse).recip() - errors[a];
                     let is_tried = *roots::RANGE.start() < least
                         && values[a][0] + errors[a] < *roots::RANGE.end();
-                    higher(
-                        f64::from(u8::from(!is_tried)),
-                        roots::relative_error(guess) * most,
-                    )
+                    higher(f64::from(u8::from(!is_tried)), roots::relative_error(guess) * most)
                 }
                 _ => half_ulp(most),
             };

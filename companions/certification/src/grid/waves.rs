@@ -49,9 +49,7 @@ fn transformed(mut values: Vec<f64>, sizes: &[usize]) -> Vec<f64> {
     let mut stride = 1;
     for &size in sizes {
         let angle = |j: usize| TAU * j as f64 / size as f64;
-        let rows: Vec<Vec<f64>> = (0..size)
-            .map(|j| waves(angle(j), size / 2).collect())
-            .collect();
+        let rows: Vec<Vec<f64>> = (0..size).map(|j| waves(angle(j), size / 2).collect()).collect();
         for block in values.chunks_exact_mut(stride * size) {
             let old = block.to_vec();
             block.fill(0.0);
@@ -59,9 +57,7 @@ fn transformed(mut values: Vec<f64>, sizes: &[usize]) -> Vec<f64> {
                 let scale = if wave == 0 { 1.0 } else { 2.0 } / size as f64;
                 for (row, from) in rows.iter().zip(old.chunks_exact(stride)) {
                     let factor = scale * row[wave];
-                    to.iter_mut()
-                        .zip(from)
-                        .for_each(|(to, x)| *to += factor * x);
+                    to.iter_mut().zip(from).for_each(|(to, x)| *to += factor * x);
                 }
             }
         }
@@ -120,11 +116,7 @@ impl Spectrum {
         };
         Self {
             waves: degrees.iter().map(|n| 2 * n + 1).collect(),
-            each: self
-                .each
-                .iter()
-                .map(|(most, all)| (*most, of(all)))
-                .collect(),
+            each: self.each.iter().map(|(most, all)| (*most, of(all))).collect(),
         }
     }
 
@@ -132,9 +124,7 @@ impl Spectrum {
     fn greatest(&self, lattice: &Lattice) -> f64 {
         let table = |(size, count): (&usize, &usize)| -> Vec<Vec<f64>> {
             let angle = |i: usize| TAU * i as f64 / *size as f64;
-            (0..*size)
-                .map(|i| waves(angle(i), count / 2).collect())
-                .collect()
+            (0..*size).map(|i| waves(angle(i), count / 2).collect()).collect()
         };
         let tables: Vec<_> = lattice.sizes.iter().zip(&self.waves).map(table).collect();
         let coefficients: Vec<&[f64]> = self.each.iter().map(|one| one.1.as_slice()).collect();
@@ -156,10 +146,8 @@ impl Spectrum {
             };
             return angles.iter().map(at).fold(0.0, f64::max);
         }
-        let mut set: Vec<Vec<f64>> = coefficients
-            .iter()
-            .map(|x| vec![0.0; x.len() / angles[0].len()])
-            .collect();
+        let mut set: Vec<Vec<f64>> =
+            coefficients.iter().map(|x| vec![0.0; x.len() / angles[0].len()]).collect();
         let mut most = 0.0_f64;
         for waves in angles {
             for (to, from) in set.iter_mut().zip(coefficients) {
@@ -191,11 +179,7 @@ impl Program {
         let sizes: Vec<usize> = degrees.iter().map(|n| 2 * n + 1).collect();
         let count = counted(&sizes, points)?;
         let lattice = Lattice::new(sizes, &degrees);
-        let at = Place {
-            lattice: &lattice,
-            part: &[],
-            rounding: super::proof::rounding(last + 1),
-        };
+        let at = Place { lattice: &lattice, part: &[], rounding: super::proof::rounding(last + 1) };
         let terms: &Weighted = &self.sums[last];
         let room = || Vec::with_capacity(count.next_multiple_of(LANES));
         let mut values: Vec<Vec<f64>> = terms.iter().map(|_| room()).collect();
@@ -213,9 +197,7 @@ impl Program {
         let each = values.into_iter().zip(terms);
         let spectrum = Spectrum {
             waves: lattice.sizes.clone(),
-            each: each
-                .map(|(x, (_, most))| (*most, transformed(x, &lattice.sizes)))
-                .collect(),
+            each: each.map(|(x, (_, most))| (*most, transformed(x, &lattice.sizes))).collect(),
         };
         let degrees = spectrum.degrees();
         let kept = spectrum.up_to(&degrees);

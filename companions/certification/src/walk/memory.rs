@@ -25,10 +25,7 @@ impl Walk<'_> {
         if !(1..4).contains(&argument) {
             return Err(self.declined("memory that nothing has written"));
         }
-        let input = Input {
-            argument: argument as u8,
-            offset: (address - ARGUMENTS) % RANGE,
-        };
+        let input = Input { argument: argument as u8, offset: (address - ARGUMENTS) % RANGE };
         if let Some(node) = self.inputs.get(&input) {
             return Ok(Word::Real(*node));
         }
@@ -96,10 +93,8 @@ impl Walk<'_> {
             if one.bytes < 4 && one.load {
                 let bytes = (at..).take(one.bytes.into()).map(|at| self.byte(at));
                 let bytes = bytes.collect::<Result<Vec<_>>>()?;
-                let number = bytes
-                    .iter()
-                    .rev()
-                    .fold(0, |number, byte| number << 8 | u32::from(*byte));
+                let number =
+                    bytes.iter().rev().fold(0, |number, byte| number << 8 | u32::from(*byte));
                 self.set(t, Word::Bits(number))?;
             } else if one.bytes < 4 {
                 let number = self.bits(t)?.to_le_bytes();

@@ -22,19 +22,14 @@ fn trig(image: &Image) -> Option<[u32; 4]> {
 impl Sines {
     pub fn of(image: &Image) -> Option<Self> {
         let (_, words) = image.variable("CERTIFIED_SINES").ok()?;
-        Some(Self {
-            address: words.first()? & !1,
-            trig: trig(image)?,
-        })
+        Some(Self { address: words.first()? & !1, trig: trig(image)? })
     }
 }
 
 impl Walk<'_> {
     /// The flags of the comparison of real numbers: those of the state zero.
     pub fn take_flags(&mut self) -> Result<()> {
-        let nodes = self
-            .compared
-            .ok_or_else(|| self.declined("no comparison"))?;
+        let nodes = self.compared.ok_or_else(|| self.declined("no comparison"))?;
         let flags = match self.compare(nodes)? {
             Ordering::Less => [true, false, false, false],
             Ordering::Equal => [false, true, true, false],
@@ -64,11 +59,7 @@ impl Walk<'_> {
         let ordering = a
             .partial_cmp(&b)
             .ok_or_else(|| self.declined("a comparison with what is no number"))?;
-        self.comparisons.push(Comparison {
-            address: self.here,
-            nodes,
-            ordering,
-        });
+        self.comparisons.push(Comparison { address: self.here, nodes, ordering });
         Ok(ordering)
     }
 
@@ -76,10 +67,7 @@ impl Walk<'_> {
     pub fn sine_and_cosine(&mut self) -> Result<()> {
         let of = match self.real(0)? {
             Word::Real(node) => match self.graph.nodes[node] {
-                Node::Input(Input {
-                    argument: 2,
-                    offset,
-                }) => Some(offset / 4),
+                Node::Input(Input { argument: 2, offset }) => Some(offset / 4),
                 _ => None,
             },
             _ => None,

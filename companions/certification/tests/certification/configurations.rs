@@ -16,27 +16,15 @@ use certification::narrow::magnitude;
 
 use super::recorded::{BASE, EFFECTS, GRAVITY, RNEA, SINES, bytes, graph, robot};
 
-const SPENT: Spent = Spent {
-    points: 20_000,
-    fine: 200_000,
-    parts: 10,
-};
+const SPENT: Spent = Spent { points: 20_000, fine: 200_000, parts: 10 };
 
 fn state(robot: &Robot, rng: &mut fastrand::Rng) -> Vec<f64> {
     let within = |x: certification::interval::Interval| x.low + rng.f64() * (x.high - x.low);
-    robot
-        .whole()
-        .into_iter()
-        .map(within)
-        .map(|x| f64::from(x as f32))
-        .collect()
+    robot.whole().into_iter().map(within).map(|x| f64::from(x as f32)).collect()
 }
 
 /// Half of the square of half of a step of the table, and its roundings.
-const LINEAR: SineErrors = SineErrors {
-    sine: 7.6e-5,
-    cosine: 7.6e-5,
-};
+const LINEAR: SineErrors = SineErrors { sine: 7.6e-5, cosine: 7.6e-5 };
 
 /// The results in f32 with the sines of a linear table.
 fn coarse(graph: &Graph, robot: &Robot, state: &[f64], values: &mut Vec<f32>) -> Vec<f32> {
@@ -47,11 +35,7 @@ fn coarse(graph: &Graph, robot: &Robot, state: &[f64], values: &mut Vec<f32>) ->
         None => f32::NAN,
     };
     graph.evaluate(input, values);
-    graph
-        .outputs
-        .iter()
-        .map(|(_, node)| values[*node])
-        .collect()
+    graph.outputs.iter().map(|(_, node)| values[*node]).collect()
 }
 
 #[test]
@@ -73,10 +57,7 @@ fn a_coarse_kernel_keeps_its_bound_and_breaks_the_fine_one() {
             most_coarse = most_coarse.max((f64::from(coarse) - double).abs());
         }
     }
-    assert!(
-        most_fine <= fine && most_coarse <= bound,
-        "{most_coarse:e} {bound:e}"
-    );
+    assert!(most_fine <= fine && most_coarse <= bound, "{most_coarse:e} {bound:e}");
     assert!(most_coarse > fine && bound < 10.0 * most_coarse);
 }
 
@@ -89,10 +70,7 @@ fn a_model_that_leaves_terms_out_needs_its_distance() {
     };
     let (bound, alone) = (of(Some(&beside(&whole))), of(None));
     let mut rng = fastrand::Rng::with_seed(1);
-    let (mut one, mut other) = (
-        Evaluation::new(&own, &robot),
-        Evaluation::new(&whole, &robot),
-    );
+    let (mut one, mut other) = (Evaluation::new(&own, &robot), Evaluation::new(&whole, &robot));
     let mut most = 0.0_f64;
     for _ in 0..100_000 {
         let state = state(&robot, &mut rng);
@@ -100,10 +78,7 @@ fn a_model_that_leaves_terms_out_needs_its_distance() {
             most = most.max((f64::from(single) - exact).abs());
         }
     }
-    assert!(
-        most <= bound && alone < most && bound < 10.0 * most,
-        "{most} {bound} {alone:e}"
-    );
+    assert!(most <= bound && alone < most && bound < 10.0 * most, "{most} {bound} {alone:e}");
     // The same model twice has no distance, and little more than its own bound.
     let twice = of(Some(&beside(&own)));
     assert!(twice < 3.0 * alone, "{twice:e} {alone:e}");
@@ -130,22 +105,12 @@ fn a_changed_number_of_a_page_of_certificates_is_refused() {
         if ["0", "0.000"].contains(&observed) {
             assert!(said(&tiny).is_some(), "{row}");
         } else {
-            assert!(
-                said(&tiny).is_some_and(|said| said.contains("below")),
-                "{row}"
-            );
+            assert!(said(&tiny).is_some_and(|said| said.contains("below")), "{row}");
         }
         let at = digit(bound);
-        let other = if bound[at..].starts_with('9') {
-            "8"
-        } else {
-            "9"
-        };
+        let other = if bound[at..].starts_with('9') { "8" } else { "9" };
         let larger = format!("{}{other}{}", &bound[..at], &bound[at + 1..]);
-        assert!(
-            said(&page.replacen(row, &row.replacen(bound, &larger, 1), 1)).is_some(),
-            "{row}"
-        );
+        assert!(said(&page.replacen(row, &row.replacen(bound, &larger, 1), 1)).is_some(), "{row}");
     }
     // A number of a sentence.
     assert!(said(&page.replacen("Cycles: 576", "Cycles: 575", 1)).is_some());
@@ -180,17 +145,12 @@ fn a_page_of_other_machine_code_is_stale() {
     // The hash of another robot or of another function.
     assert!(stale(&image, &page.replace("ur5e", "iiwa14")).is_some());
     let elsewhere = page.replace("### ur5e: engine `rnea`\n\n", "");
-    let elsewhere = elsewhere.replace(
-        "### ur5e: engine `rnea`, gravity alone",
-        "### ur5e: engine `rnea`",
-    );
+    let elsewhere =
+        elsewhere.replace("### ur5e: engine `rnea`, gravity alone", "### ur5e: engine `rnea`");
     assert!(stale(&image, &elsewhere).is_some());
     // One digit of the page, and one bit of a literal behind the code.
     let digit = if hash.starts_with('0') { "1" } else { "0" };
-    let said = stale(
-        &image,
-        &page.replace(&hash, &format!("{digit}{}", &hash[1..])),
-    );
+    let said = stale(&image, &page.replace(&hash, &format!("{digit}{}", &hash[1..])));
     assert!(said.is_some_and(|said| said.contains("ur5e") && said.contains("not of today's")));
     let mut code = bytes(GRAVITY);
     *code.last_mut().expect("a literal") ^= 1;
@@ -212,20 +172,14 @@ fn a_record_of_other_code_or_robots_is_refused() {
         configurations::check(&[one], "ur5e", &today)
     };
     assert!(record(|_| ()).is_ok());
-    let other = record(|one| {
-        one.hashes
-            .insert("inputs".to_owned(), "c4".to_owned())
-            .map_or((), drop)
-    });
+    let other =
+        record(|one| one.hashes.insert("inputs".to_owned(), "c4".to_owned()).map_or((), drop));
     assert!(matches!(other, Err(Error::Unproven { what, .. }) if what == "inputs"));
     assert!(record(|one| one.hashes.clear()).is_err());
     assert!(record(|one| one.robot = "panda".to_owned()).is_err());
     // The box is an input: another speed is another hash.
     let (one, mut other) = (robot(2), robot(2));
-    assert_eq!(
-        configurations::inputs(&one),
-        configurations::inputs(&robot(2))
-    );
+    assert_eq!(configurations::inputs(&one), configurations::inputs(&robot(2)));
     other.joints[1].speed += 1.0;
     assert_ne!(configurations::inputs(&one), configurations::inputs(&other));
 }

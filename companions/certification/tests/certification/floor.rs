@@ -25,18 +25,7 @@ pub fn bodies<const B: usize, const N: usize>(model: &Model<f64, B, N, N>) -> Ve
             },
             rot: std::array::from_fn(|row| std::array::from_fn(|column| columns[column][row])),
             pos: link.placement.pos.to_array(),
-            inertia: [
-                link.inertia.mass,
-                x,
-                y,
-                z,
-                i[0],
-                i[1],
-                i[2],
-                i[4],
-                i[5],
-                i[8],
-            ],
+            inertia: [link.inertia.mass, x, y, z, i[0], i[1], i[2], i[4], i[5], i[8]],
         }
     };
     model.links.iter().map(body).collect()
@@ -47,9 +36,7 @@ fn positions(n: usize) -> Vec<Interval> {
 }
 
 fn within(rng: &mut fastrand::Rng, of: &[Interval]) -> Vec<f64> {
-    of.iter()
-        .map(|x| x.low + rng.f64() * (x.high - x.low))
-        .collect()
+    of.iter().map(|x| x.low + rng.f64() * (x.high - x.low)).collect()
 }
 
 fn differs<T: Robot<B, N, N>, const B: usize, const N: usize>(rng: &mut fastrand::Rng) -> f64 {
@@ -85,14 +72,10 @@ fn an_enclosure_holds_and_needs_its_remainder() {
     for number in 0..400 {
         let half = 0.5_f64.powi(number % 12);
         let middle = within(&mut rng, &positions(6));
-        let part: Vec<Interval> = middle
-            .iter()
-            .map(|q| Interval::new(q - half, q + half))
-            .collect();
-        let over: Vec<_> = (0..)
-            .zip(&part)
-            .map(|(joint, range)| Position::over(joint, *range))
-            .collect();
+        let part: Vec<Interval> =
+            middle.iter().map(|q| Interval::new(q - half, q + half)).collect();
+        let over: Vec<_> =
+            (0..).zip(&part).map(|(joint, range)| Position::over(joint, *range)).collect();
         let enclosed = inertia_matrix(&bodies, 6, &over);
         for _ in 0..50 {
             let q = within(&mut rng, &part);
@@ -129,10 +112,7 @@ fn numbers_over_a_part_keep_their_operations() {
             let [x, y] = part.map(|x| x.low + rng.f64() * (x.high - x.low));
             let exact = (x.cos() * y.sin() - x * x) * -0.7 + y * y.sin() + 0.25;
             let range = all.range();
-            assert!(
-                range.low <= exact && exact <= range.high,
-                "{part:?} {exact}"
-            );
+            assert!(range.low <= exact && exact <= range.high, "{part:?} {exact}");
         }
     }
 }
@@ -164,24 +144,14 @@ fn taking_the_last_body_off_is_below_and_needs_the_coupling() {
     let mut rng = fastrand::Rng::with_seed(1);
     let mut least = f64::INFINITY;
     for _ in 0..100_000 {
-        least = least.min(least_eigenvalue(
-            arm,
-            &within(&mut rng, &positions),
-            &[1.0; 2],
-        ));
+        least = least.min(least_eigenvalue(arm, &within(&mut rng, &positions), &[1.0; 2]));
     }
-    assert!(
-        0.05 * least < floor && floor <= least,
-        "{floor:e} {least:e}"
-    );
+    assert!(0.05 * least < floor && floor <= least, "{floor:e} {least:e}");
     assert!(rest.min(peel::least(own, 0.0, 0.0)) > least);
     // What is welded weighs as before, and what is taken off not more.
     let all = &bodies(&A1Leg::MODEL);
     for _ in 0..1000 {
-        let q = within(
-            &mut rng,
-            &[positions.clone(), positions.clone()].concat()[..3],
-        );
+        let q = within(&mut rng, &[positions.clone(), positions.clone()].concat()[..3]);
         let [a, b] = [all, &whole].map(|bodies| least_eigenvalue(bodies, &q, &[1.0; 3]));
         assert!((a / b - 1.0).abs() < 1e-8, "{a} {b}");
     }
@@ -189,11 +159,7 @@ fn taking_the_last_body_off_is_below_and_needs_the_coupling() {
 
 #[test]
 fn what_is_found_below_a_floor_is_an_error() {
-    let of = |floor: f64| Floor {
-        floor,
-        least: 1.5,
-        ..Floor::default()
-    };
+    let of = |floor: f64| Floor { floor, least: 1.5, ..Floor::default() };
     assert!(of(1.4).check().is_ok());
     let said = of(1.6).check().expect_err("1.5 was found").to_string();
     assert!(said.contains("1.6e0, and 1.5e0 was found"), "{said}");

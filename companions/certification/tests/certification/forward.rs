@@ -36,10 +36,8 @@ const BOTH: [Function; 2] = [Function::ForwardDynamics, Function::CoreForwardDyn
 
 fn image(function: Function) -> Image {
     let mut code = bytes(FORWARD);
-    let (mut functions, mut names) = (
-        [BASE | 1, (BASE | 1) + code.len() as u32],
-        ["FORWARD", "CRBA"],
-    );
+    let (mut functions, mut names) =
+        ([BASE | 1, (BASE | 1) + code.len() as u32], ["FORWARD", "CRBA"]);
     code.extend(bytes(CRBA));
     if function == Function::CoreForwardDynamics {
         (functions, names) = (CORE_FUNCTIONS, ["CORE_FORWARD", "CORE_CRBA"]);
@@ -71,14 +69,8 @@ fn bodies() -> Vec<Body> {
 
 fn proven(subject: &Subject, robot: &Robot) -> Forward {
     let exact = Exact::of(Function::ForwardDynamics, || Ok(bodies())).expect("bodies");
-    let spent = Spent {
-        parts: 100,
-        points: 3000,
-        search: LITTLE,
-    };
-    let outputs = subject
-        .outputs(robot, &exact, SINES, spent)
-        .expect("bounds");
+    let spent = Spent { parts: 100, points: 3000, search: LITTLE };
+    let outputs = subject.outputs(robot, &exact, SINES, spent).expect("bounds");
     let factored = subject.factored.as_ref().expect("it is forward dynamics");
     Forward::prove(factored, &outputs, &bodies(), robot, SINES, 2000).expect("bounds")
 }
@@ -185,9 +177,7 @@ fn most_of_the_count(function: Function) -> f64 {
             (rest[row] - product).abs() / (allowed.sum::<f64>() * unit)
         };
         let row = trial % 3;
-        let mut shares: Vec<f64> = (0..60)
-            .map(|_| if rng.bool() { unit } else { -unit })
-            .collect();
+        let mut shares: Vec<f64> = (0..60).map(|_| if rng.bool() { unit } else { -unit }).collect();
         for _ in 0..600 {
             let before = ratio(&shares, row);
             let k = rng.usize(..shares.len());
@@ -205,11 +195,7 @@ fn most_of_the_count(function: Function) -> f64 {
 fn below(graph: &Graph, of: impl Iterator<Item = usize>) -> Vec<bool> {
     let mut used = vec![false; graph.nodes.len()];
     of.for_each(|node| used[node] = true);
-    for at in (0..graph.nodes.len())
-        .rev()
-        .filter(|at| used[*at])
-        .collect::<Vec<_>>()
-    {
+    for at in (0..graph.nodes.len()).rev().filter(|at| used[*at]).collect::<Vec<_>>() {
         let mut open = vec![at];
         while let Some(node) = open.pop() {
             for a in operands(graph.nodes[node])
@@ -235,9 +221,7 @@ fn others_are_refused(function: Function) {
     let subject = subject(function);
     let (crba, order) = function.matrix().expect("it is forward dynamics");
     let factored = subject.factored.as_ref().expect("it is forward dynamics");
-    let matrix = expression(&image(function), crba)
-        .expect("it is followed")
-        .graph;
+    let matrix = expression(&image(function), crba).expect("it is followed").graph;
     let code = &subject.walked.graph;
     let used = below(code, code.outputs.iter().map(|output| output.1));
     let biases = factored.graph.outputs[..3].iter().map(|output| output.1);
@@ -255,10 +239,7 @@ fn others_are_refused(function: Function) {
         _ => Vec::new(),
     };
     // The core's matrix is complete before the first pivot; products with zero are part of it.
-    let first = code
-        .nodes
-        .iter()
-        .position(|node| matches!(node, Node::Div(..)));
+    let first = code.nodes.iter().position(|node| matches!(node, Node::Div(..)));
     let first = first.filter(|_| order == Order::Inward).unwrap_or(0);
     let is_rest = |node: Node| matches!(node, Node::Sub(a, _) | Node::Add(a, _) if is_torque(a));
     let tried = (0..code.nodes.len()).filter(|k| used[*k] && !in_bias[*k]);
@@ -268,11 +249,7 @@ fn others_are_refused(function: Function) {
             let mut wrong = subject.walked.clone();
             wrong.graph.nodes[k] = other;
             let said = Factored::of(&wrong, &matrix, order).err();
-            assert!(
-                matches!(said, Some(Error::Factors { .. })),
-                "{k}: {:?}",
-                code.nodes[k]
-            );
+            assert!(matches!(said, Some(Error::Factors { .. })), "{k}: {:?}", code.nodes[k]);
             refused += 1;
         }
     }
@@ -306,26 +283,17 @@ fn no_acceleration_is_further_from_the_cores_than_its_bound() {
 fn stays_below_the_bound(function: Function) {
     let (subject, robot, bodies) = (subject(function), robot(3), bodies());
     let forward = proven(&subject, &robot);
-    assert!(
-        forward.is_total && forward.epsilon < 0.01 * forward.floor.floor,
-        "{forward:?}"
-    );
+    assert!(forward.is_total && forward.epsilon < 0.01 * forward.floor.floor, "{forward:?}");
     let mut evaluation = Evaluation::new(&subject.walked.graph, &robot);
     let mut rng = fastrand::Rng::with_seed(3);
     let mut greatest = [0.0_f64; 3];
     for _ in 0..2000 {
         let drawn = robot.whole();
-        let drawn = drawn
-            .iter()
-            .map(|x| f64::from((x.low + rng.f64() * (x.high - x.low)) as f32));
+        let drawn = drawn.iter().map(|x| f64::from((x.low + rng.f64() * (x.high - x.low)) as f32));
         let state: Vec<f64> = drawn.collect();
         let [q, qd, tau]: [[f64; 3]; 3] =
             std::array::from_fn(|i| std::array::from_fn(|j| state[3 * i + j]));
-        let at = State {
-            q,
-            qd,
-            qdd: [0.0; 3],
-        };
+        let at = State { q, qd, qdd: [0.0; 3] };
         let exact = Core::<A1Leg>::aba(&at, &tau, &RIGID_BODY).expect("it has inertia");
         let computed: Vec<f64> = evaluation.at(&state).map(|pair| pair.0.into()).collect();
         let matrix = inertia_matrix(&bodies, 3, &q.map(Position::at));
@@ -333,18 +301,10 @@ fn stays_below_the_bound(function: Function) {
             assert!(matrix[joint][joint] <= forward.scales[joint]);
             greatest[joint] = matrix[joint][joint].max(greatest[joint]);
         }
-        let bounds = forward.bound(
-            &matrix,
-            &inverse(&matrix).expect("it is positive"),
-            &computed,
-        );
+        let bounds = forward.bound(&matrix, &inverse(&matrix).expect("it is positive"), &computed);
         for joint in 0..3 {
             let error = (computed[joint] - exact[joint]).abs();
-            assert!(
-                error <= bounds[joint],
-                "joint {joint}: {error:e} > {:e}",
-                bounds[joint]
-            );
+            assert!(error <= bounds[joint], "joint {joint}: {error:e} > {:e}", bounds[joint]);
         }
     }
     // The grid knows the greatest entries of M; intervals alone have them up to twice as large.
@@ -356,18 +316,9 @@ fn stays_below_the_bound(function: Function) {
 /// What `forward.py` makes of an error, against what f64 makes of it, as a share of the greatest
 /// error of the state.
 fn difference(of: &Worst, exact: &[f64]) -> f64 {
-    let greatest = of
-        .errors
-        .iter()
-        .fold(0.0, |most, error| error.abs().max(most));
-    let computed = of
-        .computed
-        .iter()
-        .zip(exact)
-        .map(|(computed, exact)| computed - exact);
-    let apart = computed
-        .zip(&of.errors)
-        .map(|(precise, error)| (precise - error).abs());
+    let greatest = of.errors.iter().fold(0.0, |most, error| error.abs().max(most));
+    let computed = of.computed.iter().zip(exact).map(|(computed, exact)| computed - exact);
+    let apart = computed.zip(&of.errors).map(|(precise, error)| (precise - error).abs());
     apart.fold(0.0, f64::max) / greatest
 }
 
@@ -378,9 +329,7 @@ fn the_worst_errors_of_the_page_are_those_of_fifty_digits() {
     for one in &recorded {
         let title = format!("### {}: {}\n", one.robot, one.function.name());
         let section = PAGE.split_once(&title).expect("it is on the page").1;
-        let rows = section
-            .lines()
-            .filter(|line| line.starts_with("| ") && line.ends_with(" |"));
+        let rows = section.lines().filter(|line| line.starts_with("| ") && line.ends_with(" |"));
         assert_eq!(one.exact.len(), one.worst.len(), "run forward.py");
         // The last is of the norm, which stands in a sentence.
         let joints = one.worst.len() - 1;
@@ -426,11 +375,7 @@ fn parts_are_needed(function: Function) {
     };
     let forward = proven(&subject, &moving);
     assert!(search(&forward, &code, &moving).is_ok());
-    let without_bias = Forward {
-        bias: vec![0.0; 3],
-        beta: 0.0,
-        ..forward.clone()
-    };
+    let without_bias = Forward { bias: vec![0.0; 3], beta: 0.0, ..forward.clone() };
     contradicted(&without_bias, &code, &moving);
     // A bias of the other sign has the same structure.
     let mut wrong = code.clone();
@@ -455,9 +400,6 @@ fn parts_are_needed(function: Function) {
         ..forward.clone()
     };
     contradicted(&without_matrix, &code, &still);
-    let without_norm = Forward {
-        epsilon: 0.02 * forward.epsilon,
-        ..forward
-    };
+    let without_norm = Forward { epsilon: 0.02 * forward.epsilon, ..forward };
     contradicted(&without_norm, &code, &still);
 }

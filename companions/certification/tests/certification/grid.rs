@@ -15,18 +15,9 @@ const POINTS: usize = 10_000;
 
 /// sin q of joint 1, its cosine, and the speed of joint 1 of six.
 const INPUTS: [Node; 3] = [
-    Node::Input(Input {
-        argument: 1,
-        offset: 4,
-    }),
-    Node::Input(Input {
-        argument: 1,
-        offset: 8,
-    }),
-    Node::Input(Input {
-        argument: 2,
-        offset: 24,
-    }),
+    Node::Input(Input { argument: 1, offset: 4 }),
+    Node::Input(Input { argument: 1, offset: 8 }),
+    Node::Input(Input { argument: 2, offset: 24 }),
 ];
 
 fn of(nodes: &[Node]) -> Graph {
@@ -48,17 +39,10 @@ fn no_observed_error_is_above_the_bound_of_a_grid() {
     for (hex, outputs) in [(RNEA, 4..6), (GRAVITY, 0..6)] {
         let (graph, robot) = (graph(hex), robot(6));
         let observed = search(&graph, &robot, LITTLE, 1);
-        for (output, observed) in observed
-            .iter()
-            .enumerate()
-            .filter(|one| outputs.contains(&one.0))
+        for (output, observed) in observed.iter().enumerate().filter(|one| outputs.contains(&one.0))
         {
             let bound = bound(&graph.of_output(output), POINTS).expect("angles alone");
-            assert!(
-                observed.error <= bound,
-                "{output}: {:e} {bound:e}",
-                observed.error
-            );
+            assert!(observed.error <= bound, "{output}: {:e} {bound:e}", observed.error);
         }
     }
 }
@@ -71,9 +55,7 @@ fn what_lies_between_the_points_is_bounded() {
     let error = |points: usize| {
         let robot = robot(6);
         let program = Program::new(&graph, &robot).expect("one angle");
-        program
-            .prove(&graph, &robot, SineErrors::default(), points, &[])
-            .map(Bound::total)
+        program.prove(&graph, &robot, SineErrors::default(), points, &[]).map(Bound::total)
     };
     let half_ulp_of_a_half = 2.0_f64.powi(-25);
     for points in [5, 7, 9, 31] {
@@ -120,15 +102,8 @@ fn the_factor_between_the_points_is_enough_and_less_than_riesz() {
         }
         assert!(most <= factor, "{degree}, {angles}: {most} > {factor}");
         // On the fewest angles the polynomials are those of any signs.
-        let reached = if angles == 2 * degree + 1 {
-            0.999
-        } else {
-            0.85
-        };
-        assert!(
-            most > reached * factor,
-            "{degree}, {angles}: {most} {factor}"
-        );
+        let reached = if angles == 2 * degree + 1 { 0.999 } else { 0.85 };
+        assert!(most > reached * factor, "{degree}, {angles}: {most} {factor}");
     }
 }
 
@@ -168,16 +143,11 @@ fn values_that_are_known_to_be_less_count() {
 fn what_cancels_has_no_part_in_the_bound() {
     let (graph, robot) = (graph(GRAVITY).of_output(0), robot(6));
     let program = Program::new(&graph, &robot).expect("angles alone");
-    let by_grid = program
-        .prove(&graph, &robot, SINES, POINTS, &[])
-        .expect("enough points");
+    let by_grid = program.prove(&graph, &robot, SINES, POINTS, &[]).expect("enough points");
     let by_parts = Bounder::new(&graph, 0, &robot, SINES, Enclosure::WrittenOut)
         .expect("its inputs are the robot's")
         .bound(&robot.whole());
-    assert!(
-        by_grid.sines < 1e-12 * by_parts.sines,
-        "{by_grid:?} {by_parts:?}"
-    );
+    assert!(by_grid.sines < 1e-12 * by_parts.sines, "{by_grid:?} {by_parts:?}");
     assert!(by_grid.total() < 0.3 * by_parts.total());
 }
 
@@ -191,10 +161,7 @@ fn a_cube_of_a_speed_is_declined() {
 /// of the result.
 #[test]
 fn positions_and_quotients_are_bounded_by_parts() {
-    let position = Node::Input(Input {
-        argument: 2,
-        offset: 0,
-    });
+    let position = Node::Input(Input { argument: 2, offset: 0 });
     let quotient = |shift: f32| Graph {
         nodes: vec![
             position,
@@ -209,10 +176,7 @@ fn positions_and_quotients_are_bounded_by_parts() {
     let bound = bound(&graph, 100_000).expect("the divisor is one at least");
     // Two literals, a sum and a quotient, at q = −3.
     let at_the_end = half_ulp(4.0) + half_ulp(1.0) + half_ulp(1.0) + half_ulp(1.0);
-    assert!(
-        bound >= at_the_end && bound < 1.1 * at_the_end,
-        "{bound:e} {at_the_end:e}"
-    );
+    assert!(bound >= at_the_end && bound < 1.1 * at_the_end, "{bound:e} {at_the_end:e}");
     let observed = search(&graph, &robot(1), LITTLE, 1)[0].error;
     assert!(observed > 0.0 && observed <= bound);
     // At q = −3 there is no quotient.
@@ -226,18 +190,11 @@ fn positions_and_quotients_are_bounded_by_parts() {
 #[test]
 fn a_greatest_value_knows_what_cancels() {
     let product = of(&[Node::Mul(0, 1)]);
-    let sine = of(&[
-        Node::Mul(1, 1),
-        Node::Mul(0, 0),
-        Node::Add(3, 4),
-        Node::Mul(5, 0),
-    ]);
+    let sine = of(&[Node::Mul(1, 1), Node::Mul(0, 0), Node::Add(3, 4), Node::Mul(5, 0)]);
     for (graph, most) in [(product, 0.5), (sine, 1.0)] {
         let greatest = |fine| {
             let program = Program::new(&graph, &robot(6)).expect("one angle");
-            program
-                .greatest_value(20, fine)
-                .expect("seven points are enough")
+            program.greatest_value(20, fine).expect("seven points are enough")
         };
         for fine in [5, 6, 100] {
             assert!(greatest(fine) >= most, "{fine}");
@@ -283,9 +240,6 @@ fn speeds_are_at_their_greatest() {
         .total();
     let half_ulp_of_nine = 2.0_f64.powi(-21);
     assert!((bound / half_ulp_of_nine - 1.0).abs() < 1e-6, "{bound:e}");
-    let effort = Effort {
-        random: 100,
-        ..LITTLE
-    };
+    let effort = Effort { random: 100, ..LITTLE };
     assert!(search(&square, &robot, effort, 1)[0].error <= bound);
 }

@@ -31,18 +31,13 @@ const FOUR_BAR: &str = include_str!("four_bar.hex");
 /// Where the kernel was.
 const KERNEL: u32 = BASE + 0xf50;
 /// The library's guess.
-const GUESS: Guess = Guess {
-    magic: 0x5f37_59df,
-    steps: 3,
-};
+const GUESS: Guess = Guess { magic: 0x5f37_59df, steps: 3 };
 
 fn four_bar() -> Walked {
     let mut code = bytes(FOUR_BAR);
     let end = BASE + code.len() as u32;
     let effects = [0x51eb_851f, 0x4023_9eb8, 0x411c_f5c3, 0];
-    let words = [BASE | 1, KERNEL | 1, 12, 4, 8, 0]
-        .into_iter()
-        .chain(effects);
+    let words = [BASE | 1, KERNEL | 1, 12, 4, 8, 0].into_iter().chain(effects);
     code.extend(words.flat_map(u32::to_le_bytes));
     let image = Image::of(BASE, &code)
         .with_function("CERTIFIED_CLUSTERED", end, 4)
@@ -66,17 +61,8 @@ const CODE: &str = "92ed000af0ee080a30ee200a80ee801af1eec11af5ee401af1ee10fa01dd
 fn quotients_roots_and_comparisons_are_read() {
     let image = Image::of(BASE, &bytes(CODE));
     let walked = walk(&image, BASE, [None; 4]).expect("it is followed");
-    let input = Node::Input(Input {
-        argument: 2,
-        offset: 0,
-    });
-    let nodes = [
-        input,
-        Node::Literal(3.0),
-        Node::Add(0, 1),
-        Node::Div(1, 2),
-        Node::Sqrt(3),
-    ];
+    let input = Node::Input(Input { argument: 2, offset: 0 });
+    let nodes = [input, Node::Literal(3.0), Node::Add(0, 1), Node::Div(1, 2), Node::Sqrt(3)];
     assert_eq!(walked.graph.nodes[..5], nodes);
     let [one] = walked.comparisons[..] else {
         panic!("{:?}", walked.comparisons);
@@ -85,10 +71,7 @@ fn quotients_roots_and_comparisons_are_read() {
     // The least angle is -3, of which the quotient has no bound.
     let mut robot = robot(1);
     let said = paths::prove(&walked, &robot, SINES, 50).expect_err("x + 3 may be zero");
-    assert!(
-        matches!(said, Error::Branch { address, .. } if address == BASE + 24),
-        "{said}"
-    );
+    assert!(matches!(said, Error::Branch { address, .. } if address == BASE + 24), "{said}");
     robot.joints[0].position = Interval::new(-2.0, 1.0);
     assert!(paths::prove(&walked, &robot, SINES, 50).is_ok());
     let mut bounder = Bounder::new(&walked.graph, 0, &robot, SINES, Enclosure::Plain)
@@ -131,13 +114,7 @@ fn a_reciprocal_root_is_within_its_proven_error() {
 fn the_four_bar_is_that_of_the_core_within_its_bound() {
     let (walked, robot) = (four_bar(), leg(0.6));
     assert!(paths::prove(&walked, &robot, SINES, 1000).is_ok());
-    assert!(
-        walked
-            .graph
-            .nodes
-            .iter()
-            .any(|node| matches!(node, Node::InverseRoot(_, GUESS)))
-    );
+    assert!(walked.graph.nodes.iter().any(|node| matches!(node, Node::InverseRoot(_, GUESS))));
     let observed = search(&walked.graph, &robot, LITTLE, 1);
     let bounds: Vec<f64> = (0..3)
         .map(|output| {
@@ -158,11 +135,7 @@ fn the_four_bar_is_that_of_the_core_within_its_bound() {
             // At a point nothing is lost, and a tenth of the bound is contradicted.
             let here: Vec<Interval> = worst.state.iter().map(|x| Interval::point(*x)).collect();
             let at = bounder.bound(&here).total();
-            assert!(
-                worst.error <= at && worst.error > 0.1 * at,
-                "{:e} {at:e}",
-                worst.error
-            );
+            assert!(worst.error <= at && worst.error > 0.1 * at, "{:e} {at:e}", worst.error);
             grid
         })
         .collect();
@@ -170,24 +143,14 @@ fn the_four_bar_is_that_of_the_core_within_its_bound() {
     let mut rng = fastrand::Rng::with_seed(1);
     for _ in 0..200 {
         let drawn = robot.whole();
-        let drawn = drawn
-            .iter()
-            .map(|x| f64::from((x.low + rng.f64() * (x.high - x.low)) as f32));
+        let drawn = drawn.iter().map(|x| f64::from((x.low + rng.f64() * (x.high - x.low)) as f32));
         let state: Vec<f64> = drawn.collect();
         let part = |i: usize| std::array::from_fn(|j| state[3 * i + j]);
-        let y = State {
-            q: part(0),
-            qd: part(1),
-            qdd: part(2),
-        };
+        let y = State { q: part(0), qd: part(1), qdd: part(2) };
         let tau = Clustered::<Core<FourBarLeg>>::rnea(&y, &RIGID_BODY).expect("it closes");
         for (joint, (single, _)) in evaluation.at(&state).enumerate() {
             let error = (f64::from(single) - tau[joint]).abs();
-            assert!(
-                error <= bounds[joint],
-                "{joint}: {error:e} > {:e}",
-                bounds[joint]
-            );
+            assert!(error <= bounds[joint], "{joint}: {error:e} > {:e}", bounds[joint]);
         }
     }
 }
@@ -196,16 +159,7 @@ fn the_four_bar_is_that_of_the_core_within_its_bound() {
 fn a_box_with_a_singular_posture_is_declined() {
     let walked = four_bar();
     let said = paths::prove(&walked, &leg(3.0), SINES, 1000).expect_err("it does not close");
-    assert!(
-        matches!(
-            said,
-            Error::Branch {
-                ordering: Ordering::Greater,
-                ..
-            }
-        ),
-        "{said}"
-    );
+    assert!(matches!(said, Error::Branch { ordering: Ordering::Greater, .. }), "{said}");
     // The opposite of what the code has taken.
     let mut wrong = walked;
     wrong.comparisons[0].ordering = Ordering::Less;

@@ -28,43 +28,22 @@ pub fn gappa_is_installed() -> bool {
 
 pub fn bytes(hex: &str) -> Vec<u8> {
     let digits: Vec<u32> = hex.chars().filter_map(|c| c.to_digit(16)).collect();
-    digits
-        .chunks(2)
-        .map(|pair| (pair[0] << 4 | pair[1]) as u8)
-        .collect()
+    digits.chunks(2).map(|pair| (pair[0] << 4 | pair[1]) as u8).collect()
 }
 
 pub fn graph(hex: &str) -> Graph {
     let mut code = bytes(hex);
     let effects = BASE + code.len() as u32;
     code.extend(bytes(EFFECTS));
-    let walked = walk(
-        &Image::of(BASE, &code),
-        BASE,
-        [None, None, None, Some(effects)],
-    );
+    let walked = walk(&Image::of(BASE, &code), BASE, [None, None, None, Some(effects)]);
     walked.expect("it is straight-line").graph
 }
 
 pub fn robot(joints: usize) -> Robot {
-    let joint = Joint {
-        turns: true,
-        position: Interval::new(-3.0, 3.0),
-        speed: 3.0,
-        acceleration: 10.0,
-    };
-    Robot {
-        joints: vec![joint; joints],
-        trig: [12, 4, 8, 0],
-    }
+    let joint =
+        Joint { turns: true, position: Interval::new(-3.0, 3.0), speed: 3.0, acceleration: 10.0 };
+    Robot { joints: vec![joint; joints], trig: [12, 4, 8, 0] }
 }
 
-pub const SINES: SineErrors = SineErrors {
-    sine: 1e-7,
-    cosine: 1e-7,
-};
-pub const LITTLE: Effort = Effort {
-    random: 2000,
-    generations: 4,
-    children: 100,
-};
+pub const SINES: SineErrors = SineErrors { sine: 1e-7, cosine: 1e-7 };
+pub const LITTLE: Effort = Effort { random: 2000, generations: 4, children: 100 };

@@ -29,10 +29,7 @@ const CODE: &str = "92ed000af0ee080a20ee200af7ee000a30ee600ab0eec00a80ed000a7047
 fn an_absolute_value_has_the_error_of_its_operand() {
     let walked = walk(&Image::of(BASE, &bytes(CODE)), BASE, [None; 4]);
     let graph = walked.expect("it is followed").graph;
-    let input = Node::Input(Input {
-        argument: 2,
-        offset: 0,
-    });
+    let input = Node::Input(Input { argument: 2, offset: 0 });
     let of = |last: Node| {
         let nodes = vec![
             input,
@@ -54,15 +51,9 @@ fn an_absolute_value_has_the_error_of_its_operand() {
     };
     let (bound, absolute) = bounder(&graph);
     let negated = bounder(&of(Node::Neg(4))).0;
-    assert!(
-        (bound / negated - 1.0).abs() < 1e-12,
-        "{bound:e} {negated:e}"
-    );
+    assert!((bound / negated - 1.0).abs() < 1e-12, "{bound:e} {negated:e}");
     let observed = search(&graph, &robot, LITTLE, 1)[0].error;
-    assert!(
-        observed > 0.0 && observed <= bound,
-        "{observed:e} {bound:e}"
-    );
+    assert!(observed > 0.0 && observed <= bound, "{observed:e} {bound:e}");
     // From −10 to 8, and neither end is less than zero without its sign.
     let range = absolute.range();
     assert!(range.low == 0.0 && range.high > 10.0 && range.high < 10.001);
@@ -146,26 +137,16 @@ fn image() -> Image {
 
 fn reach() -> Robot {
     let mut reach = robot(2);
-    reach.joints[1] = Joint {
-        turns: false,
-        position: Interval::new(-0.2, 0.6),
-        speed: 1.0,
-        acceleration: 10.0,
-    };
+    reach.joints[1] =
+        Joint { turns: false, position: Interval::new(-0.2, 0.6), speed: 1.0, acceleration: 10.0 };
     reach
 }
 
 fn proven(subject: &Subject) -> Forward {
-    let spent = Spent {
-        parts: 300,
-        points: 20_000,
-        search: LITTLE,
-    };
+    let spent = Spent { parts: 300, points: 20_000, search: LITTLE };
     let (robot, bodies) = (reach(), floor::bodies(&Reach::MODEL));
     let exact = Exact::of(Function::ForwardDynamics, || Ok(bodies.clone())).expect("bodies");
-    let outputs = subject
-        .outputs(&robot, &exact, SINES, spent)
-        .expect("bounds");
+    let outputs = subject.outputs(&robot, &exact, SINES, spent).expect("bounds");
     let factored = subject.factored.as_ref().expect("it is forward dynamics");
     let forward = Forward::prove(factored, &outputs, &bodies, &robot, SINES, 2000);
     let mut forward = forward.expect("bounds");
@@ -207,11 +188,7 @@ fn a_slide_beyond_a_turn_has_a_bound() {
         }
     }
     // The search finds a tenth of the bound at least: it is no empty one.
-    assert!(
-        forward.shares.iter().all(|share| share.error > 0.1),
-        "{:?}",
-        forward.shares
-    );
+    assert!(forward.shares.iter().all(|share| share.error > 0.1), "{:?}", forward.shares);
 }
 
 #[test]
@@ -221,10 +198,7 @@ fn what_pivots_are_compared_with_is_bounded_over_the_slide() {
     let [(0, node)] = factored.others[..] else {
         panic!("{:?}", factored.others);
     };
-    let own = Graph {
-        outputs: vec![(0, node)],
-        ..factored.graph.clone()
-    };
+    let own = Graph { outputs: vec![(0, node)], ..factored.graph.clone() };
     // −|q| in place of |q|, and q.
     let negated = |node: &Node| match *node {
         Node::Abs(a) => Node::Neg(a),
@@ -250,10 +224,7 @@ fn what_pivots_are_compared_with_is_bounded_over_the_slide() {
             found = found.max(computed.into());
         }
         let proven = most(&own);
-        assert!(
-            found <= proven && proven < 1.01 * found,
-            "{found:e} {proven:e}"
-        );
+        assert!(found <= proven && proven < 1.01 * found, "{found:e} {proven:e}");
         // Of a wrong absolute value less would be proven than the code computes.
         let outputs = own.outputs.clone();
         let wrong = most(&Graph { nodes, outputs });
@@ -305,10 +276,8 @@ fn pivots_that_must_exceed_more_beyond_a_slide_may_be_refused() {
 #[test]
 fn another_root_in_the_matrix_is_refused() {
     let input = |argument, offset| Node::Input(Input { argument, offset });
-    let graph = |nodes: &[Node]| Graph {
-        nodes: nodes.to_vec(),
-        outputs: vec![(0, nodes.len() - 1)],
-    };
+    let graph =
+        |nodes: &[Node]| Graph { nodes: nodes.to_vec(), outputs: vec![(0, nodes.len() - 1)] };
     let forward = [
         input(3, 0),
         input(2, 0),

@@ -26,11 +26,7 @@ const fn bar(name: &'static str, parent: usize, x: f64, mass: f64) -> Body {
 impl Robot<3, 3, 3> for Bars {
     const MODEL: ArmModel<f64, 3> = Model::new(
         "bars",
-        [
-            bar("crank", BASE, 0.0, 0.5),
-            bar("coupler", 0, 0.2, 1.0),
-            bar("rocker", BASE, 0.6, 0.8),
-        ],
+        [bar("crank", BASE, 0.0, 0.5), bar("coupler", 0, 0.2, 1.0), bar("rocker", BASE, 0.6, 0.8)],
     );
 }
 
@@ -40,10 +36,7 @@ impl LoopRobot<3, 3, 3, 1, 5, 1> for Bars {
         [LoopJoint::new(
             "pin",
             Joint::revolute(Z),
-            [
-                BodyFrame::new(1).xyz([0.5, 0.0, 0.0]),
-                BodyFrame::new(2).xyz([0.4, 0.0, 0.0]),
-            ],
+            [BodyFrame::new(1).xyz([0.5, 0.0, 0.0]), BodyFrame::new(2).xyz([0.4, 0.0, 0.0])],
         )],
         [0],
     );
@@ -51,10 +44,8 @@ impl LoopRobot<3, 3, 3, 1, 5, 1> for Bars {
 
 impl ClusteredRobot<3, 3, 3, 1, 1> for Bars {
     type Clusters = (Driven<FourBar, 3, 1>,);
-    const CLUSTERS: Self::Clusters = (Driven::new(
-        "bars",
-        FourBar::new(0.6, 0.2, 0.5, 0.4, Branch::Positive),
-    ),);
+    const CLUSTERS: Self::Clusters =
+        (Driven::new("bars", FourBar::new(0.6, 0.2, 0.5, 0.4, Branch::Positive)),);
     const COORDINATES: &'static [&'static [usize]] = &[&[0, 1, 2]];
 }
 
@@ -73,10 +64,7 @@ pub fn bars(quantity: &str, numbers: &[f32]) -> Option<Vec<f32>> {
                 out.extend(found.tau.iter().chain(&qd).chain(&qdd).chain(&found.lambda));
             }
             "loops forward" => {
-                let stabilisation = Stabilisation {
-                    position: 100.0,
-                    velocity: 20.0,
-                };
+                let stabilisation = Stabilisation { position: 100.0, velocity: 20.0 };
                 let tau = [row[9]];
                 let found =
                     loops::forward_dynamics(robot, of, &state, &tau, stabilisation, &RIGID_BODY);
@@ -84,11 +72,7 @@ pub fn bars(quantity: &str, numbers: &[f32]) -> Option<Vec<f32>> {
                 out.extend(found.qdd.iter().chain(&found.lambda));
             }
             "linkages" => {
-                let y = State {
-                    q: [row[0]],
-                    qd: [row[3]],
-                    qdd: [row[6]],
-                };
+                let y = State { q: [row[0]], qd: [row[3]], qdd: [row[6]] };
                 out.extend(Clustered::<Core<Bars>>::rnea(&y, &RIGID_BODY).ok()?);
             }
             _ => return None,
@@ -123,10 +107,7 @@ pub fn wrist(numbers: &[f32]) -> Option<Vec<f32>> {
 /// A beam that turns about y, and a rigid arm on its end.
 pub struct Boom;
 
-const BEAM: Beam = Beam::new(0.5, 0.8)
-    .bending([4.0, 6.0])
-    .tip(0.3, 1e-4)
-    .damping_ratio(0.02);
+const BEAM: Beam = Beam::new(0.5, 0.8).bending([4.0, 6.0]).tip(0.3, 1e-4).damping_ratio(0.02);
 
 const LINK: FlexibleLink = match BEAM.link(0, &[Shape::BendZ(1), Shape::BendZ(2), Shape::BendY(1)])
 {
@@ -156,16 +137,8 @@ pub fn boom(quantity: &str, numbers: &[f32]) -> Option<Vec<f32>> {
     for row in numbers.chunks_exact(17) {
         let pair = |at: usize| [row[at], row[at + 1]];
         let three = |at: usize| std::array::from_fn(|i| row[at + i]);
-        let state = State {
-            q: pair(0),
-            qd: pair(2),
-            qdd: pair(4),
-        };
-        let bent = State {
-            q: three(8),
-            qd: three(11),
-            qdd: three(14),
-        };
+        let state = State { q: pair(0), qd: pair(2), qdd: pair(4) };
+        let bent = State { q: three(8), qd: three(11), qdd: three(14) };
         let found = match quantity {
             "rnea" => flexible::rnea(robot, &MODES, &state, &bent, scene),
             "forward" => {

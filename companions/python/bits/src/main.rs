@@ -110,16 +110,8 @@ fn algorithm<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>(
             out.extend_from_slice(found.as_flattened());
         }
         "elastic_inverse_dynamics" => {
-            let reference = ElasticReference {
-                state: *state,
-                jerk: *tau,
-                snap: *tau,
-            };
-            let joints = ElasticJoints {
-                stiffness: [1e4; V],
-                rotor: [0.7; V],
-                friction: [3.0; V],
-            };
+            let reference = ElasticReference { state: *state, jerk: *tau, snap: *tau };
+            let joints = ElasticJoints { stiffness: [1e4; V], rotor: [0.7; V], friction: [3.0; V] };
             let found = elastic_inverse_dynamics(robot, &joints, &reference, &RIGID_BODY).ok()?;
             out.extend([found.torque, found.position, found.velocity].as_flattened());
         }
@@ -155,10 +147,8 @@ fn main() -> std::io::Result<()> {
     };
     let mut bytes = Vec::new();
     std::io::stdin().read_to_end(&mut bytes)?;
-    let numbers: Vec<f32> = bytes
-        .chunks_exact(4)
-        .map(|b| f32::from_le_bytes([b[0], b[1], b[2], b[3]]))
-        .collect();
+    let numbers: Vec<f32> =
+        bytes.chunks_exact(4).map(|b| f32::from_le_bytes([b[0], b[1], b[2], b[3]])).collect();
     let found = match robot.as_str() {
         "ur5e" => rows::<Ur5e, 6, 6, 6>(quantity, &numbers),
         "panda" => rows::<Panda, 7, 7, 7>(quantity, &numbers),

@@ -65,11 +65,7 @@ impl AnyModes {
         }
         let double = Modes::try_new(&model, &all).map_err(NoModes::Modes)?;
         let single = double.to_f32();
-        Ok(Self {
-            single,
-            double,
-            count,
-        })
+        Ok(Self { single, double, count })
     }
 
     /// Those of a scalar, which is f32 or f64.

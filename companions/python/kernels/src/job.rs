@@ -98,10 +98,7 @@ pub struct Failure {
 impl Failure {
     /// The same row of a job that begins so many rows later.
     pub(crate) fn after(self, rows: usize) -> Self {
-        Self {
-            row: self.row + rows,
-            ..self
-        }
+        Self { row: self.row + rows, ..self }
     }
 }
 
@@ -212,15 +209,11 @@ impl<R: Copy + Send + Sync> Job<'_, R> {
 
     /// The rows from `first` to `end`.
     pub(crate) fn part(&mut self, first: usize, end: usize) -> Job<'_, R> {
-        let outputs = self.outputs.iter_mut().map(|output| Output {
-            data: &mut *output.data,
-            width: output.width,
-        });
-        let all = Job {
-            inputs: self.inputs.clone(),
-            outputs: outputs.collect(),
-            rows: self.rows,
-        };
+        let outputs = self
+            .outputs
+            .iter_mut()
+            .map(|output| Output { data: &mut *output.data, width: output.width });
+        let all = Job { inputs: self.inputs.clone(), outputs: outputs.collect(), rows: self.rows };
         all.split(first).1.split(end - first).0
     }
 }
@@ -237,11 +230,7 @@ impl<'a, R: Copy> Job<'a, R> {
             (Output { data: first, width }, Output { data: rest, width })
         });
         let ((inputs, more), (outputs, rest)) = (inputs.unzip(), outputs.unzip());
-        let of = |inputs, outputs, rows| Job {
-            inputs,
-            outputs,
-            rows,
-        };
+        let of = |inputs, outputs, rows| Job { inputs, outputs, rows };
         (of(inputs, outputs, rows), of(more, rest, self.rows - rows))
     }
 }

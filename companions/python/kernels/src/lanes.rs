@@ -52,10 +52,7 @@ impl Lanes {
     #[inline(always)]
     fn pairs(self, f: impl Fn(f32) -> (f32, f32)) -> (Self, Self) {
         let pairs = self.array().map(f);
-        (
-            Self::of(pairs.map(|pair| pair.0)),
-            Self::of(pairs.map(|pair| pair.1)),
-        )
+        (Self::of(pairs.map(|pair| pair.0)), Self::of(pairs.map(|pair| pair.1)))
     }
 
     /// Whether a comparison holds in all lanes.
@@ -95,9 +92,7 @@ macro_rules! comparisons {
 impl PartialOrd for Lanes {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         let is = |order| self.all(*other, |a, b| a.partial_cmp(&b) == Some(order));
-        [Ordering::Less, Ordering::Equal, Ordering::Greater]
-            .into_iter()
-            .find(|&order| is(order))
+        [Ordering::Less, Ordering::Equal, Ordering::Greater].into_iter().find(|&order| is(order))
     }
     comparisons!(lt <, le <=, gt >, ge >=);
 }
@@ -184,21 +179,13 @@ impl Neg for Vec3 {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        Self {
-            x: -self.x,
-            y: -self.y,
-            z: -self.z,
-        }
+        Self { x: -self.x, y: -self.y, z: -self.z }
     }
 }
 
 // The sums and products below have the order of glam's, which are those of f32.
 impl Vector<Lanes> for Vec3 {
-    const ZERO: Self = Self {
-        x: Lanes::ZERO,
-        y: Lanes::ZERO,
-        z: Lanes::ZERO,
-    };
+    const ZERO: Self = Self { x: Lanes::ZERO, y: Lanes::ZERO, z: Lanes::ZERO };
     #[inline(always)]
     fn new(x: Lanes, y: Lanes, z: Lanes) -> Self {
         Self { x, y, z }
@@ -233,20 +220,12 @@ impl Mul for Mat3 {
     type Output = Self;
     #[inline(always)]
     fn mul(self, o: Self) -> Self {
-        Self {
-            x: self * o.x,
-            y: self * o.y,
-            z: self * o.z,
-        }
+        Self { x: self * o.x, y: self * o.y, z: self * o.z }
     }
 }
 
 impl Matrix<Lanes> for Mat3 {
-    const ZERO: Self = Self {
-        x: Vec3::ZERO,
-        y: Vec3::ZERO,
-        z: Vec3::ZERO,
-    };
+    const ZERO: Self = Self { x: Vec3::ZERO, y: Vec3::ZERO, z: Vec3::ZERO };
     const IDENTITY: Self = {
         let mut one = Self::ZERO;
         (one.x.x, one.y.y, one.z.z) = (Lanes::ONE, Lanes::ONE, Lanes::ONE);
@@ -360,11 +339,7 @@ fn vector(v: dynamics_core::glam::Vec3) -> Vec3 {
 }
 
 fn matrix(m: dynamics_core::glam::Mat3) -> Mat3 {
-    Mat3 {
-        x: vector(m.x_axis),
-        y: vector(m.y_axis),
-        z: vector(m.z_axis),
-    }
+    Mat3 { x: vector(m.x_axis), y: vector(m.y_axis), z: vector(m.z_axis) }
 }
 
 /// A link with every number in all lanes.
@@ -379,10 +354,7 @@ fn lifted(link: &Link<f32>) -> Link<Lanes> {
             pitch: Lanes::splat(link.joint.pitch),
         },
         to_joint_frame: matrix(link.to_joint_frame),
-        placement: Xform {
-            rot: matrix(link.placement.rot),
-            pos: vector(link.placement.pos),
-        },
+        placement: Xform { rot: matrix(link.placement.rot), pos: vector(link.placement.pos) },
         inertia: SpatialInertia {
             mass: Lanes::splat(link.inertia.mass),
             first_moment: vector(link.inertia.first_moment),
@@ -438,9 +410,6 @@ impl Rows<Lanes> for Blocks<'_, '_> {
 
     #[inline(always)]
     fn at(&mut self, block: usize) -> impl Row<Lanes> {
-        Block {
-            job: self.job,
-            row: block * LANES,
-        }
+        Block { job: self.job, row: block * LANES }
     }
 }

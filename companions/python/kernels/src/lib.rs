@@ -43,11 +43,7 @@ pub struct Setting<'a> {
 
 /// The ranges of `dynamics_core::trig::sin_cos` and `sin_cos_f64`, rad.
 pub(crate) const fn most_angle<R>() -> f64 {
-    if size_of::<R>() == size_of::<f64>() {
-        1e5
-    } else {
-        1e4
-    }
+    if size_of::<R>() == size_of::<f64>() { 1e5 } else { 1e4 }
 }
 
 /// A scalar of arrays.
@@ -204,10 +200,7 @@ impl WithLanes for f32 {
         // found one by one.
         while first < count {
             let mut rest = rows.part(first * LANES, rows.rows);
-            let mut blocks = Blocks {
-                job: &mut rest,
-                count: count - first,
-            };
+            let mut blocks = Blocks { job: &mut rest, count: count - first };
             let done = in_lanes(algorithm, lanes, setting, &mut blocks);
             let Err(Failure { row: block, .. }) = done else {
                 break;
@@ -230,11 +223,7 @@ fn in_lanes<O: Algorithm>(
     setting: Setting<'_>,
     rows: &mut Blocks<'_, '_>,
 ) -> Result<(), Failure> {
-    let Setting {
-        counts,
-        effects,
-        body,
-    } = setting;
+    let Setting { counts, effects, body } = setting;
     macro_rules! run {
         ($robot:expr) => {
             algorithm.blocks(Call {
@@ -266,11 +255,7 @@ fn over<O: Algorithm, R: Real>(
     setting: Setting<'_>,
     rows: &mut Job<'_, R>,
 ) -> Result<(), Failure> {
-    let Setting {
-        counts,
-        effects,
-        body,
-    } = setting;
+    let Setting { counts, effects, body } = setting;
     let terms: Terms = dispatch::terms_of(effects);
     let bodies = if O::WHOLE { usize::MAX } else { counts.bodies };
     macro_rules! run {
@@ -279,13 +264,7 @@ fn over<O: Algorithm, R: Real>(
             if O::WHOLE {
                 parts.fill(counts.v);
             }
-            algorithm.all(Call {
-                robot: &Cut($robot, bodies),
-                counts,
-                terms,
-                parts: &parts,
-                rows,
-            })
+            algorithm.all(Call { robot: &Cut($robot, bodies), counts, terms, parts: &parts, rows })
         }};
     }
     if O::FAST {

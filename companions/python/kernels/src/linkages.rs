@@ -133,10 +133,7 @@ impl Linkages {
         for (c, (linkage, coordinates)) in given.iter().enumerate() {
             let [m, _] = linkage.sizes();
             if coordinates.len() != m {
-                return Err((
-                    c,
-                    format!("it drives {m} coordinates, not {}", coordinates.len()),
-                ));
+                return Err((c, format!("it drives {m} coordinates, not {}", coordinates.len())));
             }
             for &at in coordinates {
                 match of.get_mut(at) {
@@ -175,10 +172,7 @@ impl Linkages {
             if (v..v + nv).any(|k| of[k] != Some(c)) {
                 return Err((c, "it drives a part of a joint's coordinates".to_owned()));
             }
-            if matches!(
-                kind,
-                JointKind::Spherical | JointKind::Planar | JointKind::Free
-            ) {
+            if matches!(kind, JointKind::Spherical | JointKind::Planar | JointKind::Free) {
                 let text =
                     "it drives a joint whose velocities are not the derivatives of its positions";
                 return Err((c, text.to_owned()));
@@ -199,12 +193,7 @@ impl Linkages {
                 sizes = [sizes[0] + n, sizes[1] + n];
             }
         }
-        Ok(Self {
-            all,
-            free_q,
-            free,
-            sizes,
-        })
+        Ok(Self { all, free_q, free, sizes })
     }
 }
 

@@ -60,16 +60,9 @@ pub const MOST_COORDINATES: usize = 64;
 #[derive(Debug)]
 pub enum NoModel {
     /// More of something than there may be.
-    TooLarge {
-        what: &'static str,
-        found: usize,
-        most: usize,
-    },
+    TooLarge { what: &'static str, found: usize, most: usize },
     /// The library refuses a body.
-    Refused {
-        body: Option<usize>,
-        problem: String,
-    },
+    Refused { body: Option<usize>, problem: String },
 }
 
 /// The robot's own bodies of a model that is filled up.
@@ -126,12 +119,7 @@ impl Bodies {
     /// Of a tree that was read.
     pub fn of(tree: &tree::Tree) -> Self {
         Self {
-            bodies: tree
-                .bodies
-                .iter()
-                .enumerate()
-                .map(|(i, body)| described(i, body))
-                .collect(),
+            bodies: tree.bodies.iter().enumerate().map(|(i, body)| described(i, body)).collect(),
             links: None,
         }
     }
@@ -145,19 +133,12 @@ impl Bodies {
             parent: link.parent,
             body: Body::new(number(i), link.parent, link.joint),
         });
-        Self {
-            bodies: bodies.collect(),
-            links: Some(model.links.to_vec()),
-        }
+        Self { bodies: bodies.collect(), links: Some(model.links.to_vec()) }
     }
 
     /// How many there are.
     pub fn counts(&self) -> Counts {
-        let mut counts = Counts {
-            bodies: self.bodies.len(),
-            q: 0,
-            v: 0,
-        };
+        let mut counts = Counts { bodies: self.bodies.len(), q: 0, v: 0 };
         for kind in self.kinds() {
             let (q, v) = kind.coordinates();
             counts.q += q;
@@ -199,11 +180,7 @@ impl Bodies {
             Fast::None => None,
             lanes => Some(lanes),
         };
-        Ok(Models {
-            fast,
-            general,
-            lanes,
-        })
+        Ok(Models { fast, general, lanes })
     }
 
     /// Whether the smaller of the general models is large enough.
@@ -291,10 +268,7 @@ fn described(i: usize, body: &tree::Body) -> Described {
         Attitude::QuarterTurns(turns) => placed.quarter_turns(turns),
         Attitude::Rpy(rpy) => placed.rpy(rpy),
     };
-    let [lower, upper] = body
-        .limits
-        .position
-        .unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
+    let [lower, upper] = body.limits.position.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
     let body = placed
         .mass(body.inertia.mass)
         .com(body.inertia.com)
@@ -305,9 +279,5 @@ fn described(i: usize, body: &tree::Body) -> Described {
             velocity: body.limits.velocity.unwrap_or(f64::INFINITY),
             torque: body.limits.effort.unwrap_or(f64::INFINITY),
         });
-    Described {
-        kind: joint.kind,
-        parent,
-        body,
-    }
+    Described { kind: joint.kind, parent, body }
 }

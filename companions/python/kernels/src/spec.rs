@@ -318,15 +318,8 @@ pub fn fit(
                 return refuse(problem);
             }
         }
-        if let Spec::Payload {
-            mass, com, inertia, ..
-        } = spec
-        {
-            let payload = BodyInertia {
-                mass: *mass,
-                com: *com,
-                inertia: *inertia,
-            };
+        if let Spec::Payload { mass, com, inertia, .. } = spec {
+            let payload = BodyInertia { mass: *mass, com: *com, inertia: *inertia };
             if let Err(problem) = dynamics_core::effects::Payload::<f64, 0>::try_new(payload, 1e-6)
             {
                 let text = problem.to_string();
@@ -393,54 +386,28 @@ pub(crate) fn parts<R: Real, const V: usize>(
         match spec {
             Spec::Gravity(g) => parts.gravity = vector::<R>(g),
             Spec::Inertia | Spec::Coriolis => {}
-            Spec::MovingBase {
-                velocity,
-                acceleration,
-            } => parts.base = Some((motion(velocity), motion(acceleration))),
+            Spec::MovingBase { velocity, acceleration } => {
+                parts.base = Some((motion(velocity), motion(acceleration)))
+            }
             Spec::Armature { inertia } => parts.armature = Some(array(inertia)),
             Spec::GyroscopicRotors { inertia, ratio } => {
-                parts.rotors = Some(made!(GyroscopicRotors {
-                    inertia: array,
-                    ratio: array
-                }));
+                parts.rotors = Some(made!(GyroscopicRotors { inertia: array, ratio: array }));
             }
-            Spec::LoadFriction {
-                driving,
-                backdriving,
-                width,
-            } => {
-                parts.gears = Some(made!(LoadFriction {
-                    driving: array,
-                    backdriving: array,
-                    width: wide
-                }));
+            Spec::LoadFriction { driving, backdriving, width } => {
+                parts.gears =
+                    Some(made!(LoadFriction { driving: array, backdriving: array, width: wide }));
             }
-            Spec::Payload {
-                body: on,
-                mass,
-                com,
-                inertia,
-            } => {
-                let payload = made!(BodyInertia {
-                    mass: number,
-                    com: array,
-                    inertia: array
-                });
+            Spec::Payload { body: on, mass, com, inertia } => {
+                let payload = made!(BodyInertia { mass: number, com: array, inertia: array });
                 let payload = dynamics_core::effects::Payload::<R, 0>::from_inertia(payload);
                 parts.payloads.push((body(on), payload.0));
             }
             Spec::BodyWrench { body: on, wrench } => {
-                let wrench = made!(BodyWrench {
-                    body: body = on,
-                    wrench: force
-                });
+                let wrench = made!(BodyWrench { body: body = on, wrench: force });
                 parts.wrenches.push(AtBody::Body(wrench));
             }
             Spec::WorldWrench { body: on, wrench } => {
-                let wrench = made!(WorldWrench {
-                    body: body = on,
-                    wrench: force
-                });
+                let wrench = made!(WorldWrench { body: body = on, wrench: force });
                 parts.wrenches.push(AtBody::World(wrench));
             }
             Spec::Contact {
@@ -455,10 +422,7 @@ pub(crate) fn parts<R: Real, const V: usize>(
             } => {
                 for (on, point) in points {
                     let at = |point: &[f64; 3]| {
-                        [ContactPoint {
-                            body: body(on),
-                            point: vector::<R>(point),
-                        }]
+                        [ContactPoint { body: body(on), point: vector::<R>(point) }]
                     };
                     let normal_of = vector::<R>;
                     parts.wrenches.push(AtBody::Contact(made!(Contact {

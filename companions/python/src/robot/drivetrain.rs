@@ -24,10 +24,7 @@ impl Robot {
     ///
     /// Raises MultiDofJoint for a joint of several coordinates.
     #[pyo3(signature = (q, qd, qdd, jerk, snap, stiffness, rotor, friction, effects = None))]
-    #[allow(
-        clippy::too_many_arguments,
-        reason = "a trajectory with four derivatives"
-    )]
+    #[allow(clippy::too_many_arguments, reason = "a trajectory with four derivatives")]
     fn elastic_inverse_dynamics<'py>(
         &self,
         py: Python<'py>,
@@ -55,11 +52,7 @@ impl Robot {
         let v = self.counts.v;
         let joints = [&*stiffness, &*rotor, &*friction];
         for (name, values) in ["stiffness", "rotor", "friction"].iter().zip(joints) {
-            let least = if *name == "stiffness" {
-                f64::MIN_POSITIVE
-            } else {
-                0.0
-            };
+            let least = if *name == "stiffness" { f64::MIN_POSITIVE } else { 0.0 };
             if values.len() != v || !values.iter().all(|x| x.is_finite() && *x >= least) {
                 let text = format!(
                     "{name} needs {v} numbers that are finite and not negative, and no stiffness of zero"

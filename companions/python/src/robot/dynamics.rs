@@ -24,9 +24,7 @@ impl Robot {
     ) -> PyResult<Array<'py>> {
         let effects = effects_of(effects)?;
         let effects: Vec<Spec> = effects.iter().filter(|spec| keeps(spec)).cloned().collect();
-        let which = Which::Rnea {
-            given: arguments.len(),
-        };
+        let which = Which::Rnea { given: arguments.len() };
         let by = self.by(py, form, which, scene, &effects)?;
         self.one(py, by, &effects, arguments, &[&[self.counts.v]])
     }
@@ -47,13 +45,7 @@ impl Robot {
         form: &str,
     ) -> PyResult<Array<'py>> {
         let given = [self.q("q", q), self.v("qd", qd), self.v("qdd", qdd)];
-        self.inverse_dynamics(
-            py,
-            (form, EngineScene::RigidBody),
-            effects,
-            |_| true,
-            &given,
-        )
+        self.inverse_dynamics(py, (form, EngineScene::RigidBody), effects, |_| true, &given)
     }
 
     /// The torques (…, nv), N·m or N, at q (…, nq) and q̇ (…, nv) without acceleration: C(q, q̇) q̇ + g(q) and the
@@ -100,11 +92,7 @@ impl Robot {
         #[pyo3(from_py_with = wanted)] damping: f64,
     ) -> PyResult<Array<'py>> {
         let (body, frame, v) = (self.body(body)?, frame_of(py, frame)?, self.counts.v);
-        let which = Which::OperationalSpaceOf {
-            body,
-            frame,
-            damping,
-        };
+        let which = Which::OperationalSpaceOf { body, frame, damping };
         let results: &[&[usize]] = &[&[6, v], &[6, v], &[6, 6], &[6, 6]];
         self.several(py, which, &effects_of(effects)?, &[self.q("q", q)], results)
     }

@@ -16,9 +16,7 @@ pub fn frame_of(py: Python<'_>, name: &str) -> PyResult<AnyFrame> {
             let text = format!(
                 "there is no frame `{name}`: \"local\", \"world\" or \"local_world_aligned\""
             );
-            Err(Exception::new(py, "UnknownFrame", text)
-                .with("frame", name)
-                .build())
+            Err(Exception::new(py, "UnknownFrame", text).with("frame", name).build())
         }
     }
 }

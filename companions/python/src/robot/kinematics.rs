@@ -28,9 +28,7 @@ impl Robot {
         frame: &str,
         effects: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Array<'py>> {
-        let which = Which::Kinematics {
-            frame: frame_of(py, frame)?,
-        };
+        let which = Which::Kinematics { frame: frame_of(py, frame)? };
         let (effects, each) = (effects_of(effects)?, [self.counts.bodies, 6]);
         let given = [self.q("q", q), self.v("qd", qd), self.v("qdd", qdd)];
         self.several(py, which, &effects, &given, &[&each, &each])

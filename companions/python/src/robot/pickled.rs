@@ -41,14 +41,9 @@ pub fn robot(py: Python<'_>, numbers: &str) -> PyResult<Robot> {
         bodies.all(|(i, body)| body.parent.is_none_or(|parent| parent < i))
     };
     let read = read.filter(parents_first);
-    Robot::of_file(
-        py,
-        read.ok_or_else(|| of_pickle(py, "these are numbers of no robot"))?,
-    )
+    Robot::of_file(py, read.ok_or_else(|| of_pickle(py, "these are numbers of no robot"))?)
 }
 
 fn of_pickle(py: Python<'_>, text: &str) -> PyErr {
-    Exception::new(py, "ModelError", format!("pickle: {text}"))
-        .with("body", py.None())
-        .build()
+    Exception::new(py, "ModelError", format!("pickle: {text}")).with("body", py.None()).build()
 }

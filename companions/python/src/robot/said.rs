@@ -28,9 +28,7 @@ pub struct PyAdvice {
 #[pymethods]
 impl PyAdvice {
     fn __repr__(&self) -> String {
-        let Self {
-            topic, name, text, ..
-        } = self;
+        let Self { topic, name, text, .. } = self;
         format!("Advice({topic}, {name}: {text})")
     }
 }
@@ -55,12 +53,7 @@ pub struct PyCoupling {
 #[pymethods]
 impl PyCoupling {
     fn __repr__(&self) -> String {
-        let Self {
-            joint,
-            leader,
-            ratio,
-            offset,
-        } = self;
+        let Self { joint, leader, ratio, offset } = self;
         format!("Coupling({joint} = {ratio} {leader} + {offset})")
     }
 }
@@ -149,7 +142,6 @@ impl Robot {
     /// sum of ratio times τ of the followers.
     #[getter]
     fn couplings(&self) -> Vec<PyCoupling> {
-        self.said()
-            .map_or(Vec::new(), |said| said.couplings.clone())
+        self.said().map_or(Vec::new(), |said| said.couplings.clone())
     }
 }

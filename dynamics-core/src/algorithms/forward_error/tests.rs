@@ -12,10 +12,7 @@ struct Numbers(u64);
 
 impl Numbers {
     fn next(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(0x5851_f42d_4c95_7f2d)
-            .wrapping_add(0x1405_7b7e_f767_814f);
+        self.0 = self.0.wrapping_mul(0x5851_f42d_4c95_7f2d).wrapping_add(0x1405_7b7e_f767_814f);
         (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
     }
 
@@ -53,11 +50,7 @@ fn measured<const B: usize, const Q: usize, const V: usize>(
         let mut q = numbers.within(q_within);
         normalise(&single, &mut q).expect("no quaternion is zero");
         let (qd, qdd) = (numbers.within(3.0), numbers.within::<V>(10.0));
-        let wide = State {
-            q: q.map(f64::from),
-            qd: qd.map(f64::from),
-            qdd: qdd.map(f64::from),
-        };
+        let wide = State { q: q.map(f64::from), qd: qd.map(f64::from), qdd: qdd.map(f64::from) };
         let tau = rnea(&double, &wide, &RIGID_BODY).map(|tau| tau as f32);
         let truth =
             forward_dynamics(&double, &wide, &tau.map(f64::from), &RIGID_BODY).expect("regular");
@@ -66,15 +59,10 @@ fn measured<const B: usize, const Q: usize, const V: usize>(
             // No digit is left of a pivot: an error in place of a result.
             return [0.0, f64::INFINITY];
         };
-        assert_eq!(
-            Ok(found.qdd),
-            forward_dynamics(&single, &state, &tau, &RIGID_BODY)
-        );
+        assert_eq!(Ok(found.qdd), forward_dynamics(&single, &state, &tau, &RIGID_BODY));
         let size = truth.iter().fold(0.0, |size: f64, x| size.max(x.abs()));
         let off = found.qdd.iter().zip(truth);
-        let off = off.fold(0.0, |off: f64, (x, truth)| {
-            off.max((f64::from(*x) - truth).abs())
-        });
+        let off = off.fold(0.0, |off: f64, (x, truth)| off.max((f64::from(*x) - truth).abs()));
         [off / size, found.relative().into()]
     })
 }
@@ -84,11 +72,7 @@ fn rods<const K: usize>(in_space: bool) -> ArmModel<f64, K> {
     Model::new(
         "rods",
         core::array::from_fn(|i| {
-            let axis = if in_space && i % 2 == 1 {
-                [0.0, 0.0, 1.0]
-            } else {
-                [0.0, 1.0, 0.0]
-            };
+            let axis = if in_space && i % 2 == 1 { [0.0, 0.0, 1.0] } else { [0.0, 1.0, 0.0] };
             let (parent, at) = if i == 0 { (BASE, 0.0) } else { (i - 1, 0.25) };
             let across = 0.25 * 0.25 / 12.0;
             Body::new("rod", parent, Joint::revolute(axis))
@@ -112,10 +96,7 @@ fn hold<const B: usize, const Q: usize, const V: usize>(
     }
     let largest = |k: usize| all.iter().fold(0.0, |largest: f64, of| largest.max(of[k]));
     let [error, estimate] = [0, 1].map(largest);
-    assert!(
-        100.0 * error >= estimate,
-        "{name}: {error:e} of {estimate:e}"
-    );
+    assert!(100.0 * error >= estimate, "{name}: {error:e} of {estimate:e}");
     estimate
 }
 

@@ -27,10 +27,7 @@ impl<R: Real> Default for Pose<R> {
 
 impl<R: Real> Pose<R> {
     /// The pose of the base.
-    pub const IDENTITY: Self = Self {
-        rot: R::Mat3::IDENTITY,
-        pos: R::Vec3::ZERO,
-    };
+    pub const IDENTITY: Self = Self { rot: R::Mat3::IDENTITY, pos: R::Vec3::ZERO };
 
     /// A point given in the body's frame, in base coordinates, m. 18 flops.
     #[cfg_attr(optimised, inline(always))]
@@ -41,28 +38,19 @@ impl<R: Real> Pose<R> {
     /// ⁱX₀: motions from the base's frame to the body's.
     #[cfg_attr(optimised, inline(always))]
     pub fn xform(&self) -> Xform<R> {
-        Xform {
-            rot: self.rot.transpose(),
-            pos: self.pos,
-        }
+        Xform { rot: self.rot.transpose(), pos: self.pos }
     }
 
     /// The pose of the frame to which X transforms coordinates from this one's. 63 flops.
     #[cfg_attr(optimised, inline(always))]
     pub(in crate::algorithms) fn transformed_by(&self, x: &Xform<R>) -> Self {
-        Self {
-            rot: self.rot * x.rot.transpose(),
-            pos: self.point(x.pos),
-        }
+        Self { rot: self.rot * x.rot.transpose(), pos: self.point(x.pos) }
     }
 
     /// The pose with the same origin, and axes that `frame` rotates into this one's.
     #[cfg_attr(optimised, inline(always))]
     pub(in crate::algorithms) fn in_link_frame(&self, frame: &R::Mat3) -> Self {
-        Self {
-            rot: self.rot * *frame,
-            pos: self.pos,
-        }
+        Self { rot: self.rot * *frame, pos: self.pos }
     }
 }
 
@@ -136,10 +124,7 @@ impl Frame for World {
     }
     #[cfg_attr(optimised, inline(always))]
     fn from_body<R: Real>(pose: &Pose<R>) -> Xform<R> {
-        Xform {
-            rot: pose.rot,
-            pos: -pose.rot.transpose_mul(pose.pos),
-        }
+        Xform { rot: pose.rot, pos: -pose.rot.transpose_mul(pose.pos) }
     }
     #[cfg_attr(optimised, inline(always))]
     fn from_aligned<R: Real>(pose: &Pose<R>, m: Motion<R>) -> Motion<R> {
@@ -154,10 +139,7 @@ impl Frame for LocalWorldAligned {
     }
     #[cfg_attr(optimised, inline(always))]
     fn from_body<R: Real>(pose: &Pose<R>) -> Xform<R> {
-        Xform {
-            rot: pose.rot,
-            pos: R::Vec3::ZERO,
-        }
+        Xform { rot: pose.rot, pos: R::Vec3::ZERO }
     }
     #[cfg_attr(optimised, inline(always))]
     fn from_aligned<R: Real>(_: &Pose<R>, m: Motion<R>) -> Motion<R> {

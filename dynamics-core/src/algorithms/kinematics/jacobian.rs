@@ -73,10 +73,7 @@ where
         x = x * link.xform(turns);
         reached = link.parent;
     }
-    let pose = Pose {
-        rot: x.rot.transpose(),
-        pos: x.pos,
-    };
+    let pose = Pose { rot: x.rot.transpose(), pos: x.pos };
     for column in &mut columns {
         *column = F::express(&pose, *column);
     }
@@ -141,9 +138,5 @@ where
         }
         moving.push((pose, v, a));
     }
-    if body == BASE {
-        Motion::ZERO
-    } else {
-        Motion::nan()
-    }
+    if body == BASE { Motion::ZERO } else { Motion::nan() }
 }

@@ -150,11 +150,7 @@ where
         v.push(v_i);
         a.push(a_i);
     }
-    Kinematics {
-        poses: poses(robot, trig),
-        velocities,
-        accelerations,
-    }
+    Kinematics { poses: poses(robot, trig), velocities, accelerations }
 }
 
 /// A motion of a body from its aligned frame to its own.

@@ -35,9 +35,7 @@ pub struct MassMatrix<R, const V: usize> {
 
 impl<R: Real, const V: usize> MassMatrix<R, V> {
     /// The matrix of zeros, kg·m² or kg.
-    pub const ZERO: Self = Self {
-        rows: [[R::ZERO; V]; V],
-    };
+    pub const ZERO: Self = Self { rows: [[R::ZERO; V]; V] };
 
     /// A matrix of these rows, of which the entries up to the diagonal are read: kg·m² or kg.
     ///

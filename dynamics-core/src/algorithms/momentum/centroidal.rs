@@ -97,12 +97,7 @@ where
 {
     let trig = q.trig_of(robot);
     let trig = trig.borrow();
-    const {
-        assert!(
-            !E::GYROSCOPIC_ROTORS,
-            "no rotors that spin as bodies here; name `Armature`"
-        )
-    };
+    const { assert!(!E::GYROSCOPIC_ROTORS, "no rotors that spin as bodies here; name `Armature`") };
     let turns = &trig.coordinates;
     let (mass, moment) = mass_and_first_moment(robot, trig, effects);
     let centre = moment * reciprocal(mass);

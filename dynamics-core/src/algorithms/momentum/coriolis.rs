@@ -112,12 +112,7 @@ where
             rotor = v_parent.dot(rotor_force(effects, &link));
         }
         velocities.push(v);
-        let _ = bodies.push(Body {
-            rot: x.rot,
-            v,
-            h,
-            rotor,
-        });
+        let _ = bodies.push(Body { rot: x.rot, v, h, rotor });
     }
 
     let (mut p, mut ct_qd) = ([R::ZERO; V], [R::ZERO; V]);

@@ -70,11 +70,7 @@ where
 /// 1/m; zero if there is no mass.
 #[cfg_attr(optimised, inline(always))]
 pub(in crate::algorithms) fn reciprocal<R: Real>(mass: R) -> R {
-    if mass > R::ZERO {
-        R::ONE / mass
-    } else {
-        R::ZERO
-    }
+    if mass > R::ZERO { R::ONE / mass } else { R::ZERO }
 }
 
 /// The centre of mass of all bodies and a payload, m, its velocity, m/s, and their mass, kg.

@@ -8,11 +8,7 @@ use crate::scalar::Real;
 /// full accuracy, and one more.
 #[cfg_attr(optimised, inline(always))]
 fn sweeps<R: Real>() -> usize {
-    if R::EPSILON > R::from_f64(1e-10) {
-        6
-    } else {
-        7
-    }
+    if R::EPSILON > R::from_f64(1e-10) { 6 } else { 7 }
 }
 
 /// Eigenvalues and eigenvectors (by rows) of a symmetric matrix, unordered.
@@ -59,11 +55,7 @@ fn rotation<R: Real>(app: R, apq: R, aqq: R) -> (R, R) {
     let squared = apart * apart + twice * twice;
     let far = apart.abs() + squared * squared.rsqrt();
     let signed = if apart < R::ZERO { -twice } else { twice };
-    let t = if far == R::ZERO {
-        R::ZERO
-    } else {
-        signed / far
-    };
+    let t = if far == R::ZERO { R::ZERO } else { signed / far };
     let c = (R::ONE + t * t).rsqrt();
     (c, t * c)
 }

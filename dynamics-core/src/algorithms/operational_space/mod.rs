@@ -84,14 +84,7 @@ pub fn jacobian_rows<R: Real, const V: usize>(jacobian: &[Motion<R>; V]) -> [[R;
     let columns = jacobian.map(|column| (column.ang.array(), column.lin.array()));
     let angular = |i: usize| columns.map(|(ang, _)| ang[i]);
     let linear = |i: usize| columns.map(|(_, lin)| lin[i]);
-    [
-        angular(0),
-        angular(1),
-        angular(2),
-        linear(0),
-        linear(1),
-        linear(2),
-    ]
+    [angular(0), angular(1), angular(2), linear(0), linear(1), linear(2)]
 }
 
 /// The operational-space inertia of a task on `body` along some directions, expressed in a
@@ -215,13 +208,7 @@ impl<R: Real, const M: usize, const V: usize> OperationalSpace<R, M, V> {
             }
         }
         let (inertia, conditioning) = damped_inverse(&mobility, damping);
-        Self {
-            jacobian,
-            response,
-            mobility,
-            inertia,
-            conditioning,
-        }
+        Self { jacobian, response, mobility, inertia, conditioning }
     }
 
     /// F = Λ ẍ: the task force of a task acceleration. 2 M² flops.

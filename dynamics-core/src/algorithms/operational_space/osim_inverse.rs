@@ -60,11 +60,8 @@ impl<R: Real> Mul<Force<R>> for OsimInverse<R> {
 
 impl<R: Real> OsimInverse<R> {
     /// The mobility of a body that cannot move.
-    pub(crate) const ZERO: Self = Self {
-        ang: Symmetric::ZERO,
-        coupling: R::Mat3::ZERO,
-        lin: Symmetric::ZERO,
-    };
+    pub(crate) const ZERO: Self =
+        Self { ang: Symmetric::ZERO, coupling: R::Mat3::ZERO, lin: Symmetric::ZERO };
 
     /// Λ⁻¹ of a task: along directions of the body that are given as forces. 77 M² flops.
     #[cfg_attr(optimised, inline(always))]
@@ -156,15 +153,9 @@ impl<R: Real> OsimInverse<R> {
         let b = s * own - w * d_inv;
         let coupling = outer::<R>(s.ang, b.lin) + outer::<R>(b.ang, s.lin);
         Self {
-            ang: self
-                .ang
-                .minus_outer(-s.ang, b.ang)
-                .minus_outer(-b.ang, s.ang),
+            ang: self.ang.minus_outer(-s.ang, b.ang).minus_outer(-b.ang, s.ang),
             coupling: self.coupling + coupling,
-            lin: self
-                .lin
-                .minus_outer(-s.lin, b.lin)
-                .minus_outer(-b.lin, s.lin),
+            lin: self.lin.minus_outer(-s.lin, b.lin).minus_outer(-b.lin, s.lin),
         }
     }
 }
@@ -245,10 +236,7 @@ where
     let Some(link) = robot.link(body) else {
         return Ok(OsimInverse::ZERO);
     };
-    let own = Xform {
-        rot: link.to_joint_frame.transpose(),
-        pos: R::Vec3::ZERO,
-    };
+    let own = Xform { rot: link.to_joint_frame.transpose(), pos: R::Vec3::ZERO };
     let expressed = F::from_body(&pose.in_link_frame(&link.to_joint_frame));
     Ok(mobility.at(&(expressed * own)))
 }

@@ -240,10 +240,7 @@ where
     let turns = &trig.coordinates;
     let mut y = [[R::ZERO; 10]; B];
     let mut moved = per_body(robot, None);
-    let count = bodies
-        .iter()
-        .rposition(|is_in| *is_in)
-        .map_or(0, |last| last + 1);
+    let count = bodies.iter().rposition(|is_in| *is_in).map_or(0, |last| last + 1);
     outward(robot, trig, state, effects, count, |i, [v, a], xforms| {
         let (Some(link), Some(x)) = (robot.link(i), xforms.last()) else {
             return;
@@ -289,11 +286,7 @@ fn outward<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
         let a_i = acceleration(effects, &link, x * a.parent(&link), v_i, turns, state); // (4)
         a.push(a_i);
         let _ = xforms.push(x);
-        let known = if E::VELOCITY_PRODUCTS {
-            v_i
-        } else {
-            Motion::ZERO
-        };
+        let known = if E::VELOCITY_PRODUCTS { v_i } else { Motion::ZERO };
         visit(i, [known, a_i], &xforms);
     }
 }
@@ -310,10 +303,8 @@ fn climb<R: Real, D, const B: usize, const Q: usize, const V: usize>(
 ) where
     D: RobotModel<R, B, Q, V>,
 {
-    let own = |link: LinkView<'_, R>| Xform {
-        rot: link.to_joint_frame.transpose(),
-        pos: R::Vec3::ZERO,
-    };
+    let own =
+        |link: LinkView<'_, R>| Xform { rot: link.to_joint_frame.transpose(), pos: R::Vec3::ZERO };
     let (mut at, mut x) = (i, robot.link(i).map_or(Xform::IDENTITY, own));
     // As many steps as there are bodies at most.
     for _ in 0..=i {

@@ -30,12 +30,7 @@ impl<R: Real> BodyPower<R> {
             R::Vec3::new(xy - dz, -(xx + zz), yz + dx),
             R::Vec3::new(xz + dy, yz - dx, -(xx + yy)),
         );
-        Self {
-            omega,
-            turning,
-            point,
-            field,
-        }
+        Self { omega, turning, point, field }
     }
 
     /// sᵀ A: of f = m p + U h and n = h × p + Ī ω̇ + ω × Ī ω, RBDA (2.58), the power along the

@@ -46,10 +46,7 @@ impl<const C: usize> Belt<C> {
     pub const fn new(coefficients: [f64; C]) -> Self {
         let mut i = 0;
         while i < C {
-            assert!(
-                coefficients[i].is_finite(),
-                "a coefficient of a belt is not finite"
-            );
+            assert!(coefficients[i].is_finite(), "a coefficient of a belt is not finite");
             i += 1;
         }
         Self { coefficients }

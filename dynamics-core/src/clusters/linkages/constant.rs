@@ -44,11 +44,7 @@ impl<const N: usize, const M: usize> Cluster<M, N> for Transmission<f64, N, M> {
 /// Refuses numbers of which one is not finite.
 #[cfg_attr(optimised, inline(always))]
 pub(super) fn finite<R: Real>(values: &[R]) -> Result<(), ClusterProblem> {
-    if all_finite(values) {
-        Ok(())
-    } else {
-        Err(ClusterProblem::NotFinite)
-    }
+    if all_finite(values) { Ok(()) } else { Err(ClusterProblem::NotFinite) }
 }
 
 /// A differential: two motors that together pitch, and against each other roll. M = 2, N = 2, y the
@@ -89,9 +85,7 @@ impl Differential {
             ratios[0] != 0.0 && ratios[0].is_finite() && ratios[1] != 0.0 && ratios[1].is_finite(),
             "a differential's ratio is zero or not finite"
         );
-        Self {
-            halves: [0.5 / ratios[0], 0.5 / ratios[1]],
-        }
+        Self { halves: [0.5 / ratios[0], 0.5 / ratios[1]] }
     }
 }
 

@@ -78,11 +78,8 @@ pub struct Delta {
 }
 
 /// cos and sin of 0°, 120° and 240°.
-const SIDES: [(f64, f64); 3] = [
-    (1.0, 0.0),
-    (-0.5, 0.866_025_403_784_438_6),
-    (-0.5, -0.866_025_403_784_438_6),
-];
+const SIDES: [(f64, f64); 3] =
+    [(1.0, 0.0), (-0.5, 0.866_025_403_784_438_6), (-0.5, -0.866_025_403_784_438_6)];
 
 impl Delta {
     /// A robot of these lengths, m: the radius of the circle of the cranks' joints, the cranks, the
@@ -92,27 +89,16 @@ impl Delta {
     /// If a length is not finite, a crank's or rod's not positive, or the rods reach the platform
     /// in no posture with equal cranks; in a `const` this does not compile.
     pub const fn new(base: f64, crank: f64, rod: f64, platform: f64) -> Self {
-        assert!(
-            base.is_finite() && platform.is_finite(),
-            "a radius of a Delta is not finite"
-        );
+        assert!(base.is_finite() && platform.is_finite(), "a radius of a Delta is not finite");
         assert!(
             crank > 0.0 && crank.is_finite() && rod > 0.0 && rod.is_finite(),
             "a crank's or a rod's length is not positive"
         );
         let radius = base - platform;
-        assert!(
-            radius.abs() < crank + rod,
-            "the rods of a Delta do not reach its platform"
-        );
+        assert!(radius.abs() < crank + rod, "the rods of a Delta do not reach its platform");
         let reach = radius.abs() + crank;
         let longer = if rod > reach { rod } else { reach };
-        Self {
-            radius,
-            crank,
-            rod,
-            scale: longer * longer,
-        }
+        Self { radius, crank, rod, scale: longer * longer }
     }
 }
 
@@ -289,10 +275,7 @@ impl Cluster<12, 3> for Delta {
             let crank = rods[I].dot(arm.radial) * (arm.yd * arm.yd);
             right[I] = -(crank + rates[I].dot(rates[I]));
         });
-        let moving = Moving::<R> {
-            columns,
-            acceleration: combined::<R>(&platform.dual, right),
-        };
+        let moving = Moving::<R> { columns, acceleration: combined::<R>(&platform.dual, right) };
 
         let mut motion = ClusterMotion {
             q: [JointCoordinate::default(); 12],

@@ -147,12 +147,7 @@ impl<R: Real> Dyad<R> {
             let (k, h) = (k * w2_inv, h * w2_inv);
             [k * w[0] - h * w[1], k * w[1] + h * w[0]]
         };
-        Ok(Self {
-            e1,
-            b2_e2: [b1 * e1[0] - w[0], b1 * e1[1] - w[1]],
-            h_inv,
-            singular,
-        })
+        Ok(Self { e1, b2_e2: [b1 * e1[0] - w[0], b1 * e1[1] - w[1]], h_inv, singular })
     }
 
     /// Both links' rates at which w changes by `wd`: b₁ ω₁ e₁⊥ − b₂ ω₂ e₂⊥ = ẇ. Their accelerations
@@ -160,10 +155,7 @@ impl<R: Real> Dyad<R> {
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn rates(&self, lengths: &Lengths, wd: Vec2<R>) -> [R; 2] {
         let b1_inv = R::from_f64(1.0 / lengths.b1);
-        [
-            dot(wd, self.b2_e2) * (self.h_inv * b1_inv),
-            dot(wd, self.e1) * self.h_inv,
-        ]
+        [dot(wd, self.b2_e2) * (self.h_inv * b1_inv), dot(wd, self.e1) * self.h_inv]
     }
 
     /// b₁ ω₁² e₁ − b₂ ω₂² e₂.

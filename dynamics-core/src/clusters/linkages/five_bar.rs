@@ -87,13 +87,7 @@ impl FiveBar {
             );
             i += 1;
         }
-        Self {
-            ground,
-            cranks,
-            rods,
-            branch,
-            zeros: [Zero::at(0.0); 4],
-        }
+        Self { ground, cranks, rods, branch, zeros: [Zero::at(0.0); 4] }
     }
 
     /// The same, of joints whose coordinates are zero at these angles of the table above, rad.
@@ -133,12 +127,7 @@ impl Cluster<4, 2> for FiveBar {
         let [bias1, bias3] = dyad.rates(&self.rods, z);
         let (one, zero) = (R::ONE, R::ZERO);
         Ok(ClusterMotion {
-            q: [
-                *y0,
-                self.zeros[1].coordinate(e0, dyad.e1),
-                *y1,
-                self.zeros[3].coordinate(e1, rod),
-            ],
+            q: [*y0, self.zeros[1].coordinate(e0, dyad.e1), *y1, self.zeros[3].coordinate(e1, rod)],
             g: [[one, zero], [g10 - one, g11], [zero, one], [g30, g31 - one]],
             bias: [zero, bias1, zero, bias3],
             singular: dyad.singular,

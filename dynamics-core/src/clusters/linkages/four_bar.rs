@@ -99,23 +99,13 @@ impl FourBar {
             2.0 * longest <= sum,
             "the longest link of a four-bar is longer than the other three"
         );
-        Self {
-            ground,
-            crank,
-            links,
-            branch,
-            zeros: [Zero::at(0.0); 3],
-        }
+        Self { ground, crank, links, branch, zeros: [Zero::at(0.0); 3] }
     }
 
     /// The same, of joints whose coordinates are zero at these angles of the table above, rad.
     #[must_use]
     pub const fn zeros(mut self, angles: [f64; 3]) -> Self {
-        self.zeros = [
-            Zero::at(angles[0]),
-            Zero::at(angles[1]),
-            Zero::at(angles[2]),
-        ];
+        self.zeros = [Zero::at(angles[0]), Zero::at(angles[1]), Zero::at(angles[2])];
         self
     }
 }
@@ -141,11 +131,7 @@ impl Cluster<3, 1> for FourBar {
         let [b1, b2] = dyad.rates(&self.links, [x0 + cx, y0 + cy]);
         let squared = yd * yd;
         Ok(ClusterMotion {
-            q: [
-                *y,
-                self.zeros[1].coordinate(e0, dyad.e1),
-                self.zeros[2].of(e2),
-            ],
+            q: [*y, self.zeros[1].coordinate(e0, dyad.e1), self.zeros[2].of(e2)],
             g: [[R::ONE], [g1 - R::ONE], [g2]],
             bias: [R::ZERO, b1 * squared, b2 * squared],
             singular: dyad.singular,

@@ -29,17 +29,8 @@ impl<R: Real> Hook<R> {
         let [zx, zy, zz] = z.array();
         let flat2 = zx * zx + zz * zz;
         let Root { h, h_inv, singular } = root(flat2, l2, Branch::Positive)?;
-        let turn = if singular {
-            direction(zx, zz, flat2)
-        } else {
-            [zx * h_inv, zz * h_inv]
-        };
-        Ok(Self {
-            turn,
-            lift: [-(zy * l_inv), h * l_inv],
-            flat_inv: h_inv,
-            singular,
-        })
+        let turn = if singular { direction(zx, zz, flat2) } else { [zx * h_inv, zz * h_inv] };
+        Ok(Self { turn, lift: [-(zy * l_inv), h * l_inv], flat_inv: h_inv, singular })
     }
 
     /// For a body of almost no length, which is `scale` at most: with rates that are damped as that

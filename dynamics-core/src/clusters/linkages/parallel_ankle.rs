@@ -116,10 +116,7 @@ impl ParallelAnkle {
                 assert!(finite, "a length of a parallel ankle is not finite");
                 k += 1;
             }
-            assert!(
-                rod.length > 0.0 && rod.length.is_finite(),
-                "a rod's length is not positive"
-            );
+            assert!(rod.length > 0.0 && rod.length.is_finite(), "a rod's length is not positive");
             assert!(
                 rod.crank[0] != 0.0 || rod.crank[2] != 0.0,
                 "a crank of a parallel ankle has no length"
@@ -207,11 +204,7 @@ impl Rod {
         let edd = rest - tangent * mdd;
         // e = −l (sin α cos v, −sin v, cos α cos v) with α = m + u.
         let flat2 = ex * ex + ez * ez;
-        let level = root(
-            flat2,
-            R::from_f64(self.length * self.length),
-            Branch::Positive,
-        )?;
+        let level = root(flat2, R::from_f64(self.length * self.length), Branch::Positive)?;
         let (flat, flat_inv) = (level.h, level.h_inv);
         let flat2_inv = flat_inv * flat_inv;
         let l_inv = R::from_f64(1.0 / self.length);
@@ -233,22 +226,9 @@ impl Rod {
         let vd = edy * flat_inv;
         let vdd = lift(edd) + ey * vd * vd * flat_inv;
         // One by one: a loop is not removed where no effect reads the angles.
-        let q = [
-            of_unit(sm, cm),
-            of_unit(sa * cm - ca * sm, ca * cm + sa * sm),
-            of_unit(sv, cv),
-        ];
-        let rows = [
-            g,
-            [turn(columns[0]) - g[0], turn(columns[1]) - g[1]],
-            columns.map(lift),
-        ];
-        Ok((
-            q,
-            rows,
-            [mdd, alpha_dd - mdd, vdd],
-            singular | level.singular,
-        ))
+        let q = [of_unit(sm, cm), of_unit(sa * cm - ca * sm, ca * cm + sa * sm), of_unit(sv, cv)];
+        let rows = [g, [turn(columns[0]) - g[0], turn(columns[1]) - g[1]], columns.map(lift)];
+        Ok((q, rows, [mdd, alpha_dd - mdd, vdd], singular | level.singular))
     }
 }
 
@@ -275,16 +255,7 @@ impl Cluster<8, 2> for ParallelAnkle {
         let (q1, g1, b1, singular1) = self.rods[1].close(&foot, yd)?;
         Ok(ClusterMotion {
             q: [*pitch, *roll, q0[0], q0[1], q0[2], q1[0], q1[1], q1[2]],
-            g: [
-                [one, zero],
-                [zero, one],
-                g0[0],
-                g0[1],
-                g0[2],
-                g1[0],
-                g1[1],
-                g1[2],
-            ],
+            g: [[one, zero], [zero, one], g0[0], g0[1], g0[2], g1[0], g1[1], g1[2]],
             bias: [zero, zero, b0[0], b0[1], b0[2], b1[0], b1[1], b1[2]],
             singular: singular0 | singular1,
         })

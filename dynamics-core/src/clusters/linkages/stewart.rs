@@ -96,11 +96,7 @@ impl Stewart {
     pub const fn new(legs: [Leg; 6]) -> Self {
         let (mut i, mut scale) = (0, 0.0);
         while i < legs.len() {
-            let Leg {
-                base,
-                platform,
-                length,
-            } = &legs[i];
+            let Leg { base, platform, length } = &legs[i];
             assert!(
                 *length >= 0.0 && length.is_finite(),
                 "the length of a leg is negative or not finite"
@@ -143,16 +139,9 @@ impl Leg {
         let b = self.base.map(R::from_f64);
         let z = (platform.position - R::Vec3::new(b[0], b[1], b[2])) + r;
         let l2 = z.dot(z);
-        let Root {
-            h: l,
-            h_inv: l_inv,
-            singular,
-        } = root(l2, scale, Branch::Positive)?;
-        let hook = if singular {
-            Hook::<R>::short(z, scale)?
-        } else {
-            Hook::<R>::of(z, l_inv, l2)?
-        };
+        let Root { h: l, h_inv: l_inv, singular } = root(l2, scale, Branch::Positive)?;
+        let hook =
+            if singular { Hook::<R>::short(z, scale)? } else { Hook::<R>::of(z, l_inv, l2)? };
         let [e_l, e_turn, e_lift] = hook.axes();
         let g = [
             platform.row(r, e_turn * hook.flat_inv),
@@ -299,11 +288,8 @@ impl<R: Real> Platform<R> {
         let left = R::Vec3::new(-yaw.sin, yaw.cos, R::ZERO);
         // ẑ of the platform before it rolls.
         let above = R::Vec3::new(yaw.cos * pitch.sin, yaw.sin * pitch.sin, pitch.cos);
-        let attitude = [
-            ahead,
-            left * roll.cos + above * roll.sin,
-            above * roll.cos - left * roll.sin,
-        ];
+        let attitude =
+            [ahead, left * roll.cos + above * roll.sin, above * roll.cos - left * roll.sin];
         let yaw_pitch = R::Vec3::new(-(yaw.sin * yd[4]), yaw.cos * yd[4], yd[3]);
         // z × pitch axis = −(cos, sin, 0)
         let turn = yd[3] * yd[4];

@@ -18,10 +18,7 @@ pub(super) struct Zero {
 impl Zero {
     /// At `angle`, rad, within ±100.
     pub(super) const fn at(angle: f64) -> Self {
-        assert!(
-            angle.abs() <= 100.0,
-            "the angle at which a joint is zero is beyond 100 rad"
-        );
+        assert!(angle.abs() <= 100.0, "the angle at which a joint is zero is beyond 100 rad");
         let (sin, cos) = sin_cos(angle);
         Self { angle, sin, cos }
     }
@@ -39,10 +36,7 @@ impl Zero {
     /// q = θ − zero, within ±π, of the angle θ from the direction `from` to the direction `to`.
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn coordinate<R: Real>(&self, from: Vec2<R>, to: Vec2<R>) -> JointCoordinate<R> {
-        self.of([
-            from[0] * to[0] + from[1] * to[1],
-            from[0] * to[1] - from[1] * to[0],
-        ])
+        self.of([from[0] * to[0] + from[1] * to[1], from[0] * to[1] - from[1] * to[0]])
     }
 
     /// The same of (cos θ, sin θ).

@@ -81,10 +81,7 @@ impl<R: Real, const BODY: usize> Payload<R, BODY> {
     pub fn try_new(inertia: BodyInertia<R>, relative: f64) -> Result<Self, InvalidPayload> {
         match inertia.problem(relative) {
             None => Ok(Self::from_inertia(inertia)),
-            Some(problem) => Err(InvalidPayload {
-                body: BODY,
-                problem,
-            }),
+            Some(problem) => Err(InvalidPayload { body: BODY, problem }),
         }
     }
 }

@@ -49,10 +49,7 @@ impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for AsymmetricCoul
 
     #[cfg_attr(optimised, inline(always))]
     fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
-        let ((even, odd), s) = (
-            self.halves(joint),
-            smooth_sign(at.qd * self.width.inverse()),
-        );
+        let ((even, odd), s) = (self.halves(joint), smooth_sign(at.qd * self.width.inverse()));
         *tau += s * (even + odd * s);
     }
 

@@ -74,10 +74,7 @@ impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Coulomb<R, V> 
     fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
         if let Some(&torque) = self.torque.get(joint) {
             // The factors that constants leave constant stand first.
-            *tau += sliding(
-                torque,
-                at.qd * (self.width.inverse() * R::from_f64(R::MAX_TRUNC)),
-            );
+            *tau += sliding(torque, at.qd * (self.width.inverse() * R::from_f64(R::MAX_TRUNC)));
         }
     }
 

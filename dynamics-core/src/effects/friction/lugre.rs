@@ -57,10 +57,7 @@ impl<R: Real, const V: usize> Lugre<R, V> {
     /// σ₀ / g(q̇): the reciprocal of the deflection at which bristles slide.
     #[cfg_attr(optimised, inline(always))]
     fn deflection_inv(&self, joint: usize, qd: R) -> R {
-        let (at, u) = (
-            |values| entry::<R>(values, joint),
-            qd * self.stribeck_speed.inverse(),
-        );
+        let (at, u) = (|values| entry::<R>(values, joint), qd * self.stribeck_speed.inverse());
         at(&self.stiffness) / (at(&self.sliding) + at(&self.excess) * (u * u).exp_neg())
     }
 }

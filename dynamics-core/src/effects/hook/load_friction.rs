@@ -21,28 +21,17 @@ pub struct LoadFriction<E, R> {
 
 impl<E, R> LoadFriction<E, R> {
     /// No such friction.
-    pub const NONE: Self = Self {
-        factors: None,
-        slopes: None,
-        is_some: false,
-    };
+    pub const NONE: Self = Self { factors: None, slopes: None, is_some: false };
 
     /// Friction of the factors that `factors` adds; `slopes` adds their derivatives with respect to
     /// q̇, for [`Implicit`](crate::effects::Implicit).
     pub const fn new(factors: AddFactors<E, R>, slopes: AddFactors<E, R>) -> Self {
-        Self {
-            factors: Some(factors),
-            slopes: Some(slopes),
-            is_some: true,
-        }
+        Self { factors: Some(factors), slopes: Some(slopes), is_some: true }
     }
 
     #[doc(hidden)]
     pub const fn with<F>(self, inner: &LoadFriction<F, R>) -> Self {
-        Self {
-            is_some: self.is_some | inner.is_some,
-            ..self
-        }
+        Self { is_some: self.is_some | inner.is_some, ..self }
     }
 
     #[doc(hidden)]
@@ -52,10 +41,6 @@ impl<E, R> LoadFriction<E, R> {
         factors: AddFactors<E, R>,
         slopes: AddFactors<E, R>,
     ) -> Self {
-        if on & self.is_some {
-            Self::new(factors, slopes)
-        } else {
-            Self::NONE
-        }
+        if on & self.is_some { Self::new(factors, slopes) } else { Self::NONE }
     }
 }

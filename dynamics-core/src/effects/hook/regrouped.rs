@@ -35,41 +35,22 @@ pub struct Regrouped<E, R> {
 
 impl<E, R> Regrouped<E, R> {
     /// Those of the robot's description.
-    pub const NONE: Self = Self {
-        load: None,
-        sets: 0,
-        robot: "",
-    };
+    pub const NONE: Self = Self { load: None, sets: 0, robot: "" };
 
     /// Those of the robot of this name that `load` writes.
     pub const fn loaded(robot: &'static str, load: Load<E, R>) -> Self {
-        Self {
-            load: Some(load),
-            sets: 1,
-            robot,
-        }
+        Self { load: Some(load), sets: 1, robot }
     }
 
     pub const fn with<F>(self, inner: &Regrouped<F, R>) -> Self {
         Self {
             load: self.load,
             sets: self.sets + inner.sets,
-            robot: if self.sets > 0 {
-                self.robot
-            } else {
-                inner.robot
-            },
+            robot: if self.sets > 0 { self.robot } else { inner.robot },
         }
     }
 
     pub const fn through(self, on: bool, load: Load<E, R>) -> Self {
-        if on && self.sets > 0 {
-            Self {
-                load: Some(load),
-                ..self
-            }
-        } else {
-            Self::NONE
-        }
+        if on && self.sets > 0 { Self { load: Some(load), ..self } } else { Self::NONE }
     }
 }

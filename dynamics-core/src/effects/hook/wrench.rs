@@ -37,33 +37,19 @@ impl<E, R: Real> Wrench<E, R> {
 
     /// A wrench that depends on nothing but the effect.
     pub const fn constant(add: fn(&E, usize, &mut Force<R>)) -> Self {
-        Self {
-            constant: Some(add),
-            is_some: true,
-            ..Self::NONE
-        }
+        Self { constant: Some(add), is_some: true, ..Self::NONE }
     }
 
     /// A wrench that depends on the body's pose relative to the base: the coordinate transform from
     /// the base to the body's frame, its origin in base coordinates, m.
     pub const fn of_pose(add: fn(&E, usize, &Xform<R>, &mut Force<R>)) -> Self {
-        Self {
-            of_pose: Some(add),
-            is_some: true,
-            reads_pose: true,
-            ..Self::NONE
-        }
+        Self { of_pose: Some(add), is_some: true, reads_pose: true, ..Self::NONE }
     }
 
     /// A wrench that depends on the body's velocity (which does not switch the velocity products
     /// on).
     pub const fn of_velocity(add: fn(&E, usize, &BodyVelocity<R>, &mut Force<R>)) -> Self {
-        Self {
-            of_velocity: Some(add),
-            is_some: true,
-            reads_velocity: true,
-            ..Self::NONE
-        }
+        Self { of_velocity: Some(add), is_some: true, reads_velocity: true, ..Self::NONE }
     }
 
     /// A wrench that depends on the body's pose and velocity.
@@ -89,14 +75,7 @@ impl<E, R: Real> Wrench<E, R> {
 
     #[doc(hidden)]
     pub const fn through(self, on: bool, add: fn(&E, usize, &BodyState<R>, &mut Force<R>)) -> Self {
-        if on & self.is_some {
-            Self {
-                of_state: Some(add),
-                ..self
-            }
-        } else {
-            Self::NONE
-        }
+        if on & self.is_some { Self { of_state: Some(add), ..self } } else { Self::NONE }
     }
 }
 

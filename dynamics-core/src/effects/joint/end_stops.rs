@@ -60,10 +60,7 @@ impl<R: Real, const V: usize> EndStops<R, V> {
         let active = force / (force + R::MIN_POSITIVE);
         Push {
             force,
-            derivatives: TorqueDerivatives {
-                dq: self.stiffness * active,
-                dqd: b * active,
-            },
+            derivatives: TorqueDerivatives { dq: self.stiffness * active, dqd: b * active },
         }
     }
 

@@ -67,11 +67,7 @@ impl<D: Direction> Gravity<D> {
                 "a direction is a vector of length 1"
             );
         }
-        Self {
-            double: g,
-            single: g as f32,
-            direction: PhantomData,
-        }
+        Self { double: g, single: g as f32, direction: PhantomData }
     }
 }
 

@@ -24,11 +24,7 @@ impl<R: Real> Stand<R> {
     /// A body that does not bend, or the base.
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn rigid(field: AccelerationField<R>) -> Self {
-        Self {
-            field,
-            sin: Vec3::ZERO,
-            cos: Folded::ONE,
-        }
+        Self { field, sin: Vec3::ZERO, cos: Folded::ONE }
     }
 }
 
@@ -50,17 +46,11 @@ struct Sum<R> {
 }
 
 impl<R: Real> Sum<R> {
-    const ZERO: Self = Self {
-        shift: Vec3::ZERO,
-        g: Vec3::ZERO,
-    };
+    const ZERO: Self = Self { shift: Vec3::ZERO, g: Vec3::ZERO };
 
     #[cfg_attr(optimised, inline(always))]
     fn plus(self, shift: Vec3<R>, half_turn: Vec3<R>, rate: Folded<R>) -> Self {
-        Self {
-            shift: self.shift + shift.scale(rate),
-            g: self.g + half_turn.scale(rate),
-        }
+        Self { shift: self.shift + shift.scale(rate), g: self.g + half_turn.scale(rate) }
     }
 }
 
@@ -190,10 +180,7 @@ impl<R: Real> End<R> {
             return load;
         }
         let axes = self.axes();
-        Wrench {
-            f: axes.transpose_mul(load.f),
-            n: axes.transpose_mul(load.n),
-        }
+        Wrench { f: axes.transpose_mul(load.f), n: axes.transpose_mul(load.n) }
     }
 
     /// Adds the work of a wrench about the end, in the link's axes, to the forces on the modes;
@@ -213,9 +200,6 @@ impl<R: Real> End<R> {
                     + Vec3::constant(mode.half_turn).dot(couple);
             }
         });
-        Wrench {
-            f: load.f,
-            n: load.n + self.point.cross(load.f),
-        }
+        Wrench { f: load.f, n: load.n + self.point.cross(load.f) }
     }
 }

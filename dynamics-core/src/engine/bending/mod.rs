@@ -69,11 +69,7 @@ where
         joints: &State<R, Q, V>,
         modes: &State<R, M, M>,
     ) -> ([R; V], [R; M]) {
-        let moves = Measured {
-            joints,
-            modes,
-            effects: PhantomData::<Of<Effects, B>>,
-        };
+        let moves = Measured { joints, modes, effects: PhantomData::<Of<Effects, B>> };
         self.swept(joints, moves, &self.base())
     }
 
@@ -128,17 +124,8 @@ where
         Course: Moves<R>,
     {
         let (mut tau, mut forces) = ([R::ZERO; V], [R::ZERO; M]);
-        let mut rigid = Task {
-            call: self,
-            back: self.turns,
-            state: joints,
-            tau: &mut tau,
-        };
-        let mut task = Bending {
-            rigid: &mut rigid,
-            moves,
-            forces: &mut forces,
-        };
+        let mut rigid = Task { call: self, back: self.turns, state: joints, tau: &mut tau };
+        let mut task = Bending { rigid: &mut rigid, moves, forces: &mut forces };
         let stand = Stand::rigid(*base);
         for_each_joint!(
             J,
@@ -176,9 +163,7 @@ where
         let mut bent = Mode::NO_MODES;
         for_each_mode!(K, {
             if HasMode::<Tree, I, K>::IS {
-                bent[K] = self
-                    .moves
-                    .mode(const { Bent::<Tree, I, true>::LINK.first + K });
+                bent[K] = self.moves.mode(const { Bent::<Tree, I, true>::LINK.first + K });
             }
         });
         let at = self.stood::<I>(on);

@@ -101,19 +101,11 @@ impl<R: Real, const V: usize, const M: usize, const L: usize> Moves<R> for Unit<
 
     #[cfg_attr(optimised, inline(always))]
     fn joint(&self, i: usize) -> JointRates<R> {
-        JointRates {
-            velocity: Folded::ZERO,
-            omega_products: Folded::ZERO,
-            accel: Self::of(i),
-        }
+        JointRates { velocity: Folded::ZERO, omega_products: Folded::ZERO, accel: Self::of(i) }
     }
 
     #[cfg_attr(optimised, inline(always))]
     fn mode(&self, k: usize) -> Mode<R> {
-        Mode {
-            eta: Folded::runtime(self.eta[k]),
-            accel: Self::of(V + k),
-            ..Mode::NONE
-        }
+        Mode { eta: Folded::runtime(self.eta[k]), accel: Self::of(V + k), ..Mode::NONE }
     }
 }

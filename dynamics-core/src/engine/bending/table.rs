@@ -92,12 +92,8 @@ impl BendingMode {
 }
 
 impl BendingLink {
-    pub(crate) const RIGID: Self = Self {
-        first: 0,
-        count: 0,
-        end: DVec3::ZERO,
-        modes: [BendingMode::NONE; MODES],
-    };
+    pub(crate) const RIGID: Self =
+        Self { first: 0, count: 0, end: DVec3::ZERO, modes: [BendingMode::NONE; MODES] };
 
     /// With a point of this mass at the end, which the modes displace as they do the end, and with
     /// what rounding left of integrals that are zero exactly so.
@@ -195,11 +191,7 @@ pub(super) const fn trace(m: &DMat3) -> f64 {
 
 /// ∫ r × φ dm of ∫ φ rᵀ dm.
 pub(super) const fn axial(m: &DMat3) -> DVec3 {
-    DVec3::new(
-        m.y_axis.z - m.z_axis.y,
-        m.z_axis.x - m.x_axis.z,
-        m.x_axis.y - m.y_axis.x,
-    )
+    DVec3::new(m.y_axis.z - m.z_axis.y, m.z_axis.x - m.x_axis.z, m.x_axis.y - m.y_axis.x)
 }
 
 /// The body of joint I, on a base that moves or at rest.
@@ -208,11 +200,7 @@ pub(super) struct Bent<Tree, const I: usize, const MOVES: bool>(PhantomData<Tree
 impl<Tree: Bends, const I: usize, const MOVES: bool> Bent<Tree, I, MOVES> {
     pub(super) const LINK: &'static BendingLink = {
         let links = if MOVES { Tree::MOVING } else { Tree::AT_REST };
-        if I < links.len() {
-            &links[I]
-        } else {
-            &BendingLink::RIGID
-        }
+        if I < links.len() { &links[I] } else { &BendingLink::RIGID }
     };
     /// Whether it has modes.
     pub(super) const IS: bool = Self::LINK.count > 0;

@@ -50,11 +50,7 @@ const fn only_adds(body: &SpatialInertia<f64>) -> bool {
 }
 
 const fn is_nothing(body: &SpatialInertia<f64>) -> bool {
-    let DMat3 {
-        x_axis,
-        y_axis,
-        z_axis,
-    } = body.rotational;
+    let DMat3 { x_axis, y_axis, z_axis } = body.rotational;
     body.mass == 0.0
         && is_zero(body.first_moment)
         && is_zero(x_axis)

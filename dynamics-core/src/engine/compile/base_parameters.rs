@@ -37,11 +37,7 @@ pub(super) const fn regroup<const V: usize>(
         }
         // The coordinate that moves the body.
         let by = joints[child.first];
-        let end = if by.parent == BASE {
-            None
-        } else {
-            ends[by.parent]
-        };
+        let end = if by.parent == BASE { None } else { ends[by.parent] };
         let passed = match end {
             None => passed(&mut joints[i], by.motion),
             Some(_) => passed_to_end(&mut joints[i], &by),
@@ -60,10 +56,8 @@ pub(super) const fn regroup<const V: usize>(
             parent.second = mat_add(&parent.second, &whole);
             parent.moment = add(parent.moment, add(scale(p, passed.mass), h));
             parent.mass += passed.mass;
-        } else if matches!(
-            by.motion,
-            JointMotion::Turn | JointMotion::Screw | JointMotion::Planar
-        ) {
+        } else if matches!(by.motion, JointMotion::Turn | JointMotion::Screw | JointMotion::Planar)
+        {
             // A base at rest leaves one rotation, about z, which depends on Σ_xx + Σ_yy alone.
             let sum = child.second.x_axis.x + child.second.y_axis.y;
             let x = DVec3::new(sum, 0.0, 0.0);
@@ -81,11 +75,7 @@ struct Passed {
 }
 
 impl Passed {
-    const NOTHING: Self = Self {
-        mass: 0.0,
-        rod: 0.0,
-        spread: DMat3::ZERO,
-    };
+    const NOTHING: Self = Self { mass: 0.0, rod: 0.0, spread: DMat3::ZERO };
 }
 
 /// Takes from a body what the joint that moves it passes to the end of a parent that bends.
@@ -114,10 +104,7 @@ const fn passed(body: &mut Joint, motion: JointMotion) -> Passed {
         passed.rod = body.moment.z;
         body.moment.z = 0.0;
     }
-    if matches!(
-        motion,
-        JointMotion::Turn | JointMotion::Screw | JointMotion::Planar
-    ) {
+    if matches!(motion, JointMotion::Turn | JointMotion::Screw | JointMotion::Planar) {
         passed.spread.z_axis.z = body.second.z_axis.z;
         body.second.z_axis.z = 0.0;
     }
@@ -140,9 +127,5 @@ pub(crate) const fn outer(a: DVec3, b: DVec3) -> DMat3 {
 }
 
 pub(crate) const fn mat_add(a: &DMat3, b: &DMat3) -> DMat3 {
-    DMat3::from_cols(
-        add(a.x_axis, b.x_axis),
-        add(a.y_axis, b.y_axis),
-        add(a.z_axis, b.z_axis),
-    )
+    DMat3::from_cols(add(a.x_axis, b.x_axis), add(a.y_axis, b.y_axis), add(a.z_axis, b.z_axis))
 }

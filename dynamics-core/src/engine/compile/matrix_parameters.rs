@@ -32,11 +32,7 @@ pub(super) const fn regroup_for_matrix<const V: usize>(joints: &mut [Joint; V]) 
         if !child.prismatic {
             // Along the axis of a child, Σ is more than a constant in any case: the other axis
             // becomes zero.
-            let a = if children_lie_along_x(joints, i) {
-                second.x_axis.x
-            } else {
-                second.y_axis.y
-            };
+            let a = if children_lie_along_x(joints, i) { second.x_axis.x } else { second.y_axis.y };
             // What the descendants left along z goes on, too.
             moved = DMat3::from_diagonal(DVec3::new(a, a, second.z_axis.z));
             joints[i].spin = a + a;
@@ -69,9 +65,5 @@ const fn children_lie_along_x<const V: usize>(joints: &[Joint; V], i: usize) -> 
 }
 
 const fn negative(m: &DMat3) -> DMat3 {
-    DMat3::from_cols(
-        scale(m.x_axis, -1.0),
-        scale(m.y_axis, -1.0),
-        scale(m.z_axis, -1.0),
-    )
+    DMat3::from_cols(scale(m.x_axis, -1.0), scale(m.y_axis, -1.0), scale(m.z_axis, -1.0))
 }

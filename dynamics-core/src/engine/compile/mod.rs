@@ -68,22 +68,14 @@ pub(crate) const fn compile_bending<const B: usize, const Q: usize, const V: usi
     let mut i = 0;
     while i < B {
         let link = &model.links[i];
-        let parent = if link.parent == BASE {
-            AT_BASE
-        } else {
-            places[link.parent]
-        };
+        let parent = if link.parent == BASE { AT_BASE } else { places[link.parent] };
         let rot = mul(&parent.rot, &transpose(&link.placement.rot));
         let pos = match end_of(ends, link.parent) {
             None => add(mul_vec(&parent.rot, link.placement.pos), parent.pos),
             Some(end) => mul_vec(&parent.rot, apart(link.placement.pos, end)),
         };
         if matches!(link.joint.kind, JointKind::Fixed) {
-            places[i] = BodyPlacement {
-                joint: parent.joint,
-                rot,
-                pos,
-            };
+            places[i] = BodyPlacement { joint: parent.joint, rot, pos };
             is_on_end[i] =
                 link.parent < B && (ends[link.parent].is_some() || is_on_end[link.parent]);
         } else {
@@ -93,10 +85,7 @@ pub(crate) const fn compile_bending<const B: usize, const Q: usize, const V: usi
             let joint = &mut joints[places[i].joint];
             let (rot, d, mass) = (&places[i].rot, places[i].pos, link.inertia.mass);
             let h = mul_vec(rot, link.inertia.first_moment);
-            let second = mul(
-                &mul(rot, &second_moment(&link.inertia.rotational)),
-                &transpose(rot),
-            );
+            let second = mul(&mul(rot, &second_moment(&link.inertia.rotational)), &transpose(rot));
             let second = mat_add(&second, &mat_add(&outer(h, d), &outer(d, h)));
             let second = mat_add(&second, &outer(d, scale(d, mass)));
             let moment = add(h, scale(d, mass));
@@ -125,11 +114,7 @@ pub(crate) const fn compile_bending<const B: usize, const Q: usize, const V: usi
     regroup(&mut joints, &bent, &mut on_ends);
     prune(&mut joints, negligible);
     regroup_for_matrix(&mut joints);
-    let length = if in_meters {
-        1.0
-    } else {
-        unit_of_length(&joints)
-    };
+    let length = if in_meters { 1.0 } else { unit_of_length(&joints) };
     i = 0;
     while i < V {
         let joint = &mut joints[i];
@@ -146,16 +131,8 @@ pub(crate) const fn compile_bending<const B: usize, const Q: usize, const V: usi
         places[i].pos = divide(places[i].pos, length);
         i += 1;
     }
-    let tree = CompiledTree {
-        joints,
-        places,
-        length,
-    };
-    BendingTree {
-        tree,
-        on_ends,
-        is_on_end,
-    }
+    let tree = CompiledTree { joints, places, length };
+    BendingTree { tree, on_ends, is_on_end }
 }
 
 const fn end_of(ends: &[Option<DVec3>], body: usize) -> Option<DVec3> {
@@ -202,12 +179,8 @@ const fn attach<const V: usize>(
         Free => return at_once(joints, &single, JointMotion::Free),
         _ => (JointMotion::Turn, 0.0),
     };
-    let mut first = Joint {
-        motion,
-        pitch,
-        prismatic: matches!(motion, JointMotion::Slide),
-        ..single
-    };
+    let mut first =
+        Joint { motion, pitch, prismatic: matches!(motion, JointMotion::Slide), ..single };
     // The frame of a universal joint's first rotation, which is about x, in that of the body; a
     // cyclic permutation.
     let turned = DMat3::from_cols(DVec3::Y, DVec3::Z, DVec3::X);
@@ -237,15 +210,9 @@ const fn attach<const V: usize>(
 /// Moves a joint's frame along its axis z until the offset from the parent is perpendicular to it.
 const fn along_axis<const V: usize>(joints: &mut [Joint; V], joint: Joint) -> BodyPlacement {
     let slide = -dot(joint.pos, joint.rot.z_axis);
-    joints[joint.first] = Joint {
-        pos: snap_small(add(joint.pos, scale(joint.rot.z_axis, slide))),
-        ..joint
-    };
-    BodyPlacement {
-        joint: joint.first,
-        rot: DMat3::IDENTITY,
-        pos: DVec3::new(0.0, 0.0, -slide),
-    }
+    joints[joint.first] =
+        Joint { pos: snap_small(add(joint.pos, scale(joint.rot.z_axis, slide))), ..joint };
+    BodyPlacement { joint: joint.first, rot: DMat3::IDENTITY, pos: DVec3::new(0.0, 0.0, -slide) }
 }
 
 /// Writes the coordinates that move a body at once, `first` the first of them.
@@ -289,11 +256,7 @@ const fn at_once<const V: usize>(
         }
         k += 1;
     }
-    BodyPlacement {
-        joint: first.first + count - 1,
-        rot: DMat3::IDENTITY,
-        pos: DVec3::ZERO,
-    }
+    BodyPlacement { joint: first.first + count - 1, rot: DMat3::IDENTITY, pos: DVec3::ZERO }
 }
 
 /// The offset that occurs most often between two moving joints, or 1 m.
@@ -324,10 +287,8 @@ const fn divide(v: DVec3, s: f64) -> DVec3 {
 /// Component `k` of the offset of joint `i`, or zero if no product contains it.
 const fn offset<const V: usize>(joints: &[Joint; V], i: usize, k: usize) -> f64 {
     let joint = &joints[i];
-    let constant = matches!(
-        joint.motion,
-        JointMotion::Turn | JointMotion::Spherical | JointMotion::Still
-    );
+    let constant =
+        matches!(joint.motion, JointMotion::Turn | JointMotion::Spherical | JointMotion::Still);
     if joint.parent == BASE || !constant {
         return 0.0;
     }

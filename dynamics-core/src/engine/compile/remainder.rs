@@ -50,11 +50,7 @@ impl<Tree: Compiled, const B: usize, const V: usize> Remainder<Tree, B, V> {
 }
 
 impl Distribution {
-    const NOTHING: Self = Self {
-        mass: 0.0,
-        moment: DVec3::ZERO,
-        second: DMat3::ZERO,
-    };
+    const NOTHING: Self = Self { mass: 0.0, moment: DVec3::ZERO, second: DMat3::ZERO };
 
     /// With a body at `pos` whose axes are the columns of `rot`.
     const fn plus(self, body: Self, rot: &DMat3, pos: DVec3) -> Self {
@@ -120,11 +116,7 @@ const fn regrouped<Tree: Compiled, const V: usize>() -> Distribution {
 
 /// A difference of numbers of this size, if it is more than their rounding.
 const fn kept(x: f64, size: f64) -> f64 {
-    if x.abs() <= 64.0 * f64::EPSILON * size {
-        0.0
-    } else {
-        x
-    }
+    if x.abs() <= 64.0 * f64::EPSILON * size { 0.0 } else { x }
 }
 
 const fn kept_vec(v: DVec3, size: f64) -> DVec3 {

@@ -21,11 +21,7 @@ const fn snap(x: f64) -> f64 {
     } else {
         0.0
     };
-    if (x - nearest).abs() < ROUNDING {
-        nearest
-    } else {
-        x
-    }
+    if (x - nearest).abs() < ROUNDING { nearest } else { x }
 }
 
 /// Components of an offset that are zero but for rounding.

@@ -48,10 +48,7 @@ pub(crate) struct CompiledRobot<T, const B: usize, const Q: usize, const V: usiz
 
 impl<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize> CompiledRobot<T, B, Q, V> {
     const TREE: &'static CompiledTree<B, V> = &{
-        assert!(
-            V <= 64,
-            "the engine takes up to 64 velocity coordinates; use `Core`"
-        );
+        assert!(V <= 64, "the engine takes up to 64 velocity coordinates; use `Core`");
         compile(&T::MODEL, T::NEGLIGIBLE)
     };
 
@@ -65,11 +62,7 @@ impl<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize> Compiled
             near += joint.near as usize;
             i += 1;
         }
-        if turn && (near == 0 || near == V) {
-            Some(near > 0)
-        } else {
-            None
-        }
+        if turn && (near == 0 || near == V) { Some(near > 0) } else { None }
     };
 }
 
@@ -134,9 +127,7 @@ const fn is_round<Tree: Compiled>(i: usize) -> bool {
         }
         k += 1;
     }
-    let Joint {
-        moment: h, second, ..
-    } = joint::<Tree>(i);
+    let Joint { moment: h, second, .. } = joint::<Tree>(i);
     let (x, y) = (second.x_axis, second.y_axis);
     let sides = [h.x, h.y, x.y, x.z, y.z, x.x - y.y];
     // Of a body on the base, Σ is not all that is left if the base moves.
@@ -152,11 +143,7 @@ const fn is_round<Tree: Compiled>(i: usize) -> bool {
 
 /// The placement of a body of the description; beyond the last one, the base.
 pub(crate) const fn place<Tree: Compiled>(body: usize) -> BodyPlacement {
-    if body < Tree::PLACES.len() {
-        Tree::PLACES[body]
-    } else {
-        AT_BASE
-    }
+    if body < Tree::PLACES.len() { Tree::PLACES[body] } else { AT_BASE }
 }
 
 /// The last coordinate of the joint of coordinate `i`: that of its body.
@@ -283,11 +270,7 @@ const fn body_on<Tree: Compiled>(i: usize, k: usize) -> (usize, BodyPlacement) {
 
 /// Joint `i`; beyond the last one, the padding joint.
 pub(crate) const fn joint<Tree: Compiled>(i: usize) -> Joint {
-    if i < Tree::JOINTS.len() {
-        Tree::JOINTS[i]
-    } else {
-        PADDING_JOINT
-    }
+    if i < Tree::JOINTS.len() { Tree::JOINTS[i] } else { PADDING_JOINT }
 }
 
 /// Joint I of a compiled robot, by constants with names: the compiler evaluates them once, and an
@@ -318,11 +301,7 @@ impl<Tree: Compiled, const I: usize> CompiledJoint<Tree, I> {
     /// The first of them.
     pub(crate) const FIRST: &'static Joint = &joint::<Tree>(Self::JOINT.first);
     /// The last of them, by whose number the body is known.
-    pub(crate) const LAST: usize = if I < Tree::JOINTS.len() {
-        last::<Tree>(I)
-    } else {
-        I
-    };
+    pub(crate) const LAST: usize = if I < Tree::JOINTS.len() { last::<Tree>(I) } else { I };
     /// The same, with the inertia of the body.
     pub(crate) const BODY: &'static Joint = &joint::<Tree>(Self::LAST);
     /// The parent, or the padding joint.

@@ -109,11 +109,7 @@ pub(crate) struct OnEnd {
 }
 
 impl OnEnd {
-    pub(super) const NOTHING: Self = Self {
-        mass: 0.0,
-        moment: DVec3::ZERO,
-        second: DMat3::ZERO,
-    };
+    pub(super) const NOTHING: Self = Self { mass: 0.0, moment: DVec3::ZERO, second: DMat3::ZERO };
 }
 
 /// Fills the constants of branches that are not compiled in, which the compiler evaluates all the
@@ -141,8 +137,5 @@ pub(super) const PADDING_JOINT: Joint = Joint {
 };
 
 /// The base itself.
-pub(super) const AT_BASE: BodyPlacement = BodyPlacement {
-    joint: BASE,
-    rot: DMat3::IDENTITY,
-    pos: DVec3::ZERO,
-};
+pub(super) const AT_BASE: BodyPlacement =
+    BodyPlacement { joint: BASE, rot: DMat3::IDENTITY, pos: DVec3::ZERO };

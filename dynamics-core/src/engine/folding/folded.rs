@@ -35,32 +35,20 @@ fn either(condition: bool, yes: u8, no: u8) -> u8 {
 }
 
 impl<R: Real> Folded<R> {
-    pub(crate) const ZERO: Self = Self {
-        magnitude: R::ZERO,
-        tags: ZERO,
-    };
+    pub(crate) const ZERO: Self = Self { magnitude: R::ZERO, tags: ZERO };
 
-    pub(crate) const ONE: Self = Self {
-        magnitude: R::ONE,
-        tags: ONE,
-    };
+    pub(crate) const ONE: Self = Self { magnitude: R::ONE, tags: ONE };
 
     /// A number known only at run time.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn runtime(value: R) -> Self {
-        Self {
-            magnitude: value,
-            tags: 0,
-        }
+        Self { magnitude: value, tags: 0 }
     }
 
     /// A number known at run time if `needed`, else zero.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn runtime_if(needed: bool, value: R) -> Self {
-        Self {
-            magnitude: R::either(needed, value, R::ZERO),
-            tags: either(needed, 0, ZERO),
-        }
+        Self { magnitude: R::either(needed, value, R::ZERO), tags: either(needed, 0, ZERO) }
     }
 
     /// A constant of the robot.
@@ -69,10 +57,7 @@ impl<R: Real> Folded<R> {
         let minus = value < 0.0;
         let size = f64::either(minus, -value, value);
         let size_tag = either(size == 0.0, ZERO, either(size == 1.0, ONE, 0));
-        Self {
-            magnitude: R::from_f64(size),
-            tags: size_tag | either(minus, MINUS, 0),
-        }
+        Self { magnitude: R::from_f64(size), tags: size_tag | either(minus, MINUS, 0) }
     }
 
     /// The plain number.
@@ -133,9 +118,6 @@ impl<R: Real> Neg for Folded<R> {
     type Output = Self;
     #[cfg_attr(optimised, inline(always))]
     fn neg(self) -> Self {
-        Self {
-            tags: self.tags ^ MINUS,
-            ..self
-        }
+        Self { tags: self.tags ^ MINUS, ..self }
     }
 }

@@ -67,11 +67,7 @@ fn product<R: Real, Tree, const M: usize, const I: usize>(v: Vec3<R>) -> Vec3<R>
 where
     Tree: Compiled,
 {
-    Vec3([
-        row::<R, Tree, M, I, 0>(v),
-        row::<R, Tree, M, I, 1>(v),
-        row::<R, Tree, M, I, 2>(v),
-    ])
+    Vec3([row::<R, Tree, M, I, 0>(v), row::<R, Tree, M, I, 1>(v), row::<R, Tree, M, I, 2>(v)])
 }
 
 #[cfg_attr(optimised, inline(always))]

@@ -19,11 +19,7 @@ impl<R: Real> Vec3<R> {
 
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn constant(v: DVec3) -> Self {
-        Self([
-            Folded::constant(v.x),
-            Folded::constant(v.y),
-            Folded::constant(v.z),
-        ])
+        Self([Folded::constant(v.x), Folded::constant(v.y), Folded::constant(v.z)])
     }
 
     /// A vector of run-time numbers.
@@ -116,11 +112,7 @@ impl<R: Real> Mat3<R> {
 
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn constant(m: &DMat3) -> Self {
-        Self([
-            Vec3::constant(m.x_axis),
-            Vec3::constant(m.y_axis),
-            Vec3::constant(m.z_axis),
-        ])
+        Self([Vec3::constant(m.x_axis), Vec3::constant(m.y_axis), Vec3::constant(m.z_axis)])
     }
 
     /// The rows.
@@ -198,14 +190,7 @@ impl<R: Real> Sym3<R> {
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn of(m: &Mat3<R>) -> Self {
         let [x, y, z] = m.0;
-        Self {
-            xx: x.0[0],
-            xy: y.0[0],
-            xz: z.0[0],
-            yy: y.0[1],
-            yz: z.0[1],
-            zz: z.0[2],
-        }
+        Self { xx: x.0[0], xy: y.0[0], xz: z.0[0], yy: y.0[1], yz: z.0[1], zz: z.0[2] }
     }
 
     /// The columns.
@@ -253,14 +238,7 @@ impl<R: Real> Sym3<R> {
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn square(a: Vec3<R>, s: Folded<R>) -> Self {
         let ([x, y, z], [sx, sy, sz]) = (a.0, a.scale(s).0);
-        Self {
-            xx: sx * x,
-            xy: sx * y,
-            xz: sx * z,
-            yy: sy * y,
-            yz: sy * z,
-            zz: sz * z,
-        }
+        Self { xx: sx * x, xy: sx * y, xz: sx * z, yy: sy * y, yz: sy * z, zz: sz * z }
     }
 }
 

@@ -55,21 +55,13 @@ impl<R: Real> Series<Vec3<R>> {
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn scale(self, o: Series<Folded<R>>) -> Self {
         let ([a, b, c], [d, e, f]) = (self.0, o.0);
-        Self([
-            a.scale(d),
-            a.scale(e) + b.scale(d),
-            a.scale(f) + b.scale(e) + c.scale(d),
-        ])
+        Self([a.scale(d), a.scale(e) + b.scale(d), a.scale(f) + b.scale(e) + c.scale(d)])
     }
 
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn cross(self, o: Self) -> Self {
         let ([a, b, c], [d, e, f]) = (self.0, o.0);
-        Self([
-            a.cross(d),
-            a.cross(e) + b.cross(d),
-            a.cross(f) + b.cross(e) + c.cross(d),
-        ])
+        Self([a.cross(d), a.cross(e) + b.cross(d), a.cross(f) + b.cross(e) + c.cross(d)])
     }
 
     /// Mᵀ v of a matrix that does not change.
@@ -85,11 +77,7 @@ impl<R: Real> Series<Mat3<R>> {
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn mul(&self, v: Series<Vec3<R>>) -> Series<Vec3<R>> {
         let ([a, b, c], [d, e, f]) = (&self.0, v.0);
-        Series([
-            a.mul(d),
-            a.mul(e) + b.mul(d),
-            a.mul(f) + b.mul(e) + c.mul(d),
-        ])
+        Series([a.mul(d), a.mul(e) + b.mul(d), a.mul(f) + b.mul(e) + c.mul(d)])
     }
 }
 

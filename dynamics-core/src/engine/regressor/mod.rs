@@ -136,10 +136,7 @@ where
             y: &mut y,
             types: PhantomData,
         };
-        let at_base = Moving {
-            field: self.base(),
-            by: [Twist::ZERO; V],
-        };
+        let at_base = Moving { field: self.base(), by: [Twist::ZERO; V] };
         let Nothing = sweep(&mut pass, &at_base);
         y
     }
@@ -210,17 +207,11 @@ where
     fn enter<const I: usize>(&mut self, parent: &Moving<R, V>) -> Moving<R, V> {
         let field = self.call.regressed_field::<I>(&parent.field, self.state);
         let at = self.call.displacement::<I>();
-        let mut body = Moving {
-            field,
-            by: parent.by,
-        };
+        let mut body = Moving { field, by: parent.by };
         for_each_joint!(K, {
             if JointPair::<Tree, I, K>::IS_COORDINATE {
-                body.by[K] = Twist::along(
-                    CompiledJoint::<Tree, K>::JOINT,
-                    Tree::LENGTH_INV,
-                    Folded::ONE,
-                );
+                body.by[K] =
+                    Twist::along(CompiledJoint::<Tree, K>::JOINT, Tree::LENGTH_INV, Folded::ONE);
             } else if JointPair::<Tree, K, I>::IS_ANCESTOR {
                 body.by[K] = parent.by[K].carried(&at);
             }

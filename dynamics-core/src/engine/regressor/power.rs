@@ -35,11 +35,7 @@ impl<R: Real> BodyPower<R> {
             omega: rot.transpose_mul(field.omega_products),
             alpha: rot.transpose_mul(field.alpha),
             point: rot.transpose_mul(point).scale(length),
-            u: Mat3([
-                rot.transpose_mul(x),
-                rot.transpose_mul(y),
-                rot.transpose_mul(z),
-            ]),
+            u: Mat3([rot.transpose_mul(x), rot.transpose_mul(y), rot.transpose_mul(z)]),
             rot,
             pos,
             length,

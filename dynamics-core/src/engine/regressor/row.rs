@@ -95,17 +95,8 @@ impl<T, K> Engine<T, K> {
         let trig = configuration.trig_or(Self::trig_source());
         let call = Self::call(trig.borrow(), effects);
         let mut y = [[R::ZERO; 10]; B];
-        let mut pass = Row {
-            call,
-            state: state.state(),
-            coordinate,
-            bodies,
-            y: &mut y,
-        };
-        let at_base = Moving {
-            field: call.base(),
-            by: Twist::ZERO,
-        };
+        let mut pass = Row { call, state: state.state(), coordinate, bodies, y: &mut y };
+        let at_base = Moving { field: call.base(), by: Twist::ZERO };
         let Nothing = sweep(&mut pass, &at_base);
         y
     }

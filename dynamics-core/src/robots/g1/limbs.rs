@@ -14,12 +14,7 @@ const WAIST: f64 = 0.52 * 180.0 / PI;
 
 /// From `lower` to `upper` degrees.
 const fn limits(lower: f64, upper: f64, torque: f64, velocity: f64) -> JointLimits<f64> {
-    JointLimits {
-        lower: lower * PI / 180.0,
-        upper: upper * PI / 180.0,
-        velocity,
-        torque,
-    }
+    JointLimits { lower: lower * PI / 180.0, upper: upper * PI / 180.0, velocity, torque }
 }
 
 /// Limits of a sideways joint: `inner` towards the other side, `outer` away from it.
@@ -58,31 +53,20 @@ pub(super) const fn leg(names: [&'static str; 6], first: usize, left: f64) -> [B
             left,
             1.52,
             [0.029812, -0.001045, -0.087934],
-            [
-                0.0023773, -3.8e-6, -0.0003908, 0.0024123, 1.84e-5, 0.0016595,
-            ],
+            [0.0023773, -3.8e-6, -0.0003908, 0.0024123, 1.84e-5, 0.0016595],
         ),
         part(
             left,
             1.702,
             [-0.057709, -0.010981, -0.15078],
-            [
-                0.0057774, -0.0005411, -0.0023948, 0.0076124, -0.0007072, 0.003149,
-            ],
+            [0.0057774, -0.0005411, -0.0023948, 0.0076124, -0.0007072, 0.003149],
         ),
         // The mirror image would have the same xz on both sides.
         part(
             left,
             1.932,
             [0.005457, 0.003964, -0.12074],
-            [
-                0.011329,
-                4.82e-5,
-                left * -4.49e-5,
-                0.011277,
-                -0.0007146,
-                0.0015168,
-            ],
+            [0.011329, 4.82e-5, left * -4.49e-5, 0.011277, -0.0007146, 0.0015168],
         ),
         part(
             left,
@@ -241,29 +225,18 @@ pub(super) const fn waist(first: usize) -> [Body; 3] {
     let head = Part {
         mass: 1.036,
         com: [0.005267, 0.000299, 0.449869],
-        inertia: [
-            0.004085051,
-            -2.543e-6,
-            -6.9455e-5,
-            0.004185212,
-            -3.726e-6,
-            0.001807911,
-        ],
+        inertia: [0.004085051, -2.543e-6, -6.9455e-5, 0.004185212, -3.726e-6, 0.001807911],
     };
     let torso = Part {
         mass: 6.78,
         com: [0.000931, 0.000346, 0.15082],
-        inertia: [
-            0.05905, 3.3302e-5, -0.0017715, 0.047014, -2.2399e-5, 0.025652,
-        ],
+        inertia: [0.05905, 3.3302e-5, -0.0017715, 0.047014, -2.2399e-5, 0.025652],
     };
     [
         Body::new("waist_yaw", BASE, Joint::revolute(Z))
             .mass(0.214)
             .com([0.003494, 0.000233, 0.018034])
-            .inertia([
-                0.00010673, 2.703e-6, -7.631e-6, 0.00010422, -2.01e-7, 0.0001625,
-            ])
+            .inertia([0.00010673, 2.703e-6, -7.631e-6, 0.00010422, -2.01e-7, 0.0001625])
             .limits(limits(-150.0, 150.0, 88.0, 32.0)),
         Body::new("waist_roll", first, Joint::revolute(X))
             .xyz([-0.0039635, 0.0, 0.044])

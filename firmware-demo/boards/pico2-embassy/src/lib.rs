@@ -1,6 +1,10 @@
 //! The part of a Pico 2's firmware that needs no chip: the template's, tested on the host.
 #![no_std]
 
+// Formatted as users' files are.
+
+#[rustfmt::skip]
+
 #[path = "../../../../tools/robot-import/template/board/pico2/src/periods.rs"]
 pub mod periods;
 
@@ -23,13 +27,7 @@ mod tests {
     #[test]
     fn periods_without_an_interrupt_count_too() {
         let mut periods = Periods::starting(moment(10_007, 7));
-        let moments = [
-            (11_007, 7),
-            (11_999, 999),
-            (12_600, 600),
-            (16_001, 1),
-            (20_999, 999),
-        ];
+        let moments = [(11_007, 7), (11_999, 999), (12_600, 600), (16_001, 1), (20_999, 999)];
         let counts = moments.map(|(micros, phase)| {
             periods.advance(moment(micros, phase));
             periods.count(moment(micros, phase))

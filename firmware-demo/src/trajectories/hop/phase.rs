@@ -26,11 +26,7 @@ pub(super) struct Phase {
 
 impl Phase {
     pub fn lasting(time: f32) -> Self {
-        Self {
-            time,
-            time_inv: 1.0 / time,
-            ..Self::default()
-        }
+        Self { time, time_inv: 1.0 / time, ..Self::default() }
     }
 
     /// z_c.

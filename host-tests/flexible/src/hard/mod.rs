@@ -116,10 +116,7 @@ fn two<R: Scalar, const N: usize, const M: usize>(
 ) -> (ArmModel<R, 2>, Modes<R, M>) {
     let model: ArmModel<f64, 2> = ArmModel::new(
         "two",
-        [
-            body("upper", BASE, &beams[0]),
-            body("lower", 0, &beams[1]).xyz([0.5, 0.0, 0.0]),
-        ],
+        [body("upper", BASE, &beams[0]), body("lower", 0, &beams[1]).xyz([0.5, 0.0, 0.0])],
     );
     let shapes: [Shape; N] = core::array::from_fn(|k| Shape::BendZ(k + 1));
     let links = [0, 1].map(|i| beams[i].link(i, &shapes).expect("a beam"));

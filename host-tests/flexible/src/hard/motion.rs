@@ -23,11 +23,7 @@ pub(super) fn rigid_limit() -> Vec<Row> {
             let qd = 140.0 * (u * (1.0 - u)).powi(3) / 0.5;
             let qdd = 420.0 * (u * (1.0 - u)).powi(2) * (1.0 - 2.0 * u) / 0.25;
             let both = |x: f64| [number(x), number(-0.5 * x)];
-            State::<R, 2, 2> {
-                q: both(q),
-                qd: both(qd),
-                qdd: both(qdd),
-            }
+            State::<R, 2, 2> { q: both(q), qd: both(qd), qdd: both(qdd) }
         };
         let rest = ModalFeedforward::at_rest(&robot, &modes, &at(0.0).q, &scene);
         let mut feedforward = rest.expect("stiffness");
@@ -65,28 +61,14 @@ pub fn energy_for(seconds: u32) -> Vec<Row> {
         let (robot, modes) = two::<R, 1, 2>(&[UPPER, LOWER]);
         let scene = (Inertia, Coriolis, Elasticity);
         let both = |x: f64, y: f64| [number::<R>(x), number(y)];
-        let mut joints = State {
-            qd: both(1.0, -2.0),
-            ..State::at(both(0.2, 0.8))
-        };
-        let mut bent = State {
-            qd: both(0.3, -0.2),
-            ..State::at(both(0.01, -0.01))
-        };
+        let mut joints = State { qd: both(1.0, -2.0), ..State::at(both(0.2, 0.8)) };
+        let mut bent = State { qd: both(0.3, -0.2), ..State::at(both(0.01, -0.01)) };
         let whole = |joints: &State<R, 2, 2>, bent: &State<R, 2, 2>| {
             let m = crba(&robot, &modes, &joints.q, &bent.q, &scene);
-            let elastic = rnea(
-                &robot,
-                &modes,
-                &State::at(joints.q),
-                &State::at(bent.q),
-                &Elasticity,
-            );
-            let work = elastic
-                .modes
-                .iter()
-                .zip(&bent.q)
-                .map(|(f, q)| 0.5 * f.to_f64() * q.to_f64());
+            let elastic =
+                rnea(&robot, &modes, &State::at(joints.q), &State::at(bent.q), &Elasticity);
+            let work =
+                elastic.modes.iter().zip(&bent.q).map(|(f, q)| 0.5 * f.to_f64() * q.to_f64());
             m.kinetic_energy(&joints.qd, &bent.qd).to_f64() + work.sum::<f64>()
         };
         let start = whole(&joints, &bent);
@@ -97,12 +79,7 @@ pub fn energy_for(seconds: u32) -> Vec<Row> {
                 worst = worst.max((whole(&joints, &bent) / start - 1.0).abs());
             }
         }
-        rows.push(Row::measured(
-            "energy, of that at the start",
-            R::NAME,
-            worst,
-            bound,
-        ));
+        rows.push(Row::measured("energy, of that at the start", R::NAME, worst, bound));
     }
     let mut rows = Vec::new();
     let minutes = f64::from(seconds) / 60.0;
@@ -174,16 +151,8 @@ pub(super) fn fast_mode() -> Vec<Row> {
         };
         let (mut worst, mut largest) = (0.0_f64, 0.0_f64);
         for n in 1..=1000 {
-            step(
-                &robot,
-                &modes,
-                &mut joint,
-                &mut bent,
-                &[R::ONE],
-                &scene,
-                number(1e-3),
-            )
-            .expect("stable");
+            step(&robot, &modes, &mut joint, &mut bent, &[R::ONE], &scene, number(1e-3))
+                .expect("stable");
             let t = f64::from(n) * 1e-3;
             let turned = 0.5 * t * t / inertia;
             worst = worst.max((joint.q[0].to_f64() - turned).abs() / (0.5 / inertia));
@@ -191,11 +160,7 @@ pub(super) fn fast_mode() -> Vec<Row> {
         }
         rows.push(Row::measured("angle, of the last", R::NAME, worst, bound));
         // Twice the static deflection under the tip's acceleration, and what rotation adds.
-        rows.push(Row::claim(
-            "deflection below 10 µm",
-            R::NAME,
-            largest < 1e-5,
-        ));
+        rows.push(Row::claim("deflection below 10 µm", R::NAME, largest < 1e-5));
         let (mut joint, mut bent) = (State::at([R::ZERO]), State::at([R::ZERO]));
         for _ in 0..20 {
             let Ok(found) = forward_dynamics(&robot, &modes, &joint, &bent, &[R::ONE], &scene)
@@ -209,12 +174,7 @@ pub(super) fn fast_mode() -> Vec<Row> {
             bent.q[0] += h * bent.qd[0];
         }
         let blown = bent.q[0].to_f64().abs();
-        rows.push(Row::naive(
-            "an explicit step: deflection, m, after 20",
-            R::NAME,
-            blown,
-            1.0,
-        ));
+        rows.push(Row::naive("an explicit step: deflection, m, after 20", R::NAME, blown, 1.0));
     }
     let mut rows = Vec::new();
     run::<f32>(&mut rows, 1e-6);

@@ -12,12 +12,7 @@ pub(super) fn sag() -> Vec<Row> {
     fn tip<R: Scalar, const M: usize>() -> f64 {
         let (robot, modes) = one::<R, M>(&UPPER);
         let rest = ModalFeedforward::at_rest(&robot, &modes, &[R::ZERO], &(RIGID_BODY, Elasticity));
-        rest.expect("stiffness")
-            .bent
-            .q
-            .iter()
-            .map(|eta| eta.to_f64())
-            .sum()
+        rest.expect("stiffness").bent.q.iter().map(|eta| eta.to_f64()).sum()
     }
     fn run<R: Scalar>(rows: &mut Vec<Row>, bounds: [f64; 3]) {
         let (l, rho, ei, m, g) = (0.5_f64, 0.8, 4.0, 0.3, 9.81);
@@ -25,12 +20,7 @@ pub(super) fn sag() -> Vec<Row> {
         let tips = [tip::<R, 1>(), tip::<R, 2>(), tip::<R, 3>()];
         for (k, tip) in tips.into_iter().enumerate() {
             let quantity = format!("deflection of the end, {} modes", k + 1);
-            rows.push(Row::measured(
-                quantity,
-                R::NAME,
-                (tip / closed - 1.0).abs(),
-                bounds[k],
-            ));
+            rows.push(Row::measured(quantity, R::NAME, (tip / closed - 1.0).abs(), bounds[k]));
         }
     }
     let mut rows = Vec::new();
@@ -63,25 +53,17 @@ fn powers<const M: usize>() -> (ArmModel<f64, 1>, Modes<f64, M>) {
 }
 
 pub(super) fn frequencies() -> Vec<Row> {
-    const ROOTS: [f64; 3] = [
-        1.875_104_068_711_961,
-        4.694_091_132_974_175,
-        7.854_757_438_237_613,
-    ];
+    const ROOTS: [f64; 3] = [1.875_104_068_711_961, 4.694_091_132_974_175, 7.854_757_438_237_613];
     fn errors<R: Scalar, const M: usize>(robot: &ArmModel<R, 1>, modes: &Modes<R, M>) -> Vec<f64> {
         let m = crba(robot, modes, &[R::ZERO], &[R::ZERO; M], &Inertia);
         let omega = modes.frequencies(&m).expect("positive definite");
         let pairs = omega.iter().zip(ROOTS);
-        pairs
-            .map(|(omega, root)| omega.to_f64() / (root * root) - 1.0)
-            .collect()
+        pairs.map(|(omega, root)| omega.to_f64() / (root * root) - 1.0).collect()
     }
     fn run<R: Scalar, const M: usize>(rows: &mut Vec<Row>, bound: f64) {
         let plain = Beam::new(1.0, 1.0).bending([1.0, 1.0]);
         let (robot, modes) = one::<R, M>(&plain);
-        let worst = errors(&robot, &modes)
-            .iter()
-            .fold(0.0, |worst, e| f64::max(worst, e.abs()));
+        let worst = errors(&robot, &modes).iter().fold(0.0, |worst, e| f64::max(worst, e.abs()));
         let quantity = format!("shapes of the beam, {M} modes, all frequencies");
         rows.push(Row::stated(quantity, R::NAME, worst, bound));
     }

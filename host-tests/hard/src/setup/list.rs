@@ -10,28 +10,15 @@ use proptest::test_runner::TestRng;
 use host_tests::random::{random_numbers, within};
 
 pub fn exported() -> Vec<Exported> {
-    let mut all: Vec<Exported> = (DOUBLE.iter())
-        .map(|problem| arm(problem.case, problem.name).exported())
-        .collect();
+    let mut all: Vec<Exported> =
+        (DOUBLE.iter()).map(|problem| arm(problem.case, problem.name).exported()).collect();
     all.push(reframed().exported());
     all.push(light_links().exported());
     for (straight, random) in [
-        (
-            chain::<8>(7, Stance::Straight).exported(),
-            chain::<8>(7, Stance::Random).exported(),
-        ),
-        (
-            chain::<16>(8, Stance::Straight).exported(),
-            chain::<16>(8, Stance::Random).exported(),
-        ),
-        (
-            chain::<32>(9, Stance::Straight).exported(),
-            chain::<32>(9, Stance::Random).exported(),
-        ),
-        (
-            chain::<64>(10, Stance::Straight).exported(),
-            chain::<64>(10, Stance::Random).exported(),
-        ),
+        (chain::<8>(7, Stance::Straight).exported(), chain::<8>(7, Stance::Random).exported()),
+        (chain::<16>(8, Stance::Straight).exported(), chain::<16>(8, Stance::Random).exported()),
+        (chain::<32>(9, Stance::Straight).exported(), chain::<32>(9, Stance::Random).exported()),
+        (chain::<64>(10, Stance::Straight).exported(), chain::<64>(10, Stance::Random).exported()),
     ] {
         all.extend([straight, random]);
     }

@@ -57,14 +57,7 @@ impl<const N: usize> Setup<N> {
         states: Vec<State<f32, N, N>>,
     ) -> Self {
         let single = arm.to_f32();
-        Self {
-            case,
-            name: name.into(),
-            double: same_in_f64(arm, &single),
-            single,
-            extras,
-            states,
-        }
+        Self { case, name: name.into(), double: same_in_f64(arm, &single), single, extras, states }
     }
 
     /// Everything of each state, forward dynamics under the oracle's torques, in f32 and in f64.
@@ -95,10 +88,7 @@ impl<const N: usize> Setup<N> {
         let truth = all.into_iter().find(|truth| truth.name == self.name);
         let truth = truth.unwrap_or_else(|| panic!("{path:?} lacks {:?}", self.name));
         let inputs = self.exported().inputs;
-        assert_eq!(
-            truth.inputs, inputs,
-            "{path:?} is of other inputs: run oracle/hard.py"
-        );
+        assert_eq!(truth.inputs, inputs, "{path:?} is of other inputs: run oracle/hard.py");
         truth
     }
 
@@ -139,11 +129,7 @@ pub fn turning<R: Real, const N: usize>(arm: &ArmModel<R, N>) -> Revolute<'_, R,
 }
 
 pub fn widened<const Q: usize, const V: usize>(state: &State<f32, Q, V>) -> State<f64, Q, V> {
-    State {
-        q: state.q.map(f64::from),
-        qd: state.qd.map(f64::from),
-        qdd: state.qdd.map(f64::from),
-    }
+    State { q: state.q.map(f64::from), qd: state.qd.map(f64::from), qdd: state.qdd.map(f64::from) }
 }
 
 /// The f32 numbers in f64, except that rotations are replaced by the nearest orthonormal ones: a
@@ -221,16 +207,9 @@ struct ExportedState {
 }
 
 fn exported_link(link: &Link<f32>) -> ExportedLink {
-    let (matrix, vector) = (
-        |m: &Mat3| bits(&m.to_cols_array()),
-        |v: Vec3| bits(&v.to_array()),
-    );
+    let (matrix, vector) = (|m: &Mat3| bits(&m.to_cols_array()), |v: Vec3| bits(&v.to_array()));
     ExportedLink {
-        parent: if link.parent == BASE {
-            -1
-        } else {
-            link.parent as i64
-        },
+        parent: if link.parent == BASE { -1 } else { link.parent as i64 },
         kind: match link.joint.kind {
             JointKind::Prismatic => "prismatic",
             _ => "revolute",

@@ -24,12 +24,8 @@ const ROD: f64 = 0.45;
 /// Radius of the rods' ends on the platform, m.
 const PLATFORM_RADIUS: f64 = 0.05;
 
-const LIMITS: JointLimits<f64> = JointLimits {
-    lower: -PI,
-    upper: PI,
-    velocity: 20.0,
-    torque: 100.0,
-};
+const LIMITS: JointLimits<f64> =
+    JointLimits { lower: -PI, upper: PI, velocity: 20.0, torque: 100.0 };
 
 const fn crank(name: &'static str, side: usize) -> Body {
     let (sin, cos) = SIDES[side];
@@ -43,17 +39,12 @@ const fn crank(name: &'static str, side: usize) -> Body {
 }
 
 /// sin and cos of 0, 120 and 240 degrees.
-const SIDES: [(f64, f64); 3] = [
-    (0.0, 1.0),
-    (0.866_025_403_784_438_6, -0.5),
-    (-0.866_025_403_784_438_6, -0.5),
-];
+const SIDES: [(f64, f64); 3] =
+    [(0.0, 1.0), (0.866_025_403_784_438_6, -0.5), (-0.866_025_403_784_438_6, -0.5)];
 
 /// The massless body between the axes of a pair of rods.
 const fn cross(name: &'static str, crank: usize) -> Body {
-    Body::new(name, crank, Joint::revolute(Y))
-        .xyz([CRANK, 0.0, 0.0])
-        .limits(LIMITS)
+    Body::new(name, crank, Joint::revolute(Y)).xyz([CRANK, 0.0, 0.0]).limits(LIMITS)
 }
 
 const fn rods(name: &'static str, cross: usize) -> Body {
@@ -90,10 +81,8 @@ impl Robot<12, 12, 12> for DeltaRobot {
 
 impl ClusteredRobot<12, 12, 12, 3, 3> for DeltaRobot {
     type Clusters = (Driven<Delta, 12, 3>,);
-    const CLUSTERS: Self::Clusters = (Driven::new(
-        "arms",
-        Delta::new(BASE_RADIUS, CRANK, ROD, PLATFORM_RADIUS),
-    ),);
+    const CLUSTERS: Self::Clusters =
+        (Driven::new("arms", Delta::new(BASE_RADIUS, CRANK, ROD, PLATFORM_RADIUS)),);
     const COORDINATES: &'static [&'static [usize]] = &[&[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11]];
 }
 

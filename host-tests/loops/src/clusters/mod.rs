@@ -28,11 +28,14 @@ const fn link(
     com: [f64; 3],
 ) -> Body {
     let i = 0.003 * mass;
-    Body::new(name, parent, joint)
-        .xyz(at)
-        .mass(mass)
-        .com(com)
-        .inertia([i, 0.1 * i, 0.0, 1.2 * i, -0.1 * i, 0.9 * i])
+    Body::new(name, parent, joint).xyz(at).mass(mass).com(com).inertia([
+        i,
+        0.1 * i,
+        0.0,
+        1.2 * i,
+        -0.1 * i,
+        0.9 * i,
+    ])
 }
 
 /// A five-bar leg on a vertical slide.
@@ -42,56 +45,19 @@ impl Robot<5, 5, 5> for FiveBarLeg {
     const MODEL: ArmModel<f64, 5> = Model::new(
         "five_bar_leg",
         [
-            link(
-                "carriage",
-                BASE,
-                Joint::prismatic(Z),
-                [0.0; 3],
-                3.0,
-                [0.02, 0.0, 0.1],
-            ),
-            link(
-                "crank",
-                0,
-                Joint::revolute(Y),
-                [0.0; 3],
-                0.4,
-                [0.05, 0.0, 0.0],
-            ),
-            link(
-                "rod",
-                1,
-                Joint::revolute(Y),
-                [0.12, 0.0, 0.0],
-                0.3,
-                [0.1, 0.01, 0.0],
-            ),
-            link(
-                "other_crank",
-                0,
-                Joint::revolute(Y),
-                [0.05, 0.0, 0.0],
-                0.5,
-                [0.05, 0.0, 0.0],
-            ),
-            link(
-                "other_rod",
-                3,
-                Joint::revolute(Y),
-                [0.11, 0.0, 0.0],
-                0.2,
-                [0.1, 0.0, 0.01],
-            ),
+            link("carriage", BASE, Joint::prismatic(Z), [0.0; 3], 3.0, [0.02, 0.0, 0.1]),
+            link("crank", 0, Joint::revolute(Y), [0.0; 3], 0.4, [0.05, 0.0, 0.0]),
+            link("rod", 1, Joint::revolute(Y), [0.12, 0.0, 0.0], 0.3, [0.1, 0.01, 0.0]),
+            link("other_crank", 0, Joint::revolute(Y), [0.05, 0.0, 0.0], 0.5, [0.05, 0.0, 0.0]),
+            link("other_rod", 3, Joint::revolute(Y), [0.11, 0.0, 0.0], 0.2, [0.1, 0.0, 0.01]),
         ],
     );
 }
 
 impl ClusteredRobot<5, 5, 5, 3, 3> for FiveBarLeg {
     type Clusters = (Driven<FiveBar, 4, 2>,);
-    const CLUSTERS: Self::Clusters = (Driven::new(
-        "leg",
-        FiveBar::new(0.05, [0.12, 0.22], [0.11, 0.2], Branch::Positive),
-    ),);
+    const CLUSTERS: Self::Clusters =
+        (Driven::new("leg", FiveBar::new(0.05, [0.12, 0.22], [0.11, 0.2], Branch::Positive)),);
     const COORDINATES: &'static [&'static [usize]] = &[&[1, 2, 3, 4]];
 }
 
@@ -120,62 +86,13 @@ impl Robot<7, 7, 7> for Geared {
     const MODEL: ArmModel<f64, 7> = Model::new(
         "geared",
         [
-            link(
-                "arm",
-                BASE,
-                Joint::revolute(Y),
-                [0.0; 3],
-                2.0,
-                [0.2, 0.0, 0.0],
-            ),
-            link(
-                "pulley",
-                0,
-                Joint::revolute(Y),
-                [0.1, 0.0, 0.0],
-                0.3,
-                [0.0; 3],
-            ),
-            link(
-                "forearm",
-                0,
-                Joint::revolute(Y),
-                [0.4, 0.0, 0.0],
-                1.0,
-                [0.1, 0.02, 0.0],
-            ),
-            link(
-                "pitch",
-                2,
-                Joint::revolute(Y),
-                [0.3, 0.0, 0.0],
-                0.4,
-                [0.02, 0.0, 0.0],
-            ),
-            link(
-                "roll",
-                3,
-                Joint::revolute(X),
-                [0.0; 3],
-                0.3,
-                [0.05, 0.0, 0.02],
-            ),
-            link(
-                "rotor",
-                2,
-                Joint::revolute(X),
-                [0.05, 0.02, 0.0],
-                0.1,
-                [0.0; 3],
-            ),
-            link(
-                "other_rotor",
-                2,
-                Joint::revolute(X),
-                [0.05, -0.02, 0.0],
-                0.1,
-                [0.0; 3],
-            ),
+            link("arm", BASE, Joint::revolute(Y), [0.0; 3], 2.0, [0.2, 0.0, 0.0]),
+            link("pulley", 0, Joint::revolute(Y), [0.1, 0.0, 0.0], 0.3, [0.0; 3]),
+            link("forearm", 0, Joint::revolute(Y), [0.4, 0.0, 0.0], 1.0, [0.1, 0.02, 0.0]),
+            link("pitch", 2, Joint::revolute(Y), [0.3, 0.0, 0.0], 0.4, [0.02, 0.0, 0.0]),
+            link("roll", 3, Joint::revolute(X), [0.0; 3], 0.3, [0.05, 0.0, 0.02]),
+            link("rotor", 2, Joint::revolute(X), [0.05, 0.02, 0.0], 0.1, [0.0; 3]),
+            link("other_rotor", 2, Joint::revolute(X), [0.05, -0.02, 0.0], 0.1, [0.0; 3]),
         ],
     );
 }
@@ -224,14 +141,7 @@ impl Robot<6, 9, 9> for UniversalAnkle {
             "universal_ankle",
             [
                 link("shank", BASE, turn, [0.0; 3], 2.8, [0.0, 0.0, -0.1]),
-                link(
-                    "foot",
-                    0,
-                    both,
-                    [0.0, 0.0, -0.35],
-                    0.9,
-                    [0.04, 0.002, -0.03],
-                ),
+                link("foot", 0, both, [0.0, 0.0, -0.35], 0.9, [0.04, 0.002, -0.03]),
                 link("left_crank", 0, turn, left_joint, 0.2, [-0.01, 0.0, 0.0]),
                 link("left_rod", 2, both, left.crank, 0.1, [0.0, 0.0, -0.08]),
                 link("right_crank", 0, turn, right_joint, 0.2, [-0.01, 0.0, 0.0]),
@@ -257,10 +167,8 @@ impl Random {
 
     /// Within ± `bound`.
     pub fn number(&mut self, bound: f64) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
+        self.0 =
+            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         let unit = (self.0 >> 40) as f64 / (1_u64 << 23) as f64 - 1.0;
         f64::from((unit * bound) as f32)
     }
@@ -274,11 +182,7 @@ impl Random {
 pub fn apart(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).fold(0.0, |most, (a, b)| {
         let apart = (a - b).abs();
-        if apart > most || apart.is_nan() {
-            apart
-        } else {
-            most
-        }
+        if apart > most || apart.is_nan() { apart } else { most }
     })
 }
 
@@ -302,11 +206,7 @@ pub fn states<const P: usize, const Y: usize>(
             let length = attitude.iter().map(|x| x * x).sum::<f64>().sqrt();
             attitude.iter_mut().for_each(|x| *x /= length);
         }
-        State {
-            q,
-            qd: random.numbers(3.0),
-            qdd: random.numbers(10.0),
-        }
+        State { q, qd: random.numbers(3.0), qdd: random.numbers(10.0) }
     };
     (0..200).map(one).collect()
 }
@@ -349,10 +249,7 @@ pub fn delta_states() -> Vec<State<f64, 3, 3>> {
 
 /// 200 states of the Stewart platform.
 pub fn stewart_states() -> Vec<State<f64, 6, 6>> {
-    let (centre, reach) = (
-        [0.0, 0.0, 0.8, 0.0, 0.0, 0.0],
-        [0.15, 0.15, 0.1, 0.4, 0.3, 0.3],
-    );
+    let (centre, reach) = ([0.0, 0.0, 0.8, 0.0, 0.0, 0.0], [0.15, 0.15, 0.1, 0.4, 0.3, 0.3]);
     states(centre, reach, None)
 }
 
@@ -363,8 +260,5 @@ pub fn stewart_states() -> Vec<State<f64, 6, 6>> {
 pub fn hold(what: &str, error: f64, bound: f64) {
     println!("{what}: {error:.1e}, bound {bound:.0e}");
     assert!(error <= bound, "{what}: {error:.1e} exceeds {bound:.0e}");
-    assert!(
-        error * 10.0 > bound,
-        "{what}: {error:.1e} makes the bound {bound:.0e} slack"
-    );
+    assert!(error * 10.0 > bound, "{what}: {error:.1e} makes the bound {bound:.0e} slack");
 }

@@ -68,11 +68,7 @@ where
     T: ClusteredRobot<B, N, N, Y, Y>,
 {
     let recorded = recording(T::MODEL.name);
-    assert_eq!(
-        recorded.model,
-        robot(&T::MODEL),
-        "another robot was recorded"
-    );
+    assert_eq!(recorded.model, robot(&T::MODEL), "another robot was recorded");
     let mut errors = Errors::new(T::MODEL.name);
     for k in 0..recorded.q.len() {
         tree::<T, B, N, Y>(&recorded, k, &mut errors);
@@ -84,11 +80,7 @@ where
 
 pub fn state<R: Real, const Y: usize>(recorded: &Recording, k: usize) -> State<R, Y, Y> {
     let of = |rows| row::<Y>(rows, k).map(R::from_f64);
-    State {
-        q: of(&recorded.q),
-        qd: of(&recorded.qd),
-        qdd: of(&recorded.qdd),
-    }
+    State { q: of(&recorded.q), qd: of(&recorded.qd), qdd: of(&recorded.qdd) }
 }
 
 /// The tree's motion, and M.
@@ -137,18 +129,10 @@ fn torques<T, R: Real, const B: usize, const N: usize, const Y: usize>(
     compare("engine gravity", engine, &recorded.gravity[k]);
     compare("engine and core, gravity", engine, &core.map(Real::to_f64));
 
-    let scene = (
-        RIGID_BODY,
-        Viscous([R::from_f64(0.3); N]),
-        Armature([R::from_f64(0.02); N]),
-    );
+    let scene = (RIGID_BODY, Viscous([R::from_f64(0.3); N]), Armature([R::from_f64(0.02); N]));
     let core = Clustered::<Core<T>>::rnea(&y, &scene).expect("it closes");
     let engine = Clustered::<Engine<T>>::rnea(&y, &scene).expect("it closes");
-    compare(
-        "engine and core, friction and rotors",
-        engine,
-        &core.map(Real::to_f64),
-    );
+    compare("engine and core, friction and rotors", engine, &core.map(Real::to_f64));
 
     let tau = row::<Y>(&recorded.tau, k).map(R::from_f64);
     let forward = Clustered::<Core<T>>::aba(&y, &tau, &RIGID_BODY).expect("it moves");

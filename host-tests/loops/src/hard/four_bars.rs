@@ -40,33 +40,17 @@ fn as_clusters(problem: &LoopProblem<3, 1>, linkage: usize, truth: &Truth) -> Ve
     let single: Vec<OfCluster> = states()
         .map(|(start, truth)| of(linkage, crank::<f32>(start), truth.given[0] as f32))
         .collect();
-    let double: Vec<OfCluster> = states()
-        .map(|(start, truth)| of(linkage, crank::<f64>(start), truth.given[0]))
-        .collect();
+    let double: Vec<OfCluster> =
+        states().map(|(start, truth)| of(linkage, crank::<f64>(start), truth.given[0])).collect();
     let of_states = |from: &[OfCluster], k: usize| -> Vec<Outcome> {
         from.iter().map(|outcomes| outcomes[k].clone()).collect()
     };
-    let tau: Vec<_> = truth
-        .states
-        .iter()
-        .map(|state| state.tau.as_deref())
-        .collect();
-    let forward = truth
-        .states
-        .iter()
-        .map(|state| state.forward.get(..1))
-        .collect();
-    let quantities = [
-        "clusters: inverse dynamics",
-        "engine: inverse dynamics",
-        "clusters: forward dynamics",
-    ];
+    let tau: Vec<_> = truth.states.iter().map(|state| state.tau.as_deref()).collect();
+    let forward = truth.states.iter().map(|state| state.forward.get(..1)).collect();
+    let quantities =
+        ["clusters: inverse dynamics", "engine: inverse dynamics", "clusters: forward dynamics"];
     let mut all = Vec::new();
-    for ((k, quantity), truth) in quantities
-        .into_iter()
-        .enumerate()
-        .zip([&tau, &tau, &forward])
-    {
+    for ((k, quantity), truth) in quantities.into_iter().enumerate().zip([&tau, &tau, &forward]) {
         let name = format!("{quantity}, {}", problem.name);
         let (single, double) = (of_states(&single, k), of_states(&double, k));
         all.extend(rows(problem.case, &name, [&single, &double], truth));
@@ -101,11 +85,7 @@ where
         Ok(motion) => motion.singular() == Some("four_bar"),
         Err(error) => error.cluster == "four_bar",
     };
-    let refused = if named {
-        Outcome::REFUSED
-    } else {
-        Outcome::NOTHING
-    };
+    let refused = if named { Outcome::REFUSED } else { Outcome::NOTHING };
     let of = |found: Result<[R; 1], ()>| found.map_or(refused.clone(), |x| Outcome::of(&x, named));
     let forward = Clustered::<Core<FourBar<K>>>::aba(&y, &[tau], &scene);
     [

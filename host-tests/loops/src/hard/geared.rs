@@ -83,29 +83,13 @@ where
 }
 
 const WRIST_STATES: [State<f64, 2, 2>; 2] = [
-    State {
-        q: [0.5, 0.25],
-        qd: [2.0, -1.5],
-        qdd: [8.0, 5.0],
-    },
-    State {
-        q: [700.5, -699.0],
-        qd: [1000.0, -999.0],
-        qdd: [-400.0, 401.0],
-    },
+    State { q: [0.5, 0.25], qd: [2.0, -1.5], qdd: [8.0, 5.0] },
+    State { q: [700.5, -699.0], qd: [1000.0, -999.0], qdd: [-400.0, 401.0] },
 ];
 
 const STEEP_STATES: [State<f64, 1, 1>; 2] = [
-    State {
-        q: [0.00390625],
-        qd: [0.0078125],
-        qdd: [0.015625],
-    },
-    State {
-        q: [-0.009765625],
-        qd: [-0.015625],
-        qdd: [0.03125],
-    },
+    State { q: [0.00390625], qd: [0.0078125], qdd: [0.015625] },
+    State { q: [-0.009765625], qd: [-0.015625], qdd: [0.03125] },
 ];
 
 /// The description of the differential that the oracle reads.
@@ -136,31 +120,14 @@ where
 {
     let truth = problem.truth();
     let given: Vec<&[f64]> = truth.states.iter().map(|state| &*state.given).collect();
-    let (single, double) = (
-        outcomes::<f32, T, Y>(states, &given),
-        outcomes::<f64, T, Y>(states, &given),
-    );
-    let tau: Vec<_> = truth
-        .states
-        .iter()
-        .map(|state| state.tau.as_deref())
-        .collect();
-    let forward = truth
-        .states
-        .iter()
-        .map(|state| Some(&*state.forward))
-        .collect();
-    let quantities = [
-        "clusters: inverse dynamics",
-        "engine: inverse dynamics",
-        "clusters: forward dynamics",
-    ];
+    let (single, double) =
+        (outcomes::<f32, T, Y>(states, &given), outcomes::<f64, T, Y>(states, &given));
+    let tau: Vec<_> = truth.states.iter().map(|state| state.tau.as_deref()).collect();
+    let forward = truth.states.iter().map(|state| Some(&*state.forward)).collect();
+    let quantities =
+        ["clusters: inverse dynamics", "engine: inverse dynamics", "clusters: forward dynamics"];
     let mut all = Vec::new();
-    for ((k, quantity), truth) in quantities
-        .into_iter()
-        .enumerate()
-        .zip([&tau, &tau, &forward])
-    {
+    for ((k, quantity), truth) in quantities.into_iter().enumerate().zip([&tau, &tau, &forward]) {
         let name = format!("{quantity}, {}", problem.name);
         all.extend(rows(problem.case, &name, [&single[k], &double[k]], truth));
     }
@@ -177,11 +144,8 @@ where
     let mut all = [Vec::new(), Vec::new(), Vec::new()];
     let scene = scene::<R>();
     for (state, given) in states.iter().zip(given) {
-        let y: State<R, Y, Y> = State {
-            q: rounded(&state.q),
-            qd: rounded(&state.qd),
-            qdd: rounded(&state.qdd),
-        };
+        let y: State<R, Y, Y> =
+            State { q: rounded(&state.q), qd: rounded(&state.qd), qdd: rounded(&state.qdd) };
         let of = |found: Result<[R; Y], ClusterError>| match found {
             Ok(x) => Outcome::of(&x, false),
             Err(error) if T::MODEL.name == error.cluster => Outcome::REFUSED,

@@ -31,9 +31,7 @@ pub fn demand(number: u32) -> Result<(), String> {
 /// The problems that the oracle reads: all but those without an answer.
 pub fn exported() -> Vec<Exported> {
     let closing = PROBLEMS.iter().filter(|problem| problem.case != 52);
-    let mut all: Vec<Exported> = closing
-        .map(|problem| Planar::of(problem).exported())
-        .collect();
+    let mut all: Vec<Exported> = closing.map(|problem| Planar::of(problem).exported()).collect();
     all.push(Planar::of(&RIG).exported());
     all.extend(robots::deltas().iter().map(Setup::exported));
     all.extend(robots::stewarts().iter().map(Setup::exported));

@@ -23,15 +23,9 @@ const STILL: f64 = 1e-9;
 
 impl Outcome {
     /// The outcome of an error that names nothing.
-    pub const NOTHING: Self = Self {
-        values: Vec::new(),
-        named: false,
-    };
+    pub const NOTHING: Self = Self { values: Vec::new(), named: false };
     /// An error that names what is singular.
-    pub const REFUSED: Self = Self {
-        values: Vec::new(),
-        named: true,
-    };
+    pub const REFUSED: Self = Self { values: Vec::new(), named: true };
 
     pub fn of<R: Real, const N: usize>(values: &[R; N], named: bool) -> Self {
         let values = values.map(R::to_f64).to_vec();
@@ -57,9 +51,7 @@ impl Outcome {
 
 /// Whether something is demanded of this quantity.
 pub(super) fn is_bounded(case: u32, quantity: &str) -> bool {
-    BOUNDS
-        .iter()
-        .any(|entry| (entry.0, entry.1) == (case, quantity))
+    BOUNDS.iter().any(|entry| (entry.0, entry.1) == (case, quantity))
 }
 
 /// The rows of a quantity in f32 and in f64 against the oracle's, as [`BOUNDS`] demands.
@@ -111,17 +103,9 @@ fn error(outcomes: &[Outcome], truth: &[Option<&[f64]>], absolute: bool) -> f64 
         }
         for (i, (x, truth)) in outcome.values.iter().zip(*truth).enumerate() {
             // One that does not move but for rounding has no scale of its own.
-            let scale = if size(i) < STILL * most {
-                most
-            } else {
-                size(i)
-            };
+            let scale = if size(i) < STILL * most { most } else { size(i) };
             let error = (x - truth).abs();
-            errors.push(if absolute || scale == 0.0 {
-                error
-            } else {
-                error / scale
-            });
+            errors.push(if absolute || scale == 0.0 { error } else { error / scale });
         }
     }
     largest(errors)

@@ -21,11 +21,7 @@ fn delta<T: LoopRobot<10, 22, 21, 6, 18, 3>>(
     rods: [f64; 3],
     height: f64,
 ) -> OfDelta {
-    let mut start = State {
-        qd: [0.0; 21],
-        qdd: [0.0; 21],
-        ..State::at([0.0; 22])
-    };
+    let mut start = State { qd: [0.0; 21], qdd: [0.0; 21], ..State::at([0.0; 22]) };
     (start.q[3], start.q[6]) = (1.0, height);
     let motion = [[1.5, 4.0], [-1.0, 2.5], [2.0, -6.0]];
     for (side, [rate, accel]) in motion.into_iter().enumerate() {
@@ -74,11 +70,7 @@ fn stewart<T: LoopRobot<13, 25, 24, 6, 18, 6>>(
     yaw: f64,
     to: [f64; 3],
 ) -> OfStewart {
-    let mut start = State {
-        qd: [0.0; 24],
-        qdd: [0.0; 24],
-        ..State::at(Stewart::HOME)
-    };
+    let mut start = State { qd: [0.0; 24], qdd: [0.0; 24], ..State::at(Stewart::HOME) };
     (start.q[2], start.q[3]) = (0.5 * yaw).sin_cos();
     start.q[4..7].copy_from_slice(&to);
     start.qd[..6].copy_from_slice(&[0.5, -0.25, 0.75, 0.125, -0.5, 0.25]);

@@ -94,11 +94,7 @@ pub struct Start {
 impl Start {
     pub fn of<const Q: usize, const V: usize>(state: &State<f64, Q, V>) -> Self {
         let State { q, qd, qdd } = state;
-        Self {
-            q: q.to_vec(),
-            qd: qd.to_vec(),
-            qdd: qdd.to_vec(),
-        }
+        Self { q: q.to_vec(), qd: qd.to_vec(), qdd: qdd.to_vec() }
     }
 }
 
@@ -135,11 +131,7 @@ impl Exported {
 impl TrueState {
     /// The state with closed loops, rounded.
     pub fn state<R: Real, const Q: usize, const V: usize>(&self) -> State<R, Q, V> {
-        State {
-            q: rounded(&self.q),
-            qd: rounded(&self.qd),
-            qdd: rounded(&self.qdd),
-        }
+        State { q: rounded(&self.q), qd: rounded(&self.qd), qdd: rounded(&self.qdd) }
     }
 }
 
@@ -201,10 +193,8 @@ impl<const B: usize, const Q: usize, const V: usize, const L: usize, const C: us
     }
 
     pub fn rows_against(&self, truth: &Truth) -> Vec<Row> {
-        let (single, double) = (
-            self.outcomes(&self.single, truth),
-            self.outcomes(&self.tree, truth),
-        );
+        let (single, double) =
+            (self.outcomes(&self.single, truth), self.outcomes(&self.tree, truth));
         let states = &truth.states;
         let of = |values: fn(&TrueState) -> Option<&[f64]>| states.iter().map(values).collect();
         let truths: [Vec<Option<&[f64]>>; 4] = [
@@ -213,12 +203,7 @@ impl<const B: usize, const Q: usize, const V: usize, const L: usize, const C: us
             of(|state| state.tau.as_deref()),
             of(|state| Some(&state.forward)),
         ];
-        let quantities = [
-            "assembly (rad, m)",
-            "inverse dynamics",
-            DAMPED,
-            "forward dynamics",
-        ];
+        let quantities = ["assembly (rad, m)", "inverse dynamics", DAMPED, "forward dynamics"];
         let mut all = Vec::new();
         for (k, quantity) in quantities.into_iter().enumerate() {
             let measured = match k {

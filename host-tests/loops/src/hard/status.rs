@@ -16,10 +16,7 @@ use super::setup::{Planar, rounded};
 /// A claim in both scalars.
 fn both(claim: &str, holds: [bool; 2]) -> [Row; 2] {
     let [single, double] = holds;
-    [
-        Row::claim(claim, "f32", single),
-        Row::claim(claim, "f64", double),
-    ]
+    [Row::claim(claim, "f32", single), Row::claim(claim, "f64", double)]
 }
 
 /// Rank 2 of five rows, the other three named.
@@ -32,10 +29,7 @@ pub fn redundant_rows() -> Vec<Row> {
             map.rows().rank() == 2
                 && map.drive() == Drive::Determined
                 && map.rows().redundant().count() == 3
-                && map
-                    .rows()
-                    .redundant()
-                    .all(|row| setup.loops.name_of_row(row) == "pin")
+                && map.rows().redundant().all(|row| setup.loops.name_of_row(row) == "pin")
         })
     }
     let setup = Planar::of(&PROBLEMS[0]);
@@ -83,10 +77,7 @@ pub fn out_of_reach(problem: &LoopProblem<3, 1>) -> Vec<Row> {
     let (single, double) = (holds(problem.single, problem), holds(problem.tree, problem));
     let claims = ["assembly", "inverse dynamics", "clusters"];
     let rows = claims.into_iter().enumerate().flat_map(|(k, quantity)| {
-        both(
-            &format!("{quantity}: the open loop is named"),
-            [single[k], double[k]],
-        )
+        both(&format!("{quantity}: the open loop is named"), [single[k], double[k]])
     });
     rows.collect()
 }
@@ -95,11 +86,8 @@ pub fn out_of_reach(problem: &LoopProblem<3, 1>) -> Vec<Row> {
 pub fn coplanar_delta() -> Vec<Row> {
     let delta = robots::coplanar();
     let start = &delta.starts[0];
-    let single: State<f32, 22, 21> = State {
-        q: rounded(&start.q),
-        qd: rounded(&start.qd),
-        qdd: rounded(&start.qdd),
-    };
+    let single: State<f32, 22, 21> =
+        State { q: rounded(&start.q), qd: rounded(&start.qd), qdd: rounded(&start.qdd) };
     let found = [
         delta.inverse(&delta.single, &delta.loops, &single),
         delta.inverse(&delta.tree, &delta.loops, start),

@@ -44,12 +44,7 @@ pub const CASES: &[Case] = &[
 pub fn ball(mass: f64, com: f64, moments: [f64; 3]) -> Model<f64, 1, 4, 3> {
     let [xx, yy, zz] = moments;
     let body = Body::new("body", BASE, Joint::spherical()).mass(mass);
-    Model::new(
-        "ball",
-        [body
-            .com([0.0, 0.0, com])
-            .inertia([xx, 0.0, 0.0, yy, 0.0, zz])],
-    )
+    Model::new("ball", [body.com([0.0, 0.0, com]).inertia([xx, 0.0, 0.0, yy, 0.0, zz])])
 }
 
 fn quaternion() -> Vec<Row> {
@@ -74,18 +69,8 @@ fn turned(steps: u32) -> Vec<Row> {
                 longest = larger(longest, (length(&q) - 1.0).abs());
             }
         }
-        rows.push(Row::stated(
-            "length of the quaternion",
-            name::<R>(),
-            longest,
-            bounds[0],
-        ));
-        rows.push(Row::measured(
-            "attitude, rad",
-            name::<R>(),
-            off(steps, &q),
-            bounds[1],
-        ));
+        rows.push(Row::stated("length of the quaternion", name::<R>(), longest, bounds[0]));
+        rows.push(Row::measured("attitude, rad", name::<R>(), off(steps, &q), bounds[1]));
     }
     /// From the turn that it should be.
     fn off<R: Real>(steps: u32, q: &[R; 4]) -> f64 {
@@ -118,11 +103,7 @@ fn turned(steps: u32) -> Vec<Row> {
     }
     let mut rows = Vec::new();
     let attitude = f64::from(steps) / 1e7;
-    run::<f32>(
-        steps,
-        &mut rows,
-        [2.0 * f64::from(f32::EPSILON), 4e-3 * attitude],
-    );
+    run::<f32>(steps, &mut rows, [2.0 * f64::from(f32::EPSILON), 4e-3 * attitude]);
     run::<f64>(steps, &mut rows, [2.0 * f64::EPSILON, 9e-13 * attitude]);
     let drifted = naive(steps);
     rows.push(Row::naive(
@@ -152,28 +133,12 @@ fn spin<R: Real>(how: &Integrator, h: f64, seconds: f64) -> Spun {
     let energy = |s: &State<R, 4, 3>| kinetic_energy(&model, s, &()).to_f64();
     let turning = |s: &State<R, 4, 3>| momentum(&model, s, &()).ang.array().map(R::to_f64);
     let (e_0, l_0) = (energy(&state), DVec3::from(turning(&state)));
-    let (mut out, mut sign) = (
-        Spun {
-            energy: 0.0,
-            momentum: 0.0,
-            theory: 0.0,
-            flips: 0,
-        },
-        1.0,
-    );
+    let (mut out, mut sign) = (Spun { energy: 0.0, momentum: 0.0, theory: 0.0, flips: 0 }, 1.0);
     for _ in 0..(seconds / h).round() as u32 {
-        how.step(
-            &model,
-            &mut state,
-            &[R::ZERO; 3],
-            &mut (Inertia, Coriolis),
-            R::from_f64(h),
-        );
+        how.step(&model, &mut state, &[R::ZERO; 3], &mut (Inertia, Coriolis), R::from_f64(h));
         let accelerated = MOMENTS.iter().zip(state.qdd);
-        out.theory += accelerated
-            .map(|(i, a)| 0.5 * h * h * i * a.to_f64() * a.to_f64())
-            .sum::<f64>()
-            / e_0;
+        out.theory +=
+            accelerated.map(|(i, a)| 0.5 * h * h * i * a.to_f64() * a.to_f64()).sum::<f64>() / e_0;
         out.energy = larger(out.energy, (energy(&state) - e_0).abs() / e_0);
         let l = DVec3::from(turning(&state));
         out.momentum = larger(out.momentum, (l - l_0).length() / l_0.length());
@@ -200,21 +165,14 @@ fn spun_by(n: usize) -> Vec<Row> {
     // Energy and momentum in f32 and in f64.
     let first = [1.5e-1, 1e-1, 1.5e-1, 1e-1];
     let mean_velocity = [1e-4, 6e-3, 2e-5, 6e-3];
-    for (how, bounds) in INTEGRATORS
-        .iter()
-        .zip([first, mean_velocity, [1e-4, 5e-5, 1e-12, 1e-10]])
-        .take(n)
+    for (how, bounds) in
+        INTEGRATORS.iter().zip([first, mean_velocity, [1e-4, 5e-5, 1e-12, 1e-10]]).take(n)
     {
         let (single, double) = (spin::<f32>(how, 1e-3, 60.0), spin::<f64>(how, 1e-3, 60.0));
         let half = spin::<f64>(how, 5e-4, 60.0);
         let what = |what: &str| format!("{}: {what}", how.name);
         for (scalar, spun, at, sum) in [("f32", &single, 0, 1e-3), ("f64", &double, 2, 1e-12)] {
-            rows.push(Row::measured(
-                what("energy"),
-                scalar,
-                spun.energy,
-                bounds[at],
-            ));
+            rows.push(Row::measured(what("energy"), scalar, spun.energy, bounds[at]));
             rows.push(Row::measured(
                 what("momentum in space"),
                 scalar,

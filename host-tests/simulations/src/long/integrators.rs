@@ -24,12 +24,7 @@ enum Kind {
 }
 
 pub const INTEGRATORS: [Integrator; 3] = [
-    Integrator {
-        name: "semi-implicit Euler",
-        order: 1,
-        energy_order: 1,
-        kind: Kind::SemiImplicit,
-    },
+    Integrator { name: "semi-implicit Euler", order: 1, energy_order: 1, kind: Kind::SemiImplicit },
     Integrator {
         name: "linearly implicit Euler",
         order: 1,
@@ -37,12 +32,7 @@ pub const INTEGRATORS: [Integrator; 3] = [
         energy_order: 2,
         kind: Kind::LinearlyImplicit,
     },
-    Integrator {
-        name: "Runge-Kutta 4",
-        order: 4,
-        energy_order: 4,
-        kind: Kind::RungeKutta,
-    },
+    Integrator { name: "Runge-Kutta 4", order: 4, energy_order: 4, kind: Kind::RungeKutta },
 ];
 
 impl Integrator {

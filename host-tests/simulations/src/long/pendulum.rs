@@ -16,10 +16,7 @@ fn points() -> ArmModel<f64, 2> {
         let body = Body::new(name, parent, Joint::continuous([0.0, -1.0, 0.0]));
         body.xyz([0.0, 0.0, at]).mass(1.0).com([0.0, 0.0, -1.0])
     };
-    Model::new(
-        "double pendulum",
-        [point("upper", BASE, 0.0), point("lower", 0, -1.0)],
-    )
+    Model::new("double pendulum", [point("upper", BASE, 0.0), point("lower", 0, -1.0)])
 }
 
 /// T + U of two points on rods, angles from the vertical. Any textbook.
@@ -59,10 +56,8 @@ pub fn pendulum_for_seconds() -> Vec<Row> {
     let mut rows = Vec::new();
     for (how, bounds) in [[5e-2; 2], [5e-2; 2], [1e-5, 2e-9]].into_iter().enumerate() {
         let what = format!("{}: energy in 10 s", INTEGRATORS[how].name);
-        let [single, double] = [
-            swing::<f32>(how, 1e-3, 10.0, true),
-            swing::<f64>(how, 1e-3, 10.0, true),
-        ];
+        let [single, double] =
+            [swing::<f32>(how, 1e-3, 10.0, true), swing::<f64>(how, 1e-3, 10.0, true)];
         rows.push(Row::measured(what.as_str(), "f32", single, bounds[0]));
         rows.push(Row::measured(what, "f64", double, bounds[1]));
     }
@@ -73,10 +68,8 @@ fn pendulum_for_an_hour() -> Vec<Row> {
     const LAST: usize = INTEGRATORS.len() - 1;
     let mut rows = Vec::new();
     let what = format!("{}: energy in 1 h", INTEGRATORS[LAST].name);
-    let [single, double] = [
-        swing::<f32>(LAST, 2e-3, 3600.0, true),
-        swing::<f64>(LAST, 2e-3, 3600.0, true),
-    ];
+    let [single, double] =
+        [swing::<f32>(LAST, 2e-3, 3600.0, true), swing::<f64>(LAST, 2e-3, 3600.0, true)];
     rows.push(Row::measured(what.as_str(), "f32", single, 1e-4));
     rows.push(Row::measured(what.as_str(), "f64", double, 1e-5));
     let turns = swing::<f32>(LAST, 2e-3, 3600.0, false);

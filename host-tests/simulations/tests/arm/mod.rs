@@ -83,10 +83,7 @@ impl SpiDevice for Spi {
         for operation in operations {
             if let Operation::TransferInPlace(words) = operation {
                 let mask = self.1.mask.get().to_be_bytes();
-                words
-                    .iter_mut()
-                    .zip(mask)
-                    .for_each(|(word, mask)| *word ^= mask);
+                words.iter_mut().zip(mask).for_each(|(word, mask)| *word ^= mask);
             }
         }
         Ok(())
@@ -154,11 +151,7 @@ impl Arm {
         let drives = core::array::from_fn(|j| Pwm(wires.drive(j), bent[j].clone()));
         Self {
             control: PickAndPlace::control_loop(
-                Devices {
-                    encoders,
-                    drives,
-                    brake: brake.clone(),
-                },
+                Devices { encoders, drives, brake: brake.clone() },
                 PickAndPlace::gains(&()),
                 (),
                 Start::OnTrajectory,

@@ -26,13 +26,8 @@ pub fn bad_frames(at: u32, ticks: u32, mask: u16) -> Outcome {
     let direction = arm.rig.plant.state.qd.map(f32::signum);
     let fast = arm.rig.plant.state.qd.map(|qd| qd.abs() > 0.3);
     let (mut errors, mut reversals) = (vec![], vec![]);
-    let mut out = Outcome {
-        worst: f64::NAN,
-        reversal: f64::NAN,
-        back: 0,
-        others: vec![],
-        modes: vec![],
-    };
+    let mut out =
+        Outcome { worst: f64::NAN, reversal: f64::NAN, back: 0, others: vec![], modes: vec![] };
     for tick in 0..ticks + REENTRY + 200 {
         arm.corrupt(0, if tick < ticks { mask } else { 0 });
         let actual = arm.rig.plant.state.q;
@@ -47,8 +42,7 @@ pub fn bad_frames(at: u32, ticks: u32, mask: u16) -> Outcome {
             reversals.push(-arm.rig.plant.state.qd[j] * direction[j]);
         }
         let frame = Fault::Encoder { joint: 0 };
-        out.others
-            .extend(telemetry.status.fault.filter(|&fault| fault != frame));
+        out.others.extend(telemetry.status.fault.filter(|&fault| fault != frame));
         assert_eq!(telemetry.status.fault == Some(frame), !late);
         out.modes.push(telemetry.status.mode);
     }

@@ -55,15 +55,8 @@ impl Cell {
     pub fn new(setup: &Setup) -> Self {
         let [from, to] = setup.motion;
         let plan = |ticks: u32| {
-            let stop = |q, ticks| WayPoint {
-                q,
-                qd: [0.0; 6],
-                ticks,
-            };
-            let limits = [MotionLimits {
-                velocity: 3.0,
-                acceleration: 10.0,
-            }; 6];
+            let stop = |q, ticks| WayPoint { q, qd: [0.0; 6], ticks };
+            let limits = [MotionLimits { velocity: 3.0, acceleration: 10.0 }; 6];
             Trajectory::new(&[stop(from, 0), stop(to, ticks)], TICK, &limits).expect("a slow one")
         };
         // The tip is fastest halfway, where the wall is.
@@ -91,10 +84,7 @@ impl Cell {
             response: setup.response.unwrap_or(ContactResponse::Stop),
             release_ticks: RELEASE,
         };
-        let observer = ObserverConfig {
-            bandwidth: BANDWIDTH,
-            tick: TICK,
-        };
+        let observer = ObserverConfig { bandwidth: BANDWIDTH, tick: TICK };
         Self {
             motion,
             controller: controller.expect("a good one"),
@@ -125,9 +115,7 @@ impl Cell {
         let q = self.motion.at(self.motion.ticks() / 2).q;
         let mobility = osim_inverse(&self.arm, &q, TIP, frame::LocalWorldAligned, &RIGID);
         let push = Force::new(DVec3::ZERO, self.wall.normal);
-        1.0 / (mobility.expect("an arm with mass") * push)
-            .lin
-            .dot(self.wall.normal)
+        1.0 / (mobility.expect("an arm with mass") * push).lin.dot(self.wall.normal)
     }
 
     /// The force of the tip on the wall, N.
@@ -143,13 +131,12 @@ impl Cell {
     /// The largest of numbers as a share of its limit; infinite if one is not finite.
     pub fn share(x: &Q, limits: &Q) -> f64 {
         let shares = x.iter().zip(limits).map(|(x, limit)| x.abs() / limit);
-        shares.fold(0.0, |most, share| {
-            if share.is_finite() {
-                f64::max(most, share)
-            } else {
-                f64::INFINITY
-            }
-        })
+        shares.fold(
+            0.0,
+            |most, share| {
+                if share.is_finite() { f64::max(most, share) } else { f64::INFINITY }
+            },
+        )
     }
 
     /// The place of the tip, m.
@@ -167,21 +154,11 @@ impl Cell {
         let fault = self.frozen.check(&measured, &before.q);
         let observed = self.controller.observe(fault.map(|()| &measured));
         let Estimate { q, qd } = *observed.estimate();
-        let still = State {
-            q,
-            qd,
-            qdd: [0.0; 6],
-        };
+        let still = State { q, qd, qdd: [0.0; 6] };
         let MomentumAndCoriolis { p, ct_qd } = Core::<Ur5e>::momentum_and_coriolis(&still, &ROTORS);
         let weight = Core::<Ur5e>::rnea(&still, &Gravity::EARTH);
         let resistance = Core::<Ur5e>::rnea(&still, &friction(1.0));
-        let bodies = Core::<Ur5e>::rnea(
-            &State {
-                qdd: before.qdd,
-                ..still
-            },
-            &RIGID,
-        );
+        let bodies = Core::<Ur5e>::rnea(&State { qdd: before.qdd, ..still }, &RIGID);
         let beta = core::array::from_fn(|i| ct_qd[i] - weight[i] - resistance[i]);
         let errors = core::array::from_fn(|i| 0.03 * bodies[i].abs() + 0.1 * resistance[i].abs());
         // A lost measurement neither starts a reaction nor releases the arm.

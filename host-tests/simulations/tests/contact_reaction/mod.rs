@@ -10,18 +10,12 @@ use self::plant::{MOTIONS, Off, SPEED, STIFFNESSES, Setup};
 use host_tests::page::Table;
 use motion_control::{ContactResponse, MotionLimits};
 
-const SLOW: MotionLimits<f64> = MotionLimits {
-    velocity: 0.5,
-    acceleration: 4.0,
-};
+const SLOW: MotionLimits<f64> = MotionLimits { velocity: 0.5, acceleration: 4.0 };
 const RETRACT: ContactResponse<f64> = ContactResponse::Retract {
     distance: 0.1, // rad
     limits: SLOW,
 };
-const FLOAT: ContactResponse<f64> = ContactResponse::Float {
-    damping: 5.0,
-    speed: 0.5,
-};
+const FLOAT: ContactResponse<f64> = ContactResponse::Float { damping: 5.0, speed: 0.5 };
 const PAGE: Table = Table {
     page: "contact.md",
     name: "contact",
@@ -30,12 +24,8 @@ const PAGE: Table = Table {
 const RESPONSES: [ContactResponse<f64>; 3] = [ContactResponse::Stop, RETRACT, FLOAT];
 
 /// Inertias off by 3 % from body to body and friction off by 10 %, in each combination of signs.
-const OFF: [Off; 4] = [
-    Off::new(0.03, 0.1),
-    Off::new(-0.03, -0.1),
-    Off::new(0.03, -0.1),
-    Off::new(-0.03, 0.1),
-];
+const OFF: [Off; 4] =
+    [Off::new(0.03, 0.1), Off::new(-0.03, -0.1), Off::new(0.03, -0.1), Off::new(-0.03, 0.1)];
 
 #[derive(Clone, Copy, Debug, Default)]
 struct Crash {
@@ -101,24 +91,12 @@ fn crash(setup: &Setup) -> Crash {
 /// The worst over motions and errors of the model, of an elastic wall or one that absorbs most of
 /// the energy.
 fn worst(stiffness: f64, loss: f64, response: Option<ContactResponse<f64>>) -> Crash {
-    let runs = MOTIONS
-        .iter()
-        .flat_map(|motion| OFF.map(|off| (*motion, off)));
+    let runs = MOTIONS.iter().flat_map(|motion| OFF.map(|off| (*motion, off)));
     let crashes = runs.map(|(motion, off)| {
-        crash(&Setup {
-            motion,
-            stiffness,
-            loss,
-            off,
-            response,
-            ..Setup::FREE
-        })
+        crash(&Setup { motion, stiffness, loss, off, response, ..Setup::FREE })
     });
     let worst = crashes.reduce(Crash::worse).expect("a run");
-    println!(
-        "{} N/mm, loss {loss} s/m, {response:?}: {worst:?}",
-        1e-3 * stiffness
-    );
+    println!("{} N/mm, loss {loss} s/m, {response:?}: {worst:?}", 1e-3 * stiffness);
     worst
 }
 
@@ -171,10 +149,7 @@ fn a_wall_without_rebound_is_soon_relieved() {
 #[test]
 fn the_margins_exceed_4_9_noise_deviations() {
     for motion in MOTIONS {
-        let mut cell = Cell::new(&Setup {
-            motion,
-            ..Setup::FREE
-        });
+        let mut cell = Cell::new(&Setup { motion, ..Setup::FREE });
         let mut squares = [0.0; 6];
         let ticks = cell.motion.ticks();
         for _ in 0..ticks {

@@ -8,9 +8,7 @@ use crate::contact_reaction::plant::{Off, Setup};
 use crate::contact_reaction::{FLOAT, OFF};
 
 fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
-    values
-        .into_iter()
-        .fold(0.0, |most, x| f64::max(most, x.abs()))
+    values.into_iter().fold(0.0, |most, x| f64::max(most, x.abs()))
 }
 
 /// The effect of a hand on an arm: from tick 1000 on it pushes for a second.
@@ -23,12 +21,7 @@ struct Pushed {
 }
 
 fn pushed(response: ContactResponse<f64>, off: Off, share: f64) -> Pushed {
-    let mut cell = Cell::new(&Setup {
-        off,
-        response: Some(response),
-        share,
-        ..Setup::FREE
-    });
+    let mut cell = Cell::new(&Setup { off, response: Some(response), share, ..Setup::FREE });
     let hand = DVec3::new(0.0, 20.0, 30.0);
     let mut places = Vec::new();
     let mut left = 0.0;
@@ -43,22 +36,13 @@ fn pushed(response: ContactResponse<f64>, off: Off, share: f64) -> Pushed {
             left = largest(cell.at.qd);
         }
     }
-    Pushed {
-        went: places[0].distance(places[places.len() - 1]),
-        left,
-        cell,
-    }
+    Pushed { went: places[0].distance(places[places.len() - 1]), left, cell }
 }
 
 #[test]
 fn a_floating_arm_stays_where_a_hand_leaves_it() {
     for off in OFF {
-        let Pushed {
-            mut cell,
-            went,
-            left,
-            ..
-        } = pushed(FLOAT, off, 0.6);
+        let Pushed { mut cell, went, left, .. } = pushed(FLOAT, off, 0.6);
         println!("{off:?}: {went} m, {left} rad/s");
         assert!(went > 0.2, "{went}");
         assert!(left < 0.02, "{left}");
@@ -80,10 +64,7 @@ fn a_floating_arm_stays_where_a_hand_leaves_it() {
     }
     // One with twenty times the damping is not moved as far, and one whose friction is compensated
     // in excess does not come to rest.
-    let stiff = ContactResponse::Float {
-        damping: 100.0,
-        speed: 0.5,
-    };
+    let stiff = ContactResponse::Float { damping: 100.0, speed: 0.5 };
     let damped = pushed(stiff, OFF[0], 0.6);
     let driven = pushed(FLOAT, OFF[1], 1.3);
     println!("damped: {} m, driven: {} rad/s", damped.went, driven.left);

@@ -82,10 +82,7 @@ fn measure(q: &Q) -> Q {
 
 impl Cell {
     pub fn new(q: Q, setup: &Setup) -> Self {
-        let config = ObserverConfig {
-            bandwidth: BANDWIDTH,
-            tick: TICK,
-        };
+        let config = ObserverConfig { bandwidth: BANDWIDTH, tick: TICK };
         let mut observer = Observer::try_new(config).expect("a good one");
         observer.reset(&measure(&q));
         Self {
@@ -169,17 +166,11 @@ impl Cell {
         let Estimate { q, qd } = *estimate;
         let tip = tip(&State { qd, ..State::at(q) });
         let columns = Core::<Ur5e>::jacobian(&q, TIP, frame::LocalWorldAligned);
-        let rows = task_jacobian(
-            &columns,
-            &TaskFrame::BASE.place()[2..].try_into().expect("one"),
-        );
+        let rows = task_jacobian(&columns, &TaskFrame::BASE.place()[2..].try_into().expect("one"));
         let factors =
             Core::<Ur5e>::ltdl(&Core::<Ur5e>::crba(&q, &RIGID)).expect("an arm with mass");
         let solve = |tau: &_| Core::<Ur5e>::solve(&factors, tau);
-        let deviation = TaskDeviation {
-            position: [*height - tip[0].z],
-            velocity: [-tip[1].z],
-        };
+        let deviation = TaskDeviation { position: [*height - tip[0].z], velocity: [-tip[1].z] };
         let torque = impedance.torque(&rows, solve, &deviation, &guided, &[0.0; 6]);
         torque.expect("finite").tau
     }

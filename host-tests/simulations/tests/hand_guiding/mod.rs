@@ -12,11 +12,7 @@ use glam::DVec3;
 use host_tests::page::Table;
 
 const fn table(name: &'static str) -> Table {
-    Table {
-        page: "guiding.md",
-        name,
-        test: "host-tests/simulations/tests/hand_guiding",
-    }
+    Table { page: "guiding.md", name, test: "host-tests/simulations/tests/hand_guiding" }
 }
 /// The last one is nearly stretched, with the greatest torque of gravity.
 const POSTURES: [Q; 4] = [
@@ -109,10 +105,7 @@ fn the_mean_drag_is_at_most_a_quarter() {
             let [percent, speed] = [100.0 * gravity_error, 1e3 * path[0]];
             rows += &format!("| {percent:.0} % | {speed:.0} mm/s | {} |", range(&none));
             for over in [0.0, 0.1, -0.1] {
-                let setup = Setup {
-                    gravity_error,
-                    ..setup(SHARE, over)
-                };
+                let setup = Setup { gravity_error, ..setup(SHARE, over) };
                 let compensated = all(|q, way| drag(q, &setup, way, path));
                 let shares: Vec<f64> = compensated.iter().zip(&none).map(|(c, n)| c / n).collect();
                 println!("{percent} % {path:?} {over}: {shares:.2?}");

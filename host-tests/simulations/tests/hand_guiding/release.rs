@@ -88,10 +88,7 @@ fn an_understated_model_error_lets_the_arm_drift() {
 #[test]
 fn without_a_rest_speed_encoder_noise_causes_creep() {
     for (rest, creeps) in [(0.002, false), (1e-6, true)] {
-        let mut setup = Setup {
-            inertias: OFF[1][1],
-            ..setup(SHARE, 0.1)
-        };
+        let mut setup = Setup { inertias: OFF[1][1], ..setup(SHARE, 0.1) };
         setup.config.rest_speed = [rest; 6];
         let drift = Cell::new(POSTURES[3], &setup).run(10_000);
         println!("{rest} rad/s: {drift} m");

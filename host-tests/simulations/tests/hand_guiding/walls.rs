@@ -30,10 +30,7 @@ fn a_virtual_wall_stops_and_returns_the_joint() {
         let depth = |cell: &Cell| side * cell.at.q[0] - 0.1;
         let before = depth(&cell);
         let frictionless = 40.0 * cell.tip().length() / 400.0;
-        assert!(
-            (0.5..1.0).contains(&(before / frictionless)),
-            "{before} rad"
-        );
+        assert!((0.5..1.0).contains(&(before / frictionless)), "{before} rad");
         for _ in 0..1000 {
             cell.tick();
             let wave = (depth(&cell) - before).abs();
@@ -73,11 +70,7 @@ fn led(level: Option<CartesianImpedance<f64, 1>>) -> [f64; 3] {
 
 #[test]
 fn only_unlocked_directions_of_the_tip_move() {
-    let config = ImpedanceConfig {
-        stiffness: [3000.0],
-        zeta: 1.0,
-        slowest: 2.0,
-    };
+    let config = ImpedanceConfig { stiffness: [3000.0], zeta: 1.0, slowest: 2.0 };
     let impedance = CartesianImpedance::try_new(config).expect("a good one");
     let [free, level] = [None, Some(impedance)].map(led);
     println!("{free:?} {level:?} m");

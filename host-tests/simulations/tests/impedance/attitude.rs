@@ -19,17 +19,10 @@ fn the_shortest_rotation_is_found_from_every_attitude() {
         let to = DQuat::from_axis_angle(axis, angle) * from;
         let want = axis * (2.0 * (0.5 * angle).sin());
         let (from, to) = (DMat3::from_quat(from), DMat3::from_quat(to));
-        worst[0].see(
-            quaternion_error::<f64>(&from, &to).to_array(),
-            want.to_array(),
-        );
+        worst[0].see(quaternion_error::<f64>(&from, &to).to_array(), want.to_array());
         let error = quaternion_error::<f32>(&from.as_mat3(), &to.as_mat3()).as_dvec3();
         // In f32 half a turn has two directions.
-        let error = if angle > 3.12 && error.dot(want) < 0.0 {
-            -error
-        } else {
-            error
-        };
+        let error = if angle > 3.12 && error.dot(want) < 0.0 { -error } else { error };
         worst[1].see(error.to_array(), want.to_array());
     }
     let mut verdict = Verdict::default();

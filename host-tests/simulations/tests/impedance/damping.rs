@@ -26,14 +26,7 @@ fn mode<const N: usize>(task: &Task<N>, fastest: bool) -> ([f64; 6], f64) {
         let most = next.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
         (f, square) = (next.map(|x| x / most), most);
     }
-    (
-        f,
-        if fastest {
-            square.sqrt()
-        } else {
-            1.0 / square.sqrt()
-        },
-    )
+    (f, if fastest { square.sqrt() } else { 1.0 / square.sqrt() })
 }
 
 /// The damping ratio of a mode by how far an arm, released from a small displacement along it,
@@ -46,10 +39,7 @@ fn damping_ratio<const N: usize>(mut sprung: Sprung<N>, fastest: bool) -> f64 {
     sprung.goal.rot =
         DMat3::from_quat(DQuat::from_scaled_axis(DVec3::new(a, b, c))) * sprung.goal.rot;
     let along = |sprung: &Sprung<N>| -> f64 {
-        f.iter()
-            .zip(sprung.deviation().position)
-            .map(|(f, x)| f * x)
-            .sum()
+        f.iter().zip(sprung.deviation().position).map(|(f, x)| f * x).sum()
     };
     let (start, h) = (along(&sprung), 2e-3 / omega);
     let mut beyond = 0.0_f64;
@@ -68,15 +58,9 @@ fn the_fastest_and_slowest_modes_have_the_damping_ratio() {
         let config = ImpedanceConfig { zeta, ..CONFIG };
         let impedance = CartesianImpedance::try_new(config).unwrap();
         for fastest in [true, false] {
-            let ur5e = Sprung {
-                impedance,
-                ..Sprung::at(Ur5e::MODEL, UR5E)
-            };
+            let ur5e = Sprung { impedance, ..Sprung::at(Ur5e::MODEL, UR5E) };
             worst[0].see([damping_ratio(ur5e, fastest)], [zeta]);
-            let panda = Sprung {
-                impedance,
-                ..Sprung::at(Panda::MODEL, PANDA)
-            };
+            let panda = Sprung { impedance, ..Sprung::at(Panda::MODEL, PANDA) };
             worst[1].see([damping_ratio(panda, fastest)], [zeta]);
         }
     }

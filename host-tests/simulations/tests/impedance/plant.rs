@@ -14,11 +14,8 @@ use motion_control::{
 };
 
 pub const STIFFNESS: [f64; 6] = [40.0, 40.0, 40.0, 400.0, 400.0, 400.0];
-pub const CONFIG: ImpedanceConfig<f64, 6> = ImpedanceConfig {
-    stiffness: STIFFNESS,
-    zeta: 0.5,
-    slowest: 2.0,
-};
+pub const CONFIG: ImpedanceConfig<f64, 6> =
+    ImpedanceConfig { stiffness: STIFFNESS, zeta: 0.5, slowest: 2.0 };
 pub const UR5E: [f64; 6] = [0.2, -1.2, 1.5, 0.3, 0.7, 0.1];
 pub const PANDA: [f64; 7] = [0.3, -0.4, 0.2, -2.0, 0.3, 1.9, 0.5];
 
@@ -110,19 +107,14 @@ impl<const N: usize> Sprung<N> {
         let factors = ltdl(&arm, &crba(&arm, &self.state.q, &scene)).unwrap();
         let solve = |tau: &_| solve(&arm, &factors, tau);
         let (rows, deviation) = (self.task().jacobian, self.deviation());
-        let out = self
-            .impedance
-            .torque(&rows, solve, &deviation, &bias, &posture)?;
+        let out = self.impedance.torque(&rows, solve, &deviation, &bias, &posture)?;
         Ok((out.tau, out.conditioning))
     }
 
     /// A tick of h seconds under a push.
     pub fn advance(&mut self, push: DVec3, h: f64) {
         let (tau, _) = self.torque().unwrap();
-        let push = Push {
-            body: N - 1,
-            force: push,
-        };
+        let push = Push { body: N - 1, force: push };
         let scene = ((Gravity::EARTH, Inertia, Coriolis), (Self::rotors(), push));
         semi_implicit(&self.arm, &mut self.state, &tau, &scene, h).unwrap();
     }

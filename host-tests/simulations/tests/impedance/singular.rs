@@ -22,10 +22,7 @@ fn largest_step(impedance: CartesianImpedance<f64, 6>, steps: i32) -> f64 {
         let (tau, how) = sprung.torque().unwrap();
         damped |= how != Conditioning::Regular;
         if let Some(last) = last.replace(tau) {
-            let steps = tau
-                .iter()
-                .zip(last)
-                .map(|(a, b): (&f64, f64)| (a - b).abs());
+            let steps = tau.iter().zip(last).map(|(a, b): (&f64, f64)| (a - b).abs());
             largest = steps.fold(largest, f64::max);
         }
     }
@@ -40,10 +37,7 @@ fn the_torque_is_continuous_through_the_stretched_elbow() {
     // For a differentiable function, steps go to zero with the distance of the neighbours.
     assert!(fine < 0.15 * coarse, "{coarse} {fine}");
     // Without damping of the null space and of slow modes they do not.
-    let config = ImpedanceConfig {
-        slowest: 1e-9,
-        ..CONFIG
-    };
+    let config = ImpedanceConfig { slowest: 1e-9, ..CONFIG };
     let naive = CartesianImpedance::try_new(config).unwrap();
     let [coarse, fine] = [200, 2000].map(|steps| largest_step(naive, steps));
     assert!(fine > 0.5 * coarse, "{coarse} {fine}");

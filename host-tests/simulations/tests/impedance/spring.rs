@@ -45,10 +45,7 @@ fn the_tip_displacement_is_force_over_stiffness() {
 fn a_motion_of_the_elbow_does_not_move_the_tip() {
     let swing = |projected| {
         let mut sprung = Sprung::at(Panda::MODEL, PANDA);
-        let config = ImpedanceConfig {
-            zeta: 1.0,
-            ..CONFIG
-        };
+        let config = ImpedanceConfig { zeta: 1.0, ..CONFIG };
         sprung.impedance = CartesianImpedance::try_new(config).unwrap();
         sprung.projected = projected;
         sprung.posture = (PANDA, 20.0, 15.0);
@@ -65,10 +62,7 @@ fn a_motion_of_the_elbow_does_not_move_the_tip() {
     let ((off, elbow), (without, _)) = (swing(true), swing(false));
     assert!(elbow > 0.2, "{elbow}");
     let mut verdict = Verdict::default();
-    let worst = Worst {
-        error: off,
-        full_scale: 1.0,
-    };
+    let worst = Worst { error: off, full_scale: 1.0 };
     verdict.see("panda", "tip by a motion of the elbow, m", "f64", &worst);
     verdict.speak();
     assert!(without > 20.0 * off, "{without} {off}");

@@ -40,12 +40,7 @@ pub const SLOWEST: f32 = 3.0 * WIDTH as f32;
 pub const WIDTH: f64 = 0.05;
 pub const FRICTION: f64 = so101::LOAD as f64;
 
-pub type Friction = (
-    Viscous<f64, 6>,
-    Coulomb<f64, 6>,
-    Armature<f64, 6>,
-    LoadFriction<f64, 6>,
-);
+pub type Friction = (Viscous<f64, 6>, Coulomb<f64, 6>, Armature<f64, 6>, LoadFriction<f64, 6>);
 
 /// A number of a normal distribution, nearly.
 pub fn normal(rng: &mut Rng) -> f64 {
@@ -56,10 +51,7 @@ pub fn friction() -> Friction {
     let width = Width::new(WIDTH);
     (
         Viscous([f64::from(so101::VISCOUS + so101::BACK_EMF); 6]),
-        Coulomb {
-            torque: [f64::from(so101::COULOMB); 6],
-            width,
-        },
+        Coulomb { torque: [f64::from(so101::COULOMB); 6], width },
         Armature([f64::from(so101::ARMATURE); 6]),
         LoadFriction::of_motor_and_load([FRICTION; 6], [FRICTION; 6], width),
     )
@@ -69,23 +61,10 @@ pub fn friction() -> Friction {
 /// number of `of`.
 pub fn parameters(bodies: &[[f64; 10]; 6], mut of: impl FnMut() -> f64) -> [f64; N] {
     let (viscous, coulomb, armature, gears) = friction();
-    let own = [
-        viscous.0[0],
-        coulomb.torque[0],
-        armature.0[0],
-        gears.driving[0],
-        gears.backdriving[0],
-    ];
+    let own =
+        [viscous.0[0], coulomb.torque[0], armature.0[0], gears.driving[0], gears.backdriving[0]];
     let joints = core::array::from_fn::<f64, 30, _>(|k| own[k % OWN] * of());
-    core::array::from_fn(|k| {
-        bodies
-            .as_flattened()
-            .iter()
-            .chain(&joints)
-            .copied()
-            .nth(k)
-            .unwrap()
-    })
+    core::array::from_fn(|k| bodies.as_flattened().iter().chain(&joints).copied().nth(k).unwrap())
 }
 
 /// The bodies off by 30 % as below, and each parameter of a joint.
@@ -198,10 +177,7 @@ pub fn observed(
     let resolution = f64::from(so101::RESOLUTION);
     let scene = (Gravity::EARTH, (Inertia, Coriolis), friction());
     let (mut rng, mut at) = (Rng::new(1), excitation(0.0));
-    let config = ObserverConfig {
-        bandwidth: 60.0,
-        tick: TICK,
-    };
+    let config = ObserverConfig { bandwidth: 60.0, tick: TICK };
     let mut observer: Observer<f64, 6> = Observer::try_new(config).expect("a good one");
     let (mut found, mut held, mut past) = (Vec::new(), None, VecDeque::new());
     for k in 0..ticks {

@@ -61,27 +61,12 @@ fn nan(row: &mut Row, _: &mut [f64; N], _: &mut Rng) {
 #[test]
 fn bad_input_freezes_the_estimate_and_names_the_joint() {
     let stuck = run(&nominal(1), 2 * LEARNED, FAULTY);
-    let faults: [(&[_], Change); 4] = [
-        (minute(1), nan),
-        (minute(1), noise),
-        (minute(1), wrong_friction),
-        (&stuck, |_, _, _| ()),
-    ];
+    let faults: [(&[_], Change); 4] =
+        [(minute(1), nan), (minute(1), noise), (minute(1), wrong_friction), (&stuck, |_, _, _| ())];
     for (k, (rows, change)) in faults.into_iter().enumerate() {
-        let (limited, free) = (
-            after_fault(LIMIT, rows, change),
-            after_fault(1000.0, rows, change),
-        );
-        assert!(
-            limited.errors.iter().all(|error| *error < 0.03),
-            "{:?}",
-            limited.errors
-        );
-        assert!(
-            limited.frozen[0].is_some() && limited.frozen[1].is_none(),
-            "{:?}",
-            limited.frozen
-        );
+        let (limited, free) = (after_fault(LIMIT, rows, change), after_fault(1000.0, rows, change));
+        assert!(limited.errors.iter().all(|error| *error < 0.03), "{:?}", limited.errors);
+        assert!(limited.frozen[0].is_some() && limited.frozen[1].is_none(), "{:?}", limited.frozen);
         assert!(limited.accepted < 200, "{}", limited.accepted);
         match k {
             0 => assert_eq!(limited.frozen[0], Some(3)),

@@ -39,11 +39,7 @@ fn selected_base_parameters_give_the_torques_of_all_parameters() {
     let few = base_of::<f64, P>(&nominal).expect("a part of them");
     let (mut rng, mut worst, mut part) = (Rng::new(3), 0.0, 0.0);
     for k in 0..300 {
-        let state = State {
-            q: rng.vector(1.5),
-            qd: rng.vector(3.0),
-            qdd: rng.vector(10.0),
-        };
+        let state = State { q: rng.vector(1.5), qd: rng.vector(3.0), qdd: rng.vector(10.0) };
         let row: Row<f64> = Row::of(k % 6, &state, 0.0).loaded(0.5);
         worst = f64::max(worst, contradiction(&base, &row, &mut rng));
         part = f64::max(part, contradiction(&few, &row, &mut rng));

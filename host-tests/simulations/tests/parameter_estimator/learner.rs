@@ -70,11 +70,7 @@ impl Learner {
         let base = base_of(&nominal).expect("enough columns");
         let config = config(&base, forgetting, limit);
         let estimator = ParameterEstimator::try_new(config).expect("a good one");
-        Self {
-            nominal,
-            base,
-            estimator,
-        }
+        Self { nominal, base, estimator }
     }
 
     /// The row of the base parameters, with the load-dependent friction of the torque that the

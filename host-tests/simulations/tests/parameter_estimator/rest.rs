@@ -29,11 +29,7 @@ fn standing(learner: &Learner, by_all: bool) -> Vec<(usize, [f32; P], f32)> {
 
 #[test]
 fn without_excitation_nothing_drifts() {
-    let rows = if cfg!(feature = "full") {
-        1_800_000
-    } else {
-        90_000
-    };
+    let rows = if cfg!(feature = "full") { 1_800_000 } else { 90_000 };
     let start = learned(1, 1e-3);
     let deviations = start.estimator.deviations().map(f64::from);
     let drift = |after: [f64; P]| {
@@ -50,10 +46,7 @@ fn without_excitation_nothing_drifts() {
             let residual = residual + (sigma * normal(&mut rng)) as f32;
             let _ = learner.estimator.update(joint, &y, residual);
             if k < 30_000 {
-                plain.add(
-                    &y.map(|y| f64::from(y) / sigma),
-                    f64::from(residual) / sigma,
-                );
+                plain.add(&y.map(|y| f64::from(y) / sigma), f64::from(residual) / sigma);
             }
         }
         let after = learner.estimator.estimate().map(f64::from);

@@ -27,11 +27,7 @@ fn is_possible(body: &[f32; 10]) -> bool {
 
 #[test]
 fn no_stored_set_is_impossible_in_many_noisy_ticks() {
-    let ticks = if cfg!(feature = "full") {
-        1_000_000
-    } else {
-        100_000
-    };
+    let ticks = if cfg!(feature = "full") { 1_000_000 } else { 100_000 };
     let mut learner = Learner::new(1, 0.05, 1000.0);
     let (mut stored, mut rng, mut outside) = (stored_of(&learner.nominal), Rng::new(7), 0);
     for (_, row) in minute(1).iter().cycle().take(ticks) {

@@ -75,14 +75,8 @@ pub struct Run {
     pub noise: f64,
 }
 
-pub const GOOD: Run = Run {
-    ticks: 5000,
-    seed: 1,
-    friction: 1.0,
-    changed: None,
-    stuck: 0..0,
-    noise: 1.0,
-};
+pub const GOOD: Run =
+    Run { ticks: 5000, seed: 1, friction: 1.0, changed: None, stuck: 0..0, noise: 1.0 };
 
 /// The measurements of an estimator in each tick of a run.
 pub fn measure(run: &Run) -> Vec<Tick> {
@@ -90,10 +84,7 @@ pub fn measure(run: &Run) -> Vec<Tick> {
     const KD: [f64; 6] = [200.0, 200.0, 150.0, 20.0, 20.0, 15.0];
     let (mut rng, mut at) = (Rng::new(run.seed), reference(0.0));
     let model = (RIGID_BODY, friction(run.friction));
-    let observed = ObserverConfig {
-        bandwidth: 150.0,
-        tick: TICK,
-    };
+    let observed = ObserverConfig { bandwidth: 150.0, tick: TICK };
     let mut observer: Observer<f64, 6> = Observer::try_new(observed).expect("a good one");
     let (mut found, mut held) = (Vec::new(), None);
     for k in 0..run.ticks {
@@ -111,11 +102,7 @@ pub fn measure(run: &Run) -> Vec<Tick> {
                 + KP[i] * (wanted.q[i] - estimate.q[i])
                 + KD[i] * (wanted.qd[i] - estimate.qd[i])
         });
-        let measured = State {
-            q: estimate.q,
-            qd: estimate.qd,
-            qdd: wanted.qdd,
-        };
+        let measured = State { q: estimate.q, qd: estimate.qd, qdd: wanted.qdd };
         let modelled = Core::<Ur5e>::rnea(&measured, &model);
         let y = Core::<Ur5e>::regressor_columns(&measured, &RIGID_BODY, WRIST);
         let z = core::array::from_fn(|i| {

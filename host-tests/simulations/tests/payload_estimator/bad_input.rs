@@ -13,12 +13,7 @@ const FAULT: Range<usize> = 3000..5000;
 const TICKS: usize = 8000;
 
 fn with_fault(faulty: Run) -> Vec<Tick> {
-    let run = |run: Run| {
-        measure(&Run {
-            ticks: TICKS,
-            ..run
-        })
-    };
+    let run = |run: Run| measure(&Run { ticks: TICKS, ..run });
     let mut ticks = run(GOOD);
     ticks[FAULT].copy_from_slice(&run(faulty)[FAULT]);
     ticks
@@ -44,12 +39,7 @@ fn after(mut single: PayloadEstimator<f32, 6>, ticks: &[Tick]) -> Outcome {
             (last, errors_then) = (result.err(), errors(&single, &LOAD));
         }
     }
-    Outcome {
-        errors: errors_then,
-        last,
-        accepted,
-        frozen: single.frozen(),
-    }
+    Outcome { errors: errors_then, last, accepted, frozen: single.frozen() }
 }
 
 #[test]
@@ -65,59 +55,20 @@ fn bad_input_freezes_the_estimate_until_good_input() {
     let heavy = BodyInertia { mass: 40.0, ..LOAD };
     let frozen = RejectedMeasurement::Frozen;
     let cases = [
-        (
-            "noise",
-            with_fault(Run {
-                noise: 10.0,
-                ..GOOD
-            }),
-            frozen,
-        ),
-        (
-            "encoder",
-            with_fault(Run {
-                stuck: FAULT,
-                ..GOOD
-            }),
-            frozen,
-        ),
-        (
-            "friction",
-            with_fault(Run {
-                friction: -1.0,
-                ..GOOD
-            }),
-            frozen,
-        ),
-        (
-            "load",
-            with_fault(Run {
-                changed: Some((0, heavy)),
-                ..GOOD
-            }),
-            frozen,
-        ),
+        ("noise", with_fault(Run { noise: 10.0, ..GOOD }), frozen),
+        ("encoder", with_fault(Run { stuck: FAULT, ..GOOD }), frozen),
+        ("friction", with_fault(Run { friction: -1.0, ..GOOD }), frozen),
+        ("load", with_fault(Run { changed: Some((0, heavy)), ..GOOD }), frozen),
         ("NaN", nan(), RejectedMeasurement::NotFinite { joint: 4 }),
     ];
     for (name, ticks, reason) in cases {
         let [gated, free] = [limited(), estimator(0.0)].map(|single| after(single, &ticks));
-        println!(
-            "{name}: {:?} of {:?}, {} accepted",
-            gated.errors, free.errors, gated.accepted
-        );
-        assert!(
-            gated.errors.0 < 0.02 && gated.errors.1 < 5e-3,
-            "{name}: {:?}",
-            gated.errors
-        );
+        println!("{name}: {:?} of {:?}, {} accepted", gated.errors, free.errors, gated.accepted);
+        assert!(gated.errors.0 < 0.02 && gated.errors.1 < 5e-3, "{name}: {:?}", gated.errors);
         assert_eq!((gated.last, gated.frozen), (Some(reason), false), "{name}");
         assert!(gated.accepted < 100, "{name}: {}", gated.accepted);
         let spoiled = free.errors.0 > 0.05 || free.errors.1 > 0.01;
-        assert!(
-            spoiled || matches!(name, "noise" | "NaN"),
-            "{name}: {:?}",
-            free.errors
-        );
+        assert!(spoiled || matches!(name, "noise" | "NaN"), "{name}: {:?}", free.errors);
     }
 }
 

@@ -34,11 +34,7 @@ fn estimator<R: Real>(forgetting: f64) -> PayloadEstimator<R, 6> {
 /// An estimator that rejects ticks.
 fn limited<R: Real>() -> PayloadEstimator<R, 6> {
     let limit = R::from_f64(LIMIT);
-    PayloadEstimator::try_new(PayloadEstimatorConfig {
-        limit,
-        ..config(0.0)
-    })
-    .expect("a good one")
+    PayloadEstimator::try_new(PayloadEstimatorConfig { limit, ..config(0.0) }).expect("a good one")
 }
 
 fn estimated<R: Real>(single: &PayloadEstimator<R, 6>) -> (SpatialInertia<R>, [R; 10]) {
@@ -71,19 +67,12 @@ fn errors<R: Real>(estimator: &PayloadEstimator<R, 6>, truth: &BodyInertia<f64>)
 fn five_seconds_of_motion_identify_the_payload() {
     for (seed, friction) in [(1, 1.0), (2, 1.0), (3, 1.0), (1, 0.9), (1, 1.1)] {
         let mut single = limited::<f32>();
-        for tick in measure(&Run {
-            seed,
-            friction,
-            ..GOOD
-        }) {
+        for tick in measure(&Run { seed, friction, ..GOOD }) {
             let _ = offer(&mut single, &tick);
         }
         assert!(!single.frozen() && single.consistency() < 6.0);
         let (mass, centre) = errors(&single, &LOAD);
-        assert!(
-            mass < 0.02 && centre < 5e-3,
-            "{seed}: {mass:.1e} {centre:.1e}"
-        );
+        assert!(mass < 0.02 && centre < 5e-3, "{seed}: {mass:.1e} {centre:.1e}");
     }
 }
 
@@ -169,10 +158,7 @@ fn unexcited_parameters_neither_drift_nor_are_forgotten() {
             plain.add(&y[i].map(|x| x / NOISE[i]), z[i] / NOISE[i], FORGETTING);
         }
     }
-    let (after, without) = (
-        single.inertia().parameters().map(f64::from),
-        drift(plain.phi),
-    );
+    let (after, without) = (single.inertia().parameters().map(f64::from), drift(plain.phi));
     assert!(drift(after) < 0.02, "{:.1e}", drift(after));
     assert!(without > 1.0, "{without:.1e}");
     let (mass, centre) = errors(&single, &LOAD);

@@ -10,9 +10,5 @@ mod ur5e;
 use host_tests::page::Table;
 
 const fn table(name: &'static str) -> Table {
-    Table {
-        page: "taught-paths.md",
-        name,
-        test: "host-tests/simulations/tests/taught_path",
-    }
+    Table { page: "taught-paths.md", name, test: "host-tests/simulations/tests/taught_path" }
 }

@@ -21,11 +21,7 @@ fn velocity(t: f64, tremor: f64) -> DVec3 {
     let x = t / SECONDS;
     let phase = TAU * x * x * x * (10.0 - 15.0 * x + 6.0 * x * x);
     let rate = TAU * 30.0 * x * x * (1.0 - x) * (1.0 - x) / SECONDS;
-    let slope = DVec3::new(
-        -0.10 * phase.sin(),
-        0.30 * phase.cos(),
-        0.24 * (2.0 * phase).cos(),
-    );
+    let slope = DVec3::new(-0.10 * phase.sin(), 0.30 * phase.cos(), 0.24 * (2.0 * phase).cos());
     let shake = TREMOR.map(|(size, frequency)| {
         let omega = TAU * frequency;
         // It sets in and ends smoothly.

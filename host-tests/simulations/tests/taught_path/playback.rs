@@ -51,10 +51,7 @@ fn taught(positions: &[Q], tolerance: f64) -> (usize, Path) {
     let mut taught = TaughtPath::<f64, 6, N>::try_new(SPACING).expect("spacings");
     for q in positions {
         let recorded = taught.record(q);
-        assert!(
-            matches!(recorded, Recorded::Stored | Recorded::Near),
-            "{recorded:?}"
-        );
+        assert!(matches!(recorded, Recorded::Stored | Recorded::Near), "{recorded:?}");
     }
     let end = positions.last().expect("some");
     assert_eq!(taught.end(end), Recorded::Stored);
@@ -69,21 +66,10 @@ fn timed(path: &Path) -> TimedPath<'_, f64, Path, 401> {
 
 /// The greatest distance of the path from positions of each tick, rad.
 fn off(path: &Path, positions: &[Q]) -> f64 {
-    let along: Vec<Q> = (0..=8000)
-        .map(|k| path.point(f64::from(k) / 8000.0).q)
-        .collect();
+    let along: Vec<Q> = (0..=8000).map(|k| path.point(f64::from(k) / 8000.0).q).collect();
     let distance = |a: &Q, b: &Q| (0..6).fold(0.0_f64, |most, j| most.max((a[j] - b[j]).abs()));
-    let nearest = |q: &Q| {
-        along
-            .iter()
-            .map(|p| distance(p, q))
-            .fold(f64::INFINITY, f64::min)
-    };
-    positions
-        .iter()
-        .step_by(20)
-        .map(nearest)
-        .fold(0.0, f64::max)
+    let nearest = |q: &Q| along.iter().map(|p| distance(p, q)).fold(f64::INFINITY, f64::min);
+    positions.iter().step_by(20).map(nearest).fold(0.0, f64::max)
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -117,12 +103,7 @@ fn play(motion: &impl Reference<f64, 6>) -> Played {
     let gains = Gains::from_inertia(&core::array::from_fn(|j| m.get(j, j)), OMEGA, 1.0);
     let (arm, mut at, mut friction) = (arm(Inertias::All(0.0)), State::at(start), real());
     let mut measured = start;
-    let mut played = Played {
-        limited: 0,
-        torque: 0.0,
-        error: 0.0,
-        ticks: motion.ticks(),
-    };
+    let mut played = Played { limited: 0, torque: 0.0, error: 0.0, ticks: motion.ticks() };
     for tick in 0..motion.ticks() + 500 {
         let latched = core::mem::replace(&mut measured, at.q.map(|q| (q / STEP).round() * STEP));
         let command = controller.tick(Ok(&latched), motion, |reference, estimate| {
@@ -131,11 +112,7 @@ fn play(motion: &impl Reference<f64, 6>) -> Played {
             let pd = feedback(&gains, reference, estimate);
             core::array::from_fn(|j| feedforward[j] + pd[j])
         });
-        assert_eq!(
-            (command.status.mode, command.status.fault),
-            (Mode::Full, None),
-            "{tick}"
-        );
+        assert_eq!((command.status.mode, command.status.fault), (Mode::Full, None), "{tick}");
         played.limited += u32::from(command.status.limited);
         let reference = motion.at(tick).q;
         for j in 0..6 {

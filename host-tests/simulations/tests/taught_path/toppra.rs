@@ -38,10 +38,8 @@ const TICK: f64 = 1e-4;
 impl Recorded {
     fn limits(&self) -> PathLimits<f64, 6> {
         let any = [f64::INFINITY; 6];
-        let (speed, acceleration) = (
-            self.velocity.unwrap_or(any),
-            self.acceleration.unwrap_or(any),
-        );
+        let (speed, acceleration) =
+            (self.velocity.unwrap_or(any), self.acceleration.unwrap_or(any));
         PathLimits {
             torque: self.torque,
             motion: core::array::from_fn(|j| MotionLimits {
@@ -80,10 +78,7 @@ struct Compared {
 }
 
 fn compared<const M: usize>() -> Compared {
-    let mut all = Compared {
-        durations: vec![],
-        most: Shares::default(),
-    };
+    let mut all = Compared { durations: vec![], most: Shares::default() };
     for recorded in recording().paths {
         let (path, limits) = (recorded.path(), recorded.limits());
         let timed = TimedPath::<_, _, M>::new(&path, TICK, &limits, inverse_dynamics)
@@ -122,11 +117,7 @@ fn durations_agree_with_toppra_within_the_limits() {
     ];
     for (points, all) in &compared {
         let [mean, worst] = [mean(&all.durations), most(&all.durations)].map(|x| 100.0 * (x - 1.0));
-        let Shares {
-            torque,
-            speed,
-            acceleration,
-        } = all.most;
+        let Shares { torque, speed, acceleration } = all.most;
         let [torque, speed, acceleration] = [torque, speed, acceleration].map(|x| 100.0 * x);
         rows += &format!(
             "| {points} | {mean:+.2} % | {worst:+.2} % | {torque:.2} % | {speed:.2} % | \
@@ -141,11 +132,7 @@ fn durations_agree_with_toppra_within_the_limits() {
     assert!(least(&fine.durations) > 1.0);
     within("torque, 201 points", coarse.most.torque - 1.0, 0.02);
     within("torque, 401 points", fine.most.torque - 1.0, 0.005);
-    within(
-        "acceleration, 401 points",
-        fine.most.acceleration - 1.0,
-        0.002,
-    );
+    within("acceleration, 401 points", fine.most.acceleration - 1.0, 0.002);
     within("speed, 401 points", fine.most.speed - 1.0, 1e-3);
     table("toppra").check(&rows);
 }
@@ -185,10 +172,7 @@ fn the_paths_have_points_of_zero_inertia() {
         let path = recorded.path();
         let inertia = |k: u32| {
             let at = path.point(f64::from(k) / 400.0);
-            let state = State {
-                qdd: at.slope,
-                ..State::at(at.q)
-            };
+            let state = State { qdd: at.slope, ..State::at(at.q) };
             let rest = inverse_dynamics(&State::at(at.q));
             let tau = inverse_dynamics(&state);
             core::array::from_fn::<f64, 6, _>(|j| tau[j] - rest[j])

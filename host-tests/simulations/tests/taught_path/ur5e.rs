@@ -56,11 +56,7 @@ pub fn shares(motion: &impl Reference<f64, 6>, limits: &PathLimits<f64, 6>) -> S
             let against = friction.coulomb * sign + friction.viscous * qd;
             let tau = [1.0, friction.certain].map(|share| rigid + share * against);
             // Friction is between its certain part and the whole.
-            let tau = if against * rigid > 0.0 {
-                tau[0]
-            } else {
-                tau[1]
-            };
+            let tau = if against * rigid > 0.0 { tau[0] } else { tau[1] };
             let [speed, acceleration] = [limits.motion[j].velocity, limits.motion[j].acceleration];
             most = most.most(Shares {
                 torque: tau.abs() / limits.torque[j],

@@ -35,12 +35,10 @@ fn rows<T, E, const N: usize, const Y: usize>(
     T: ClusteredRobot<N, N, N, Y, Y>,
     E: Effect<f32, N, N>,
 {
-    let trees = states
-        .each_ref()
-        .map(|y| match Clustered::<Core<T>>::motion(y) {
-            Ok(motion) => *motion.state().state(),
-            Err(_) => defmt::panic!("a cluster does not close"),
-        });
+    let trees = states.each_ref().map(|y| match Clustered::<Core<T>>::motion(y) {
+        Ok(motion) => *motion.state().state(),
+        Err(_) => defmt::panic!("a cluster does not close"),
+    });
     type Tree<E, const N: usize> = fn(&State<f32, N, N>, &E) -> [f32; N];
     type OfY<T, E, const Y: usize> = fn(&State<f32, Y, Y>, &E) -> Result<[f32; Y], T>;
     let trees_of: [(&str, Tree<E, N>); 2] = [
@@ -51,10 +49,8 @@ fn rows<T, E, const N: usize, const Y: usize>(
         let row = Row::of::<T, N, N>("rnea_tree", form, inputs, true);
         row.measure(run as usize, &trees, |state| run(state, effects));
     }
-    let of_y: [(&str, OfY<_, E, Y>); 2] = [
-        ("engine", Clustered::<Engine<T>>::rnea),
-        ("core", Clustered::<Core<T>>::rnea),
-    ];
+    let of_y: [(&str, OfY<_, E, Y>); 2] =
+        [("engine", Clustered::<Engine<T>>::rnea), ("core", Clustered::<Core<T>>::rnea)];
     for (form, run) in of_y {
         let row = Row::of::<T, N, N>("rnea_clusters", form, inputs, true);
         row.measure(run as usize, states, |y| run(y, effects));
@@ -127,13 +123,9 @@ fn main() -> ! {
     legs(&stewart);
     let aba = Clustered::<Core<FourBarLeg>>::aba::<f32, _, 5, 5, 5, 3, 3>;
     let row = Row::of::<FourBarLeg, 5, 5>("aba_clusters", "core", "full", true);
-    row.measure(aba as *const () as usize, &leg, |y| {
-        aba(y, &y.qdd, &RIGID_BODY)
-    });
+    row.measure(aba as *const () as usize, &leg, |y| aba(y, &y.qdd, &RIGID_BODY));
     let forward = Clustered::<Engine<FourBarLeg>>::forward_dynamics::<f32, _, 5, 5, 5, 3, 3>;
     let row = Row::of::<FourBarLeg, 5, 5>("forward_clusters", "engine", "full", true);
-    row.measure(forward as *const () as usize, &leg, |y| {
-        forward(y, &y.qdd, &RIGID_BODY)
-    });
+    row.measure(forward as *const () as usize, &leg, |y| forward(y, &y.qdd, &RIGID_BODY));
     done()
 }

@@ -70,13 +70,7 @@ impl Table<4> for Two {
 #[inline(never)]
 fn inverse<T: Table<M>, const M: usize>(case: &Case<M>) -> JointsAndModes<f32, 2, M> {
     let scene = (RIGID_BODY, Elasticity);
-    rnea(
-        &ROBOT,
-        const { &T::MODES },
-        &case.joints,
-        &case.bent,
-        &scene,
-    )
+    rnea(&ROBOT, const { &T::MODES }, &case.joints, &case.bent, &scene)
 }
 
 #[inline(never)]
@@ -179,11 +173,7 @@ fn main() -> ! {
     let row = Row::of::<TwoLink, 2, 2>("rnea", "core", "full", true);
     row.measure(rigid::<2> as *const () as usize, &cases.0, rigid);
     let row = Row::of::<TwoLink, 2, 2>("rnea", "engine", "full", true);
-    row.measure(
-        rigid_engine::<2> as *const () as usize,
-        &cases.0,
-        rigid_engine,
-    );
+    row.measure(rigid_engine::<2> as *const () as usize, &cases.0, rigid_engine);
     rows::<One, 2>("2_modes", &cases.0);
     rows::<Two, 4>("4_modes", &cases.1);
     done()

@@ -24,17 +24,8 @@ fn row(algorithm: &'static str, form: &'static str, trig: bool) -> Row<'static> 
 
 #[inline(never)]
 fn slotine_li(gains: &PassivityGains<f32, 6>, at: &ArmState<f32, 6>) -> [f32; 6] {
-    let estimate = Estimate {
-        q: at.q,
-        qd: at.qdd,
-    };
-    passivity_based_torque(
-        &Static::<robots::Ur5e>::NEW,
-        gains,
-        at,
-        &estimate,
-        &RIGID_BODY,
-    )
+    let estimate = Estimate { q: at.q, qd: at.qdd };
+    passivity_based_torque(&Static::<robots::Ur5e>::NEW, gains, at, &estimate, &RIGID_BODY)
 }
 
 #[inline(never)]
@@ -65,10 +56,7 @@ fn impedance(law: &mut CartesianImpedance<f32, 6>, ask: &Ask<6>) -> [f32; 6] {
     };
     let solve = |tau: &_| Engine::<robots::Ur5e>::solve(&factors, tau);
     let bias = Engine::<robots::Ur5e>::rnea(ask.trig.with(&ask.state), &RIGID_BODY);
-    let deviation = TaskDeviation {
-        position: ask.state.qd,
-        velocity: ask.state.qdd,
-    };
+    let deviation = TaskDeviation { position: ask.state.qd, velocity: ask.state.qdd };
     let torque = law.torque(&rows, solve, &deviation, &bias, &[0.0; 6]);
     torque.map_or([0.0; 6], |torque| torque.tau)
 }
@@ -84,14 +72,10 @@ fn around(start: &ArmState<f32, 6>) -> [Ask<6>; STATES] {
 }
 
 fn laws(asks: &[Ask<6>; STATES]) -> Result<(), ConfigError> {
-    let gains = PassivityGains {
-        lambda: [10.0; 6],
-        kd: [60.0, 60.0, 30.0, 5.0, 5.0, 5.0],
-    };
+    let gains = PassivityGains { lambda: [10.0; 6], kd: [60.0, 60.0, 30.0, 5.0, 5.0, 5.0] };
     let run = slotine_li;
-    row("slotine_li", "core", true).measure(run as *const () as usize, asks, |ask| {
-        run(&gains, &ask.state)
-    });
+    row("slotine_li", "core", true)
+        .measure(run as *const () as usize, asks, |ask| run(&gains, &ask.state));
     let mut law = CartesianImpedance::try_new(ImpedanceConfig {
         stiffness: [30.0, 30.0, 30.0, 600.0, 600.0, 600.0],
         zeta: 0.7,
@@ -103,11 +87,7 @@ fn laws(asks: &[Ask<6>; STATES]) -> Result<(), ConfigError> {
         let row = Row::of::<robots::Ur5e, 6, 6>("impedance", "engine", inputs, false);
         row.measure(run as *const () as usize, asks, |ask| run(&mut law, ask));
     }
-    let spring = LimitedSpring {
-        stiffness: [300.0; 6],
-        damping: [20.0; 6],
-        torque: [40.0; 6],
-    };
+    let spring = LimitedSpring { stiffness: [300.0; 6], damping: [20.0; 6], torque: [40.0; 6] };
     let law = HandGuiding::try_new(HandGuidingConfig {
         error: 0.1,
         share: 0.85,
@@ -130,15 +110,11 @@ fn laws(asks: &[Ask<6>; STATES]) -> Result<(), ConfigError> {
     let run = shaped;
     row("inertia_shaping", "law", false)
         .measure(run as *const () as usize, asks, |ask| run(&law, &ask.state));
-    let config = ObserverConfig {
-        bandwidth: 50.0,
-        tick: 1e-3,
-    };
+    let config = ObserverConfig { bandwidth: 50.0, tick: 1e-3 };
     let mut detector = ContactDetector::try_new(config, [5.0; 6])?;
     let run = detected;
-    row("contact_detector", "law", false).measure(run as *const () as usize, asks, |ask| {
-        run(&mut detector, &ask.state)
-    });
+    row("contact_detector", "law", false)
+        .measure(run as *const () as usize, asks, |ask| run(&mut detector, &ask.state));
     Ok(())
 }
 
@@ -187,10 +163,7 @@ fn paths(asks: &[Ask<6>; STATES]) {
     let points = [[0.0; 6], [0.4; 6], [0.6; 6], [0.4; 6]];
     let limits = PathLimits {
         torque: [140.0, 140.0, 140.0, 25.0, 25.0, 25.0],
-        motion: [MotionLimits {
-            velocity: 3.0,
-            acceleration: 20.0,
-        }; 6],
+        motion: [MotionLimits { velocity: 3.0, acceleration: 20.0 }; 6],
         friction: [JointFriction::NONE; 6],
     };
     let fitted = path.fit(&points, &[0.1; 6], &[0.0; 6]).is_ok();
@@ -206,13 +179,11 @@ fn paths(asks: &[Ask<6>; STATES]) {
     }
     let ticks: [u32; STATES] = core::array::from_fn(|k| motion.ticks() * k as u32 / STATES as u32);
     let run = timed_path;
-    row("timed_path", "law", false).measure(run as *const () as usize, &ticks, |tick| {
-        run(&motion, *tick)
-    });
+    row("timed_path", "law", false)
+        .measure(run as *const () as usize, &ticks, |tick| run(&motion, *tick));
     let run = taught_path;
-    row("taught_path", "law", false).measure(run as *const () as usize, asks, |ask| {
-        run(&mut taught, &ask.state.q)
-    });
+    row("taught_path", "law", false)
+        .measure(run as *const () as usize, asks, |ask| run(&mut taught, &ask.state.q));
 }
 
 fn run() -> ! {

@@ -22,10 +22,7 @@ fn torques(state: &State<f32, 6, 6>) -> [f32; 6] {
 /// The command that holds and moves the arm without effort.
 #[inline(never)]
 fn command(state: &State<f32, 6, 6>) -> [f32; 6] {
-    with_back_emf(
-        Engine::<robots::So101>::rnea(state, &COMPENSATION),
-        &state.qd,
-    )
+    with_back_emf(Engine::<robots::So101>::rnea(state, &COMPENSATION), &state.qd)
 }
 
 fn run() -> ! {

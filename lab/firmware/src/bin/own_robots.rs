@@ -50,14 +50,7 @@ fn measure<T: Robot<N, N, N>, E: Effect<f32, N, N>, const N: usize>(
         ("engine", |state, effects| Engine::<T>::rnea(state, effects)),
     ];
     for (form, torque) in forms {
-        let row = Row {
-            robot: name,
-            algorithm: "rnea",
-            form,
-            inputs,
-            trig: true,
-            joints: N,
-        };
+        let row = Row { robot: name, algorithm: "rnea", form, inputs, trig: true, joints: N };
         row.measure(torque as usize, asks, |ask| torque(&ask.state, effects));
     }
 }

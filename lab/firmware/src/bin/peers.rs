@@ -86,16 +86,9 @@ fn asks<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>() -> 
         let trig = Core::<T>::joint_trig(&state.q);
         // Sine and cosine of an angle are not both zero.
         let is_angle = |at: &JointCoordinate<f32>| at.sin != 0.0 || at.cos != 0.0;
-        let cos = trig
-            .coordinates
-            .map(|at| if is_angle(&at) { at.cos } else { at.q });
+        let cos = trig.coordinates.map(|at| if is_angle(&at) { at.cos } else { at.q });
         let sin = trig.coordinates.map(|at| at.sin);
-        Ask {
-            state,
-            trig,
-            cos,
-            sin,
-        }
+        Ask { state, trig, cos, sin }
     })
 }
 
@@ -196,11 +189,7 @@ impl Of {
     fn robot<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>(
         algorithm: &'static str,
     ) -> Self {
-        Self {
-            robot: T::MODEL.name,
-            algorithm,
-            joints: V,
-        }
+        Self { robot: T::MODEL.name, algorithm, joints: V }
     }
 }
 
@@ -219,22 +208,15 @@ fn compare<'a, F: Copy, O, const Q: usize, const V: usize>(
     }
     let expected = |ask| flat(call(core.0, ask));
     let size = |numbers: Vec<f32, MOST>| numbers.iter().fold(0.0, |size, x| larger(size, x.abs()));
-    let scale = asks
-        .iter()
-        .fold(0.0, |scale, ask| larger(scale, size(expected(ask))));
+    let scale = asks.iter().fold(0.0, |scale, ask| larger(scale, size(expected(ask))));
     let report = |found: &mut dyn FnMut(&'a Ask<Q, V>) -> Vec<f32, MOST>| {
         let off = asks.iter().fold(0.0, |off, ask| {
             let (found, expected) = (found(ask), expected(ask));
             // NaN counts as wrong, and so does a number that is missing.
-            let missing = if expected.is_empty() || found.len() < expected.len() {
-                f32::NAN
-            } else {
-                0.0
-            };
+            let missing =
+                if expected.is_empty() || found.len() < expected.len() { f32::NAN } else { 0.0 };
             let pairs = core::iter::zip(&found, &expected);
-            pairs.fold(larger(off, missing), |off, (a, b)| {
-                larger(off, (a - b).abs())
-            })
+            pairs.fold(larger(off, missing), |off, (a, b)| larger(off, (a - b).abs()))
         });
         defmt::println!("error {=f32}", off / scale);
     };
@@ -255,15 +237,7 @@ fn compare<'a, F: Copy, O, const Q: usize, const V: usize>(
             let (qd, qdd) = (ask.state.qd.as_ptr(), ask.state.qdd.as_ptr());
             // SAFETY: xtask's table names functions of this type, which read Q or V numbers at most
             // from each input and write no more than V (V + 1) / 2 or 21.
-            unsafe {
-                run(
-                    ask.cos.as_ptr(),
-                    ask.sin.as_ptr(),
-                    qd,
-                    qdd,
-                    out.as_mut_ptr(),
-                )
-            }
+            unsafe { run(ask.cos.as_ptr(), ask.sin.as_ptr(), qd, qdd, out.as_mut_ptr()) }
         };
         let mut out = [0.0; MOST];
         row(build).measure(run as usize, asks, |ask| call(ask, &mut out));

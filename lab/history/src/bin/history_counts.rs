@@ -4,9 +4,8 @@
 use history::counts::{ANCESTORS, Both, Polynomial};
 
 /// Fractions by their numbers of twelfths.
-const TWELFTHS: [&str; 12] = [
-    "", "1/12", "1/6", "1/4", "1/3", "5/12", "1/2", "7/12", "2/3", "3/4", "5/6", "11/12",
-];
+const TWELFTHS: [&str; 12] =
+    ["", "1/12", "1/6", "1/4", "1/3", "5/12", "1/2", "7/12", "2/3", "3/4", "5/6", "11/12"];
 
 /// As the sources write it, fractions as n/d; zero if all coefficients are.
 fn text(polynomial: Polynomial) -> String {
@@ -31,11 +30,7 @@ fn text(polynomial: Polynomial) -> String {
         };
         text += &format!("{sign}{number}{power}");
     }
-    if text.is_empty() {
-        "0".into()
-    } else {
-        text.trim_end().into()
-    }
+    if text.is_empty() { "0".into() } else { text.trim_end().into() }
 }
 
 fn both(both: Both) -> String {
@@ -71,12 +66,7 @@ fn main() {
         println!("{key}|today|this library|{form}|–|–");
     }
     for counts in &ANCESTORS {
-        println!(
-            "\n**{}, {}.** Counted: {}.",
-            counts.authors,
-            counts.form,
-            both(counts.counted)
-        );
+        println!("\n**{}, {}.** Counted: {}.", counts.authors, counts.form, both(counts.counted));
         let Some(published) = counts.published else {
             continue;
         };

@@ -18,11 +18,7 @@ pub fn relative(address: u32, first: u16, second: u16) -> Option<Relative> {
         // The program counter reads as four bytes ahead; literals count from a whole word.
         let base = address.wrapping_add(4) & if words == 0 { !0 } else { !3 };
         let target = base.wrapping_add_signed(offset);
-        Some(Relative {
-            target,
-            words,
-            bits,
-        })
+        Some(Relative { target, words, bits })
     };
     let sign = if first & 0x80 == 0 { -1 } else { 1 };
     match first >> 11 {
@@ -45,11 +41,9 @@ pub fn relative(address: u32, first: u16, second: u16) -> Option<Relative> {
             reached(0, [0x43F, 0x2FFF], extend(offset, 21))
         }
         _ if first & 0xFF7F == 0xF85F => reached(1, [0x80, 0xFFF], sign * (two & 0xFFF) as i32),
-        _ if first & 0xFF3F == 0xED1F && second & 0xE00 == 0xA00 => reached(
-            1 + (two >> 8 & 1),
-            [0x80, 0xFF],
-            sign * 4 * (two & 0xFF) as i32,
-        ),
+        _ if first & 0xFF3F == 0xED1F && second & 0xE00 == 0xA00 => {
+            reached(1 + (two >> 8 & 1), [0x80, 0xFF], sign * 4 * (two & 0xFF) as i32)
+        }
         _ => None,
     }
 }
@@ -80,11 +74,7 @@ mod tests {
         ];
         for (first, second, target) in cases {
             let found = relative(0x1000, first, second).map(|r| (r.target, r.words));
-            assert_eq!(
-                found,
-                target.map(|to| (to, 0)),
-                "{first:#06x} {second:#06x}"
-            );
+            assert_eq!(found, target.map(|to| (to, 0)), "{first:#06x} {second:#06x}");
         }
     }
 

@@ -65,10 +65,7 @@ fn register_branches_are_indirect_and_returns_are_not() {
     let is_indirect = |[first, second]: [u16; 2]| decode(first, second).indirect;
     let narrow = |first| is_indirect([first, 0]);
     // blx r3, blx lr, bx r3, mov pc, r3, add pc, r3
-    assert_eq!(
-        [0x4798, 0x47F0, 0x4718, 0x469F, 0x449F].map(narrow),
-        [true; 5]
-    );
+    assert_eq!([0x4798, 0x47F0, 0x4718, 0x469F, 0x449F].map(narrow), [true; 5]);
     // ldr.w pc, [r3], ldr.w pc, [pc, #4], ldm.w r0, {r1, pc}
     let wide = [[0xF8D3, 0xF000], [0xF8DF, 0xF004], [0xE890, 0x8002]];
     assert_eq!(wide.map(is_indirect), [true; 3]);
@@ -104,14 +101,8 @@ fn opcodes_beyond_an_m4f_are_distinguished_from_its_own() {
 #[test]
 fn markers_are_found_and_other_hints_are_not() {
     for option in 0..16 {
-        let marker = Marker {
-            region: option / 2,
-            opens: option % 2 == 0,
-        };
-        assert_eq!(
-            decode(0xF3AF, 0x80F0 | u16::from(option)).class,
-            Class::Marker(marker)
-        );
+        let marker = Marker { region: option / 2, opens: option % 2 == 0 };
+        assert_eq!(decode(0xF3AF, 0x80F0 | u16::from(option)).class, Class::Marker(marker));
     }
     assert_eq!(decode(0xF3AF, 0x8000), Insn::new(Class::Integer, 4)); // nop.w
 }
@@ -172,9 +163,7 @@ fn dsp_instructions_take_a_cycle_and_write_their_results() {
 #[test]
 fn branches_are_found() {
     // b, bne, bx lr, blx r3, cbz, pop {pc}, mov pc, svc, bkpt
-    let narrow = [
-        0xE7FE, 0xD1FD, 0x4770, 0x4798, 0xB108, 0xBD00, 0x46F7, 0xDF00, 0xBEAB,
-    ];
+    let narrow = [0xE7FE, 0xD1FD, 0x4770, 0x4798, 0xB108, 0xBD00, 0x46F7, 0xDF00, 0xBEAB];
     assert_each(narrow.map(|code| (code, 0, true)), |insn| insn.may_branch);
     let wide = [
         (0xF000, 0xF800), // bl

@@ -54,10 +54,9 @@ fn main() {
 fn every<T: Robot<N, N, N>, const N: usize, const W: usize, const TIP: usize>(
     points: &[WayPoint<f32, N>; W],
 ) {
-    let limits = model::<f32, T, N, N, N>().links.map(|link| MotionLimits {
-        velocity: link.limits.velocity,
-        acceleration: ACCELERATION,
-    });
+    let limits = model::<f32, T, N, N, N>()
+        .links
+        .map(|link| MotionLimits { velocity: link.limits.velocity, acceleration: ACCELERATION });
     let trajectory = Trajectory::new(points, TICK, &limits).expect("the arm can go there");
     let ticks = 0..=trajectory.ticks();
     let reference = &mut Reference::<T, N> {

@@ -41,14 +41,9 @@ fn main() {
     lengths::<64>();
     let (heavy, light) = (rods::<16>(PER_ROD, true), rods::<16>(1.0 / PER_ROD, true));
     case("16 rods, the last 1000 × the first", &heavy, Stance::Random);
-    case(
-        "16 rods, the last 1/1000 of the first",
-        &light,
-        Stance::Random,
-    );
-    let base = Body::new("base", BASE, Joint::free())
-        .mass(1.0)
-        .inertia([0.01, 0.0, 0.0, 0.01, 0.0, 0.01]);
+    case("16 rods, the last 1/1000 of the first", &light, Stance::Random);
+    let base =
+        Body::new("base", BASE, Joint::free()).mass(1.0).inertia([0.01, 0.0, 0.0, 0.01, 0.0, 0.01]);
     let floating: Model<f64, 17, 23, 22> =
         Model::new("floating", attach_to(base, &bodies::<16>(1.0, true)));
     case("16 rods on a free base", &floating, Stance::Random);
@@ -60,11 +55,7 @@ fn lengths<const N: usize>() {
     let plane = rods::<N>(1.0, false);
     case(&format!("{N} rods, straight"), &plane, Stance::Straight);
     case(&format!("{N} rods, zigzag ±75°"), &plane, Stance::Zigzag);
-    case(
-        &format!("{N} rods, random"),
-        &rods::<N>(1.0, true),
-        Stance::Random,
-    );
+    case(&format!("{N} rods, random"), &rods::<N>(1.0, true), Stance::Random);
 }
 
 fn rods<const N: usize>(factor: f64, in_space: bool) -> ArmModel<f64, N> {
@@ -96,12 +87,8 @@ fn case<const B: usize, const Q: usize, const V: usize>(
     model: &Model<f64, B, Q, V>,
     stance: Stance,
 ) {
-    let mut measured = Measured {
-        condition: 0.0,
-        matrix: Vec::new(),
-        bodies: Vec::new(),
-        f64s: 0.0,
-    };
+    let mut measured =
+        Measured { condition: 0.0, matrix: Vec::new(), bodies: Vec::new(), f64s: 0.0 };
     // The same numbers in both precisions: those of f32.
     let (single, double) = (&model.to_f32(), &widened(model));
     let mut rng = random_numbers();
@@ -163,12 +150,8 @@ fn one<const B: usize, const Q: usize, const V: usize>(
     measured.f64s = largest([measured.f64s, error(&by_bodies, &truth)]);
     let matrix = forward_dynamics(single, &state, &tau, &RIGID_BODY).map(|x| x.map(f64::from));
     let bodies = aba(single, &state, &tau, &RIGID_BODY).map(|x| x.map(f64::from));
-    measured
-        .matrix
-        .push(matrix.map_or(f64::INFINITY, |x| error(&x, &truth)));
-    measured
-        .bodies
-        .push(bodies.map_or(f64::INFINITY, |x| error(&x, &truth)));
+    measured.matrix.push(matrix.map_or(f64::INFINITY, |x| error(&x, &truth)));
+    measured.bodies.push(bodies.map_or(f64::INFINITY, |x| error(&x, &truth)));
     let most = eigenvalue(|x| m.mul_vec(x));
     let least = eigenvalue(|x| solved(double, &factors, x));
     measured.condition = largest([measured.condition, most * least]);

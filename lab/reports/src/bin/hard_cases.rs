@@ -16,15 +16,10 @@ struct Suite {
 }
 
 fn main() {
-    let all = CASES
-        .iter()
-        .chain(loop_tests::hard::CASES)
-        .chain(flexible_tests::hard::CASES);
+    let all = CASES.iter().chain(loop_tests::hard::CASES).chain(flexible_tests::hard::CASES);
     let mut cases: Vec<Case> = all.copied().flatten().copied().collect();
     cases.sort_by_key(|case| case.number);
-    let without_gap = cases
-        .windows(2)
-        .all(|pair| pair[0].number + 1 == pair[1].number);
+    let without_gap = cases.windows(2).all(|pair| pair[0].number + 1 == pair[1].number);
     assert!(without_gap, "a number of a case is missing, or given twice");
     let (mut rows, mut wrong) = (Vec::new(), Vec::new());
     for case in &cases {
@@ -32,14 +27,6 @@ fn main() {
         wrong.extend(demand_rows(case.number, &of_case).err());
         rows.extend(of_case);
     }
-    let suite = Suite {
-        cases,
-        in_qemu: fixtures::hard::cases().collect(),
-        rows,
-        wrong,
-    };
-    println!(
-        "{}",
-        serde_json::to_string(&suite).expect("rows are plain data")
-    );
+    let suite = Suite { cases, in_qemu: fixtures::hard::cases().collect(), rows, wrong };
+    println!("{}", serde_json::to_string(&suite).expect("rows are plain data"));
 }

@@ -3,10 +3,7 @@
 use super::*;
 
 const H: f64 = 0.5;
-const CONFIG: ObserverConfig<f64> = ObserverConfig {
-    bandwidth: 1.0,
-    tick: H,
-};
+const CONFIG: ObserverConfig<f64> = ObserverConfig { bandwidth: 1.0, tick: H };
 const MARGIN: [f64; 2] = [1.0, 2.0];
 
 type Detector<const ORDER: usize> = ContactDetector<f64, 2, ORDER>;

@@ -3,10 +3,7 @@
 use super::*;
 
 const H: f64 = 0.5;
-const CONFIG: ObserverConfig<f64> = ObserverConfig {
-    bandwidth: 1.0,
-    tick: H,
-};
+const CONFIG: ObserverConfig<f64> = ObserverConfig { bandwidth: 1.0, tick: H };
 
 fn observer<const ORDER: usize>() -> MomentumObserver<f64, 2, ORDER> {
     MomentumObserver::try_new(CONFIG).expect("a good configuration")

@@ -19,9 +19,7 @@ fn an_initial_error_decays_as_two_equal_poles_do() {
     observer.reset(&[1.0]);
     let beta = (-bandwidth * H).exp();
     // Both poles at β: e_{n+2} = 2β e_{n+1} − β² e_n.
-    let errors: Vec<f64> = (0..40)
-        .map(|_| observer.update(&[0.0], &[0.0]).q[0])
-        .collect();
+    let errors: Vec<f64> = (0..40).map(|_| observer.update(&[0.0], &[0.0]).q[0]).collect();
     for e in errors.windows(3) {
         let expected = 2.0 * beta * e[1] - beta * beta * e[0];
         assert!((e[2] - expected).abs() < 1e-6, "{} {expected}", e[2]);

@@ -128,19 +128,13 @@ impl fmt::Display for RejectedRow {
                 write!(out, "joint {joint}: its torque or its row is too large")
             }
             Self::OtherJoint { joint } => {
-                write!(
-                    out,
-                    "joint {joint}: its row has a parameter of another joint alone"
-                )
+                write!(out, "joint {joint}: its row has a parameter of another joint alone")
             }
             Self::Outlier { joint } => {
                 write!(out, "joint {joint}: its torque contradicts the estimate")
             }
             Self::Frozen { joint } => {
-                write!(
-                    out,
-                    "frozen: the torques of joint {joint} contradict the estimate"
-                )
+                write!(out, "frozen: the torques of joint {joint} contradict the estimate")
             }
         }
     }

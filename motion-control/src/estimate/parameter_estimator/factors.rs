@@ -86,12 +86,8 @@ pub(super) struct Row<R, const P: usize> {
 }
 
 impl<R: Real, const P: usize> Row<R, P> {
-    pub(super) const ZERO: Self = Self {
-        y: [R::ZERO; P],
-        f: [R::ZERO; P],
-        variance: R::ZERO,
-        explained: R::ZERO,
-    };
+    pub(super) const ZERO: Self =
+        Self { y: [R::ZERO; P], f: [R::ZERO; P], variance: R::ZERO, explained: R::ZERO };
 
     /// The entries of a row times `weight`, in place of zeros.
     #[inline(always)]
@@ -168,11 +164,7 @@ impl<R: Real, const P: usize> Factors<R, P> {
         let of = |places: &&Places| places.own().contains(&k) | places.common().contains(&k);
         let unit = core::array::from_fn(|i| if i == k { R::ONE } else { R::ZERO });
         let places = places.iter().find(of).copied();
-        let none = Places {
-            common: 0,
-            start: 0,
-            end: 0,
-        };
+        let none = Places { common: 0, start: 0, end: 0 };
         let places = places.unwrap_or(none);
         let mut row = Row::ZERO;
         row.set(places, &unit, R::ONE);

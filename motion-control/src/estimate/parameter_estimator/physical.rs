@@ -50,14 +50,12 @@ pub enum ImpossibleParameters {
 impl fmt::Display for ImpossibleParameters {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Body { body } => write!(
-                out,
-                "body {body}: its pseudo-inertia is not finite and positive definite"
-            ),
-            Self::Joint { parameter } => write!(
-                out,
-                "parameter {parameter} of the joints is negative or not finite"
-            ),
+            Self::Body { body } => {
+                write!(out, "body {body}: its pseudo-inertia is not finite and positive definite")
+            }
+            Self::Joint { parameter } => {
+                write!(out, "parameter {parameter} of the joints is negative or not finite")
+            }
         }
     }
 }
@@ -99,10 +97,7 @@ impl<R: Real, const B: usize, const N: usize> PhysicalParameters<R, B, N> {
     /// # Errors
     /// [`ImpossibleParameters`] names the body or the parameter.
     pub fn try_new(nominal: [R; N]) -> Result<Self, ImpossibleParameters> {
-        let new = Self {
-            nominal,
-            stored: nominal,
-        };
+        let new = Self { nominal, stored: nominal };
         let body = bodies::<R, B>(&nominal).position(|body| !is_body(body, body));
         if let Some(body) = body {
             return Err(ImpossibleParameters::Body { body });
@@ -133,10 +128,7 @@ impl<R: Real, const B: usize, const N: usize> PhysicalParameters<R, B, N> {
     ) -> R {
         let change = base.change(estimate);
         let mut candidate = self.nominal;
-        candidate
-            .iter_mut()
-            .zip(change)
-            .for_each(|(x, change)| *x += change);
+        candidate.iter_mut().zip(change).for_each(|(x, change)| *x += change);
         self.follow(&candidate)
     }
 

@@ -97,9 +97,7 @@ impl<const B: usize, const N: usize> PhysicalParameters<f32, B, N> {
             return Err(RecordError::TooShort { needed });
         }
         let header = [VERSION, N as u32, self.of_nominal(), quality.to_bits()];
-        let words = header
-            .into_iter()
-            .chain(self.stored.iter().map(|x| x.to_bits()));
+        let words = header.into_iter().chain(self.stored.iter().map(|x| x.to_bits()));
         let sum = crc(words.clone());
         let (places, _) = memory.as_chunks_mut();
         for (place, word) in places.iter_mut().zip(words.chain([sum])) {
@@ -123,10 +121,7 @@ impl<const B: usize, const N: usize> PhysicalParameters<f32, B, N> {
         let numbers = words.clone().nth(1).unwrap_or(0) as usize;
         let before = numbers.saturating_add(WORDS - 1);
         let mut sum = words.clone().skip(before);
-        if sum
-            .next()
-            .is_none_or(|sum| sum != crc(words.clone().take(before)))
-        {
+        if sum.next().is_none_or(|sum| sum != crc(words.clone().take(before))) {
             return Err(RecordError::CheckSum);
         }
         let [version, numbers, nominal, quality] =

@@ -106,11 +106,7 @@ impl<const N: usize> Excitation<N> {
         let spread = with.map(|row| {
             core::array::from_fn(|l| R::from_f64((0..P).map(|k| row[k] * own[k][l]).sum()))
         });
-        Ok(SelectedParameters {
-            columns,
-            prior,
-            spread,
-        })
+        Ok(SelectedParameters { columns, prior, spread })
     }
 }
 
@@ -193,8 +189,7 @@ impl<R: Real, const P: usize, const N: usize> SelectedParameters<R, P, N> {
         bodies: &[[R; 10]; B],
         own: &[R; F],
     ) -> [R; P] {
-        self.columns
-            .map(|column| picked(column, joint, bodies, own))
+        self.columns.map(|column| picked(column, joint, bodies, own))
     }
 
     /// The bodies of which a parameter is among them: for
@@ -277,10 +272,5 @@ pub(super) fn bodies<R, const B: usize>(all: &[R]) -> impl Iterator<Item = &[R; 
 pub(super) fn pseudo_inertia<R: Real>(body: &[R; 10]) -> [[R; 4]; 4] {
     let [m, x, y, z, xx, xy, yy, xz, yz, zz] = *body;
     let half = R::from_f64(0.5) * (xx + yy + zz);
-    [
-        [half - xx, -xy, -xz, x],
-        [-xy, half - yy, -yz, y],
-        [-xz, -yz, half - zz, z],
-        [x, y, z, m],
-    ]
+    [[half - xx, -xy, -xz, x], [-xy, half - yy, -yz, y], [-xz, -yz, half - zz, z], [x, y, z, m]]
 }

@@ -61,10 +61,7 @@ impl Whole {
         let y = y.map(|y| y / NOISE[joint]);
         let covariance = inverse(self.information);
         let gain = covariance.map(|row| dot(&row, &y));
-        let (r, error) = (
-            dot(&gain, &y),
-            residual / NOISE[joint] - dot(&self.estimate, &y),
-        );
+        let (r, error) = (dot(&gain, &y), residual / NOISE[joint] - dot(&self.estimate, &y));
         let known = (1.0 - self.forgetting * (1.0 + r) / r).max(0.0);
         for i in 0..P {
             self.estimate[i] += gain[i] * error / (1.0 + r);

@@ -72,12 +72,7 @@ impl Whole {
         for (k, prior) in config.prior.iter().enumerate() {
             information[k][k] = 1.0 / (prior * prior);
         }
-        Self {
-            information,
-            estimate: [0.0; N],
-            forgetting: config.forgetting,
-            level: 1.0,
-        }
+        Self { information, estimate: [0.0; N], forgetting: config.forgetting, level: 1.0 }
     }
 
     fn update(&mut self, joints: &[usize], y: &[[f64; N]; V], residual: &[f64; V]) {
@@ -112,9 +107,7 @@ impl Whole {
         let estimate = solved(self.information, right);
         // The remainder of the old information and of the tick after the new estimate.
         let change = core::array::from_fn(|i| estimate[i] - self.estimate[i]);
-        let left = rows
-            .iter()
-            .map(|(row, z)| (z - dot_of(row, &estimate)).powi(2));
+        let left = rows.iter().map(|(row, z)| (z - dot_of(row, &estimate)).powi(2));
         let moved = dot_of(&change, &old.map(|row| dot_of(&row, &change)));
         let innovation = (left.sum::<f64>() + moved) / rows.len() as f64;
         self.level += (innovation - self.level) / 64.0;

@@ -4,17 +4,11 @@ use super::*;
 use crate::estimate::tests::solved;
 use dynamics_core::glam::DVec3;
 
-const CONFIG: TipWrenchConfig<f64, 4> = TipWrenchConfig {
-    noise: [0.5, 0.25, 1.0, 2.0],
-    force: 10.0,
-    couple: 3.0,
-};
+const CONFIG: TipWrenchConfig<f64, 4> =
+    TipWrenchConfig { noise: [0.5, 0.25, 1.0, 2.0], force: 10.0, couple: 3.0 };
 
 fn motion(x: [f64; 6]) -> Motion<f64> {
-    Motion {
-        ang: DVec3::new(x[0], x[1], x[2]),
-        lin: DVec3::new(x[3], x[4], x[5]),
-    }
+    Motion { ang: DVec3::new(x[0], x[1], x[2]), lin: DVec3::new(x[3], x[4], x[5]) }
 }
 
 const JACOBIAN: [[f64; 6]; 4] = [
@@ -26,11 +20,7 @@ const JACOBIAN: [[f64; 6]; 4] = [
 
 /// The equations of the module, as they are written.
 fn expected(jacobian: &[[f64; 6]; 4], external: &[f64; 4]) -> [f64; 6] {
-    let TipWrenchConfig {
-        noise,
-        force,
-        couple,
-    } = CONFIG;
+    let TipWrenchConfig { noise, force, couple } = CONFIG;
     let size = [couple, couple, couple, force, force, force];
     let (mut a, mut b) = ([[0.0; 6]; 6], [0.0; 6]);
     for (joint, column) in jacobian.iter().enumerate() {
@@ -74,11 +64,7 @@ fn along(axis: usize, size: f64) -> [f64; 6] {
 // A joint of 10⁸ leaves 4 of a shift of 1 in the direction of another.
 #[test]
 fn the_shift_grows_with_the_roundings_of_the_largest() {
-    let tip = TipWrench::try_new(TipWrenchConfig {
-        noise: [1.0; 2],
-        force: 1.0,
-        couple: 1.0,
-    });
+    let tip = TipWrench::try_new(TipWrenchConfig { noise: [1.0; 2], force: 1.0, couple: 1.0 });
     let tip = tip.expect("a good configuration");
     let jacobian = [along(0, 1e8), along(4, 2.0)].map(motion);
     let force = tip.estimate(&jacobian, &[0.0, 3.0]).expect("finite");

@@ -71,15 +71,10 @@ impl<R: Real, const V: usize> HandGuidingConfig<R, V> {
         ConfigParameter::Compensation.require(self.compensation.into_iter().all(not_negative))?;
         let mut walls = self.lower.iter().zip(&self.upper);
         ConfigParameter::WallPosition.require(walls.all(|(lower, upper)| lower < upper))?;
-        for (spring, parameter) in [
-            (&self.wall, ConfigParameter::Wall),
-            (&self.lock, ConfigParameter::Lock),
-        ] {
-            let LimitedSpring {
-                stiffness,
-                damping,
-                torque,
-            } = spring;
+        for (spring, parameter) in
+            [(&self.wall, ConfigParameter::Wall), (&self.lock, ConfigParameter::Lock)]
+        {
+            let LimitedSpring { stiffness, damping, torque } = spring;
             let numbers = stiffness.iter().chain(damping).chain(torque);
             parameter.require(numbers.copied().all(not_negative))?;
         }

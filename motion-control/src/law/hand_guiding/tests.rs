@@ -12,11 +12,7 @@ fn spring<R, const V: usize>(
     damping: [R; V],
     torque: [R; V],
 ) -> LimitedSpring<R, V> {
-    LimitedSpring {
-        stiffness,
-        damping,
-        torque,
-    }
+    LimitedSpring { stiffness, damping, torque }
 }
 
 fn config() -> HandGuidingConfig<f64, 1> {
@@ -122,10 +118,7 @@ fn an_error_within_the_stated_one_adds_no_power() {
     for qd in velocities() {
         let real = friction(qd, 1e-9) / 1.1;
         let tau = torque(&guiding, 0.0, qd, friction(qd, 0.01), error);
-        assert!(
-            (tau + error * qd.signum() - real) * qd <= 1e-15,
-            "{qd} rad/s"
-        );
+        assert!((tau + error * qd.signum() - real) * qd <= 1e-15, "{qd} rad/s");
         // Beyond, the compensation is at its limit.
         if (0.01..0.3).contains(&qd.abs()) {
             let without = torque(&guiding, 0.0, qd, friction(qd, 0.01), 0.0);

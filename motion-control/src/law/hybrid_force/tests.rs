@@ -14,9 +14,7 @@ fn directions_of_a_task_are_the_axes_of_its_frame() {
     let turn_and_place = frame.turn_and_place(0.25);
     assert_eq!(turn_and_place[..3], about);
     assert_eq!(turn_and_place[3..], along);
-    let base = TaskFrame::<f64>::BASE
-        .place()
-        .map(|direction| direction.lin);
+    let base = TaskFrame::<f64>::BASE.place().map(|direction| direction.lin);
     assert_eq!(base, [DVec3::X, DVec3::Y, DVec3::Z]);
 }
 
@@ -40,11 +38,5 @@ fn commands_are_a_damped_oscillator_and_a_force_with_its_excess() {
     });
     // 10 + 0.5 · 4, and −8 · 0.25.
     let (force_of, acceleration) = (12.0, -2.0);
-    assert_eq!(
-        force,
-        TaskCommand::Force {
-            force: force_of,
-            acceleration
-        }
-    );
+    assert_eq!(force, TaskCommand::Force { force: force_of, acceleration });
 }

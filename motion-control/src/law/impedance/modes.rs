@@ -97,10 +97,7 @@ impl<R: Real, const M: usize> Modes<R, M> {
     ) -> Found<R, M> {
         let mut passes = 1;
         loop {
-            let found = Found {
-                passes,
-                ..self.pass(rows, solve, tau, slowest)
-            };
+            let found = Found { passes, ..self.pass(rows, solve, tau, slowest) };
             if found.is_within_bound() || passes == PASSES {
                 return found;
             }
@@ -150,13 +147,7 @@ impl<R: Real, const M: usize> Modes<R, M> {
             }
             coupling += sum * (inverses[p] * inverses[p]);
         }
-        Found {
-            squares,
-            inverses,
-            response,
-            coupling,
-            passes: 1,
-        }
+        Found { squares, inverses, response, coupling, passes: 1 }
     }
 
     /// Forgets what the last tick found.
@@ -255,10 +246,7 @@ fn rotate<R: Real, const M: usize>(g: &mut [[R; M]; M], p: usize, q: usize) -> (
     let left = cosine * b - sine * d;
     let gain = sine * (cosine * b + left);
     let left = cosine * left - sine * (sine * b);
-    let (c, s) = (
-        R::either(ordered, cosine, sine),
-        R::either(ordered, sine, cosine),
-    );
+    let (c, s) = (R::either(ordered, cosine, sine), R::either(ordered, sine, cosine));
     g[p][p] = R::either(ordered, gp, gq) + gain;
     g[q][q] = R::either(ordered, gq, gp) - gain;
     g[p][q] = R::either(ordered, left, -left);

@@ -11,11 +11,7 @@ mod numbers;
 fn law<R: Real>() -> CartesianImpedance<R, 6> {
     let stiffness = [30.0, 30.0, 30.0, 600.0, 600.0, 600.0].map(R::from_f64);
     let [zeta, slowest] = [0.7, 2.0].map(R::from_f64);
-    let config = ImpedanceConfig {
-        stiffness,
-        zeta,
-        slowest,
-    };
+    let config = ImpedanceConfig { stiffness, zeta, slowest };
     CartesianImpedance::try_new(config).expect("a good one")
 }
 
@@ -43,10 +39,7 @@ fn tick<R: Real>(
     let rotors = Armature([R::from_f64(0.01); 6]);
     let m = Core::<Ur5e>::crba(q, &(Inertia, rotors));
     let factors = Core::<Ur5e>::ltdl(&m).expect("an arm with mass");
-    let deviation = TaskDeviation {
-        position: [R::ZERO; 6],
-        velocity: *velocity,
-    };
+    let deviation = TaskDeviation { position: [R::ZERO; 6], velocity: *velocity };
     let solve = |tau: &_| Core::<Ur5e>::solve(&factors, tau);
     law.torque(&rows, solve, &deviation, &[R::ZERO; 6], posture)
 }
@@ -106,10 +99,8 @@ fn the_damper_is_that_of_double_diagonalisation() {
         let got = tick(&mut law::<f64>(), &double).expect("finite");
         let regular = [got.conditioning, how].map(|how| how == Conditioning::Regular);
         assert_eq!(regular[0], regular[1]);
-        let singles = [
-            tick(&mut law::<f32>(), &single).expect("finite").tau,
-            by_eigenvectors(&single).0,
-        ];
+        let singles =
+            [tick(&mut law::<f32>(), &single).expect("finite").tau, by_eigenvectors(&single).0];
         for (i, want) in want.into_iter().enumerate() {
             let all = [got.tau[i], singles[0][i].into(), singles[1][i].into()];
             for (worst, x) in worst.iter_mut().zip(all) {
@@ -125,10 +116,7 @@ fn the_damper_is_that_of_double_diagonalisation() {
 fn a_memory_that_is_spoilt_is_forgotten() {
     let (good, mut fresh) = (at::<f32>(0.3, 1.0), law::<f32>());
     let want = tick(&mut fresh, &good).expect("finite").tau;
-    assert_eq!(
-        tick(&mut fresh, &good).expect("finite").modes,
-        ModeSearch::Followed
-    );
+    assert_eq!(tick(&mut fresh, &good).expect("finite").modes, ModeSearch::Followed);
     for (k, spoilt) in [f32::NAN, f32::INFINITY, 0.0, 1e20].into_iter().enumerate() {
         let mut law = fresh;
         law.modes.vectors[k] = [spoilt; 6];
@@ -183,20 +171,12 @@ fn spread<R: Real, const M: usize>(small: f64) {
         let powers = f64::from(round % 9);
         let equal = round % 4 == 0;
         let scale: [f64; M] = core::array::from_fn(|_| {
-            if equal {
-                10.0
-            } else {
-                10_f64.powf(2.0 - 0.5 * powers * (1.0 + random()))
-            }
+            if equal { 10.0 } else { 10_f64.powf(2.0 - 0.5 * powers * (1.0 + random())) }
         });
         // Scaled rows of a random matrix, and one without a mode.
         let rows: [[R; M]; M] = core::array::from_fn(|i| {
             core::array::from_fn(|_| {
-                R::from_f64(if round % 5 == 1 && i == 0 {
-                    0.0
-                } else {
-                    scale[i] * random()
-                })
+                R::from_f64(if round % 5 == 1 && i == 0 { 0.0 } else { scale[i] * random() })
             })
         });
         let mut modes = modes::Modes::<R, M>::start();

@@ -71,12 +71,9 @@ fn share(k: f64, x: f64) -> f64 {
 
 #[test]
 fn a_passive_joint_has_the_impedance_of_the_closed_form() {
-    for (k, bandwidth, omega) in [
-        (1.0, 20.0, 28.3),
-        (1.0, 20.0, 6.0),
-        (3.0, 10.0, 20.0),
-        (0.5, 30.0, 15.0),
-    ] {
+    for (k, bandwidth, omega) in
+        [(1.0, 20.0, 28.3), (1.0, 20.0, 6.0), (3.0, 10.0, 20.0), (0.5, 30.0, 15.0)]
+    {
         let law = shaping(k, k * bandwidth * INERTIA, 1e9);
         let found = Joint::new(law, bandwidth).impedance(omega) / (omega * INERTIA);
         let expected = share(k, (bandwidth / omega).powi(2));
@@ -97,10 +94,7 @@ fn a_passive_joint_is_at_most_13_percent_lighter() {
 /// The growth of the greatest speed of a joint that hangs on a spring, over two seconds.
 fn growth(damping: f64) -> f64 {
     let (k, bandwidth) = (2.0, 30.0);
-    let mut joint = Joint::new(
-        shaping(k, damping * k * bandwidth * INERTIA, 1e9),
-        bandwidth,
-    );
+    let mut joint = Joint::new(shaping(k, damping * k * bandwidth * INERTIA, 1e9), bandwidth);
     joint.qd = 0.1;
     let mut fastest = |ticks: u32| {
         (0..ticks).fold(0.0_f64, |most, _| {
@@ -125,13 +119,7 @@ fn only_a_passive_joint_rests_on_a_spring() {
 fn the_dead_band_is_not_amplified_and_torques_limited() {
     let mut law = shaping(2.0, 0.0, 10.0);
     law.config.dead_band = [3.0];
-    for [r, tau] in [
-        [2.9, 0.0],
-        [-2.9, 0.0],
-        [4.0, 2.0],
-        [-4.0, -2.0],
-        [1e3, 10.0],
-    ] {
+    for [r, tau] in [[2.9, 0.0], [-2.9, 0.0], [4.0, 2.0], [-4.0, -2.0], [1e3, 10.0]] {
         assert_eq!(law.torque(&[r], &[0.0]), [tau]);
     }
     let bad = [f64::NAN, f64::INFINITY, -f64::INFINITY, f64::MAX, -f64::MAX];

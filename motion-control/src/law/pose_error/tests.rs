@@ -6,14 +6,7 @@ use crate::law::hybrid_force::orientation_error;
 /// As near to half a turn as its direction is known.
 const HALF_A_TURN: f64 = core::f64::consts::PI - 5e-8;
 
-const AXES: [DVec3; 6] = [
-    DVec3::X,
-    DVec3::Y,
-    DVec3::Z,
-    DVec3::NEG_X,
-    DVec3::NEG_Y,
-    DVec3::NEG_Z,
-];
+const AXES: [DVec3; 6] = [DVec3::X, DVec3::Y, DVec3::Z, DVec3::NEG_X, DVec3::NEG_Y, DVec3::NEG_Z];
 
 /// An attitude with no zero in its matrix.
 fn attitude() -> DMat3 {
@@ -57,10 +50,7 @@ fn beyond_half_a_turn_the_short_way_is_back() {
 #[test]
 fn a_pose_error_leads_from_the_pose_to_the_wanted_one() {
     for axis in AXES {
-        let pose = Pose::<f64> {
-            rot: attitude(),
-            pos: DVec3::new(0.25, -0.5, 2.0),
-        };
+        let pose = Pose::<f64> { rot: attitude(), pos: DVec3::new(0.25, -0.5, 2.0) };
         let wanted = Pose::<f64> {
             rot: DMat3::from_axis_angle(axis, 0.4) * attitude(),
             pos: DVec3::new(1.5, 0.75, -1.0),

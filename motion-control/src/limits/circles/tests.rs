@@ -4,11 +4,7 @@ use dynamics_core::model::{BASE, Body, Joint, JointLimits};
 const Z: [f64; 3] = [0.0, 0.0, 1.0];
 
 const fn range(end: f64) -> JointLimits<f64> {
-    JointLimits {
-        lower: -end,
-        upper: end,
-        ..JointLimits::NONE
-    }
+    JointLimits { lower: -end, upper: end, ..JointLimits::NONE }
 }
 
 #[test]

@@ -31,11 +31,7 @@ fn config(limits: SafetyLimits<f32, 2>) -> SupervisorConfig<f32, 2> {
 }
 
 fn empty(joint: usize, lower: f64, upper: f64) -> SafetyLimitsError {
-    SafetyLimitsError::Empty {
-        joint,
-        lower,
-        upper,
-    }
+    SafetyLimitsError::Empty { joint, lower, upper }
 }
 
 #[test]
@@ -67,19 +63,13 @@ fn limits_that_allow_nothing_are_refused_by_joint_and_name() {
 #[test]
 fn the_text_of_a_limit_has_joint_limit_and_value() {
     let text = |of, limit| {
-        let error = config(with(of, limit))
-            .check()
-            .expect_err("it allows nothing");
+        let error = config(with(of, limit)).check().expect_err("it allows nothing");
         std::format!("{error}")
     };
     use LimitKind::{LeastPosition, Rate, Speed, Torque};
     for (of, limit, expected) in [
         (Torque, -35.5, "torque limit, -35.5, is negative"),
-        (
-            Torque,
-            f32::INFINITY,
-            "torque limit is infinite and has to be finite",
-        ),
+        (Torque, f32::INFINITY, "torque limit is infinite and has to be finite"),
         (Rate, f32::NAN, "torque rate limit is not a number"),
         (Speed, -2.0, "speed limit, -2, is negative"),
         (LeastPosition, f32::NAN, "least position is not a number"),
@@ -125,12 +115,7 @@ fn an_arm_with_invalid_limits_stops_and_says_why() {
 
 #[test]
 fn what_a_description_does_not_limit_is_unlimited() {
-    let joint = JointLimits {
-        lower: -1.0,
-        upper: 2.0,
-        velocity: 3.0,
-        torque: 4.0_f32,
-    };
+    let joint = JointLimits { lower: -1.0, upper: 2.0, velocity: 3.0, torque: 4.0_f32 };
     let limits = SafetyLimits::from([joint; 2]);
     assert_eq!(limits.check(), Ok(()));
     assert_eq!((limits.rate, limits.upper), ([f32::INFINITY; 2], [2.0; 2]));

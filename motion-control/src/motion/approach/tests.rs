@@ -13,11 +13,7 @@ const BOUNDS: SafetyLimits<f64, 2> =
 const CONFIG: MotionControllerConfig<f64, 2> =
     controlled(BOUNDS, TICK, [2, 3, 10], [250.0, 25.0, 0.1]);
 /// Rest at zero.
-const REST: State<f64, 2, 2> = State {
-    q: [0.0; 2],
-    qd: [0.0; 2],
-    qdd: [0.0; 2],
-};
+const REST: State<f64, 2, 2> = State { q: [0.0; 2], qd: [0.0; 2], qdd: [0.0; 2] };
 
 fn plan<M: Reference<f64, 2>>(
     from: [f64; 2],
@@ -27,12 +23,7 @@ fn plan<M: Reference<f64, 2>>(
 }
 
 fn outside(joint: usize, position: f64) -> ApproachError {
-    ApproachError::Position {
-        joint,
-        position,
-        lower: -2.0,
-        upper: 2.0,
-    }
+    ApproachError::Position { joint, position, lower: -2.0, upper: 2.0 }
 }
 
 #[test]
@@ -156,11 +147,7 @@ fn the_slowest_joint_has_the_time_that_its_limits_need() {
     for (distance, limit, seconds) in [
         (2.0, motion_limits(0.5, 1e3), 7.5),
         (2.0, motion_limits(1e3, 2.0), 2.402_811_414_134_757_2),
-        (
-            0.5,
-            motion_limits(2.0, 10.0 / 3.0_f64.sqrt()),
-            0.707_106_781_186_547_5,
-        ),
+        (0.5, motion_limits(2.0, 10.0 / 3.0_f64.sqrt()), 0.707_106_781_186_547_5),
         (0.5, motion_limits(f64::INFINITY, 5.0 / 3.0_f64.sqrt()), 1.0),
         (0.0, motion_limits(0.0, 0.0), 0.0),
     ] {
@@ -169,10 +156,7 @@ fn the_slowest_joint_has_the_time_that_its_limits_need() {
     }
     // Whichever joint is the slower one; a tick more for what rounding takes.
     for from in [[-1.6, 0.1], [0.1, -3.2]] {
-        let bounds = SafetyLimits {
-            lower: [-4.0; 2],
-            ..BOUNDS
-        };
+        let bounds = SafetyLimits { lower: [-4.0; 2], ..BOUNDS };
         let way =
             Approach::plan(&from, &REST, TICK, &LIMITS, &bounds, Circles::NONE).expect("limits");
         assert_eq!(way.path_ticks(), 3001);
@@ -216,12 +200,7 @@ fn a_circle_goes_the_short_way_and_a_line_as_far_as_its_number() {
         way.last_point()[0] - way.first_point()[0]
     };
     let (circle, line) = (Circles::NONE.with(0), Circles::NONE);
-    for (stands, begins) in [
-        (-3.10, 3.18),
-        (6.282, 0.01),
-        (0.0, 25.13),
-        (3.140_6, -3.140_6),
-    ] {
+    for (stands, begins) in [(-3.10, 3.18), (6.282, 0.01), (0.0, 25.13), (3.140_6, -3.140_6)] {
         assert!(travel(stands, begins, f32::INFINITY, circle).abs() < 0.02);
         let counted = travel(stands, begins, f32::INFINITY, line);
         assert_eq!(counted, begins - stands);

@@ -12,10 +12,7 @@ const CONFIG: MotionControllerConfig<f64, 1> = controlled(
     [2, 100, 50],
     [250.0, 25.0, 0.1],
 );
-const SLOW: BackOffConfig<f64> = BackOffConfig {
-    limits: motion_limits(0.5, 2.0),
-    margin: 0.05,
-};
+const SLOW: BackOffConfig<f64> = BackOffConfig { limits: motion_limits(0.5, 2.0), margin: 0.05 };
 
 type Controller = MotionController<f64, 1, CurrentTick>;
 
@@ -43,13 +40,7 @@ impl Bench {
         let command = controller.tick(Ok(&[q]), &rest, |_, _| [0.0]);
         let outside = ResetError::OutOfBounds { joint: 0 };
         assert_eq!(controller.reset(&rest), Err(outside));
-        Self {
-            controller,
-            q,
-            qd: 0.0,
-            gravity,
-            command,
-        }
+        Self { controller, q, qd: 0.0, gravity, command }
     }
 
     fn step(&mut self) {

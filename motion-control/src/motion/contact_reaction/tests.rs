@@ -16,10 +16,7 @@ const DISTANCE: f64 = 0.2;
 
 fn config() -> ContactReactionConfig<f64> {
     ContactReactionConfig {
-        response: ContactResponse::Retract {
-            distance: DISTANCE,
-            limits: SLOW,
-        },
+        response: ContactResponse::Retract { distance: DISTANCE, limits: SLOW },
         release_ticks: 20,
     }
 }
@@ -28,10 +25,7 @@ fn config() -> ContactReactionConfig<f64> {
 fn numbers_that_are_no_configuration_are_refused_by_name() {
     assert_eq!(config().check(), Ok(()));
     let refused = |response, release_ticks| {
-        let config = ContactReactionConfig {
-            response,
-            release_ticks,
-        };
+        let config = ContactReactionConfig { response, release_ticks };
         crate::tests::refused(ContactReaction::<f64, 1>::try_new(config))
     };
     let retract = |distance, velocity, acceleration| ContactResponse::Retract {
@@ -50,11 +44,7 @@ fn numbers_that_are_no_configuration_are_refused_by_name() {
     for bad in [0.0, -1.0, f64::NAN] {
         assert_eq!(refused(retract(1.0, 1.0, bad), 1), Some(RetractLimit));
     }
-    for good in [
-        ContactResponse::Stop,
-        retract(1.0, 1.0, f64::INFINITY),
-        float(1.0, 1.0),
-    ] {
+    for good in [ContactResponse::Stop, retract(1.0, 1.0, f64::INFINITY), float(1.0, 1.0)] {
         assert_eq!(refused(good, 1), None);
     }
 }
@@ -68,10 +58,8 @@ struct Joint {
     q: f64,
 }
 
-const CONTACT: Result<Option<DetectedContact<f64>>, Fault> = Ok(Some(DetectedContact {
-    joint: 0,
-    torque: 3.0,
-}));
+const CONTACT: Result<Option<DetectedContact<f64>>, Fault> =
+    Ok(Some(DetectedContact { joint: 0, torque: 3.0 }));
 
 impl Joint {
     fn new(response: ContactResponse<f64>) -> Self {
@@ -79,10 +67,7 @@ impl Joint {
     }
 
     fn with_ticks(response: ContactResponse<f64>, hold_ticks: u32, reentry_ticks: u32) -> Self {
-        let config = ContactReactionConfig {
-            response,
-            ..config()
-        };
+        let config = ContactReactionConfig { response, ..config() };
         let controller = MotionController::try_new(controlled(
             safety_limits([10.0], [10.0], [3.0], [-2.0], [2.0]),
             TICK,
@@ -178,10 +163,7 @@ fn a_reset_after_contactless_ticks_resumes_the_motion() {
     assert_eq!(joint.phase(), ContactPhase::Held);
 }
 
-const FLOAT: ContactResponse<f64> = ContactResponse::Float {
-    damping: 5.0,
-    speed: 1.0,
-};
+const FLOAT: ContactResponse<f64> = ContactResponse::Float { damping: 5.0, speed: 1.0 };
 
 // This holds after a hold too.
 #[test]

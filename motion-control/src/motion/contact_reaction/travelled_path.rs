@@ -80,11 +80,7 @@ impl<R: Real, const V: usize, const N: usize> TravelledPath<R, V, N> {
     pub(super) fn record(&mut self, q: &[R; V]) {
         let far = largest(&difference(q, &self.point(0))) >= self.spacing;
         if ((self.count == 0) | far) & all_finite(q) {
-            self.newest = if self.newest + 1 < N {
-                self.newest + 1
-            } else {
-                0
-            };
+            self.newest = if self.newest + 1 < N { self.newest + 1 } else { 0 };
             if let Some(point) = self.points.get_mut(self.newest) {
                 *point = *q;
             }
@@ -131,11 +127,7 @@ impl<R: Real, const V: usize, const N: usize> TravelledPath<R, V, N> {
     /// The k-th newest point; the oldest one for any beyond.
     fn point(&self, k: usize) -> [R; V] {
         let back = k.min(self.count.saturating_sub(1));
-        let index = if back <= self.newest {
-            self.newest - back
-        } else {
-            self.newest + N - back
-        };
+        let index = if back <= self.newest { self.newest - back } else { self.newest + N - back };
         self.points.get(index).copied().unwrap_or([R::ZERO; V])
     }
 
@@ -178,12 +170,8 @@ impl<R: Real, const V: usize, const N: usize> Reference<R, V> for TravelledPath<
             three * (f + ff - ff * f) + R::ONE,
             ff * f,
         ];
-        let slope = [
-            -(g * g),
-            (three * f - number(4.0)) * f,
-            R::ONE + (number(2.0) - three * f) * f,
-            ff,
-        ];
+        let slope =
+            [-(g * g), (three * f - number(4.0)) * f, R::ONE + (number(2.0) - three * f) * f, ff];
         let bend = [g, three * f - number(2.0), R::ONE - three * f, f];
         let mut state = State {
             q: self.gap.map(|g| g * (R::ONE - w)),

@@ -97,11 +97,7 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
         }
         let centres = self.supervisor.centres(&self.observer.estimate().q);
         let circles = A::CIRCLES;
-        let motion = Turned {
-            motion,
-            circles,
-            centres,
-        };
+        let motion = Turned { motion, circles, centres };
         self.resume.at(&motion, share)
     }
 }
@@ -116,10 +112,7 @@ struct Turned<'a, T, R, const V: usize> {
 impl<T: Reference<R, V>, R: Real, const V: usize> Reference<R, V> for Turned<'_, T, R, V> {
     fn at(&self, tick: u32) -> State<R, V, V> {
         let state = self.motion.at(tick);
-        State {
-            q: self.circles.near(&state.q, &self.centres),
-            ..state
-        }
+        State { q: self.circles.near(&state.q, &self.centres), ..state }
     }
 
     fn ticks(&self) -> u32 {

@@ -53,10 +53,7 @@ impl<R: Real, const V: usize> MotionControllerConfig<R, V> {
     }
 
     pub(super) fn observer(&self) -> ObserverConfig<R> {
-        ObserverConfig {
-            bandwidth: self.observer_bandwidth,
-            tick: self.supervisor.tick,
-        }
+        ObserverConfig { bandwidth: self.observer_bandwidth, tick: self.supervisor.tick }
     }
 
     /// The parts of the configuration that look like another unit, or cannot act: a list of words
@@ -156,10 +153,7 @@ impl<R: Real, const V: usize> MotionControllerConfig<R, V> {
         [
             beyond_nyquist(of, frequency, self.supervisor.tick.to_f64()),
             beyond_observer(of, frequency, self.observer_bandwidth.to_f64()),
-            (frequency >= bandwidth).then_some(Advice::BeyondDrive {
-                frequency,
-                bandwidth,
-            }),
+            (frequency >= bandwidth).then_some(Advice::BeyondDrive { frequency, bandwidth }),
         ]
         .into_iter()
         .flatten()
@@ -176,17 +170,9 @@ fn numbered<T>(all: impl Iterator<Item = T>) -> impl Iterator<Item = (AdvisedJoi
 
 fn beyond_nyquist(of: Frequency, frequency: f64, tick: f64) -> Option<Advice> {
     let nyquist = PI / tick;
-    (frequency > nyquist).then_some(Advice::BeyondNyquist {
-        of,
-        frequency,
-        nyquist,
-    })
+    (frequency > nyquist).then_some(Advice::BeyondNyquist { of, frequency, nyquist })
 }
 
 fn beyond_observer(of: Frequency, frequency: f64, bandwidth: f64) -> Option<Advice> {
-    (frequency >= bandwidth).then_some(Advice::BeyondObserver {
-        of,
-        frequency,
-        bandwidth,
-    })
+    (frequency >= bandwidth).then_some(Advice::BeyondObserver { of, frequency, bandwidth })
 }

@@ -21,11 +21,8 @@ const LOST: Result<&[f64; 1], Fault> = Err(Fault::Encoder { joint: 0 });
 
 const SPEED: f64 = 0.5;
 /// One joint at constant speed.
-const CRUISE: Motion<fn(u32) -> State<f64, 1, 1>> = Motion(|tick| State {
-    q: [SPEED * TICK * f64::from(tick)],
-    qd: [SPEED],
-    qdd: [0.0],
-});
+const CRUISE: Motion<fn(u32) -> State<f64, 1, 1>> =
+    Motion(|tick| State { q: [SPEED * TICK * f64::from(tick)], qd: [SPEED], qdd: [0.0] });
 
 fn controller<A: MeasurementAge>() -> MotionController<f64, 1, A> {
     MotionController::try_new(CONFIG).expect("every number is in its range")
@@ -152,19 +149,10 @@ fn numbers_outside_their_range_are_refused_by_name() {
     };
     let changes: [(Change, _); 5] = [
         (|c| c.supervisor.tick = 0.0, ConfigParameter::Tick),
-        (
-            |c| c.supervisor.resolution = -1.0,
-            ConfigParameter::Resolution,
-        ),
-        (
-            |c| c.observer_bandwidth = f64::NAN,
-            ConfigParameter::Bandwidth,
-        ),
+        (|c| c.supervisor.resolution = -1.0, ConfigParameter::Resolution),
+        (|c| c.observer_bandwidth = f64::NAN, ConfigParameter::Bandwidth),
         (|c| c.decay_rate = -1.0, ConfigParameter::DecayRate),
-        (
-            |c| c.restart_distance = f64::NAN,
-            ConfigParameter::RestartDistance,
-        ),
+        (|c| c.restart_distance = f64::NAN, ConfigParameter::RestartDistance),
     ];
     for (change, parameter) in changes {
         assert_eq!(of(change), ConfigError::OutOfRange { parameter });

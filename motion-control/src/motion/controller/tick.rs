@@ -189,18 +189,14 @@ impl<'a, R: Real, const V: usize, A: MeasurementAge> ObservedTick<'a, R, V, A> {
     #[inline(always)]
     pub fn reference<T: Reference<R, V>>(self, trajectory: &T) -> ReferencedTick<'a, R, V, A> {
         self.controller.next_reference(trajectory);
-        ReferencedTick {
-            controller: self.controller,
-        }
+        ReferencedTick { controller: self.controller }
     }
 
     /// The second step with a reference that is not the trajectory's: the clock of the trajectory
     /// stands still.
     pub(crate) fn replace(self, reference: &State<R, V, V>) -> ReferencedTick<'a, R, V, A> {
         self.controller.replace_reference(reference);
-        ReferencedTick {
-            controller: self.controller,
-        }
+        ReferencedTick { controller: self.controller }
     }
 }
 

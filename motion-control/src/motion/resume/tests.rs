@@ -17,9 +17,8 @@ fn the_return_reaches_the_trajectory_without_a_jump() {
     let start = estimate_of([trajectory.at(400).q[0] + 0.03], [1.0]);
     let mut resume = ResumeTrajectory::new(H, DECAY, TICKS);
     resume.start(&start, 400);
-    let mut way: Vec<_> = (0..TICKS)
-        .map(|tick| resume.at(&trajectory, f64::from(tick) / f64::from(TICKS)))
-        .collect();
+    let mut way: Vec<_> =
+        (0..TICKS).map(|tick| resume.at(&trajectory, f64::from(tick) / f64::from(TICKS))).collect();
     let end = resume.finish();
     assert_eq!(end, 400 + TICKS / 2);
     way.extend((0..10).map(|tick| trajectory.at(end + tick)));
@@ -95,21 +94,13 @@ const A: f64 = 8.0;
 
 /// A constant acceleration, of which a step between two ticks is exact.
 fn after(seconds: f64) -> State<f64, 1, 1> {
-    State {
-        q: [0.5 * A * seconds * seconds],
-        qd: [A * seconds],
-        qdd: [A],
-    }
+    State { q: [0.5 * A * seconds * seconds], qd: [A * seconds], qdd: [A] }
 }
 
 type Plain = Motion<fn(u32) -> State<f64, 1, 1>>;
 const PARABOLA: Plain = Motion(|tick| after(H * f64::from(tick)));
 /// A motion of one rad in each tick.
-const STEADY: Plain = Motion(|tick| State {
-    q: [tick as f64],
-    qd: [1.0 / H],
-    qdd: [0.0],
-});
+const STEADY: Plain = Motion(|tick| State { q: [tick as f64], qd: [1.0 / H], qdd: [0.0] });
 
 #[test]
 fn between_two_ticks_the_trajectory_is_extrapolated() {
@@ -135,9 +126,8 @@ fn the_acceleration_of_a_return_is_that_of_its_velocity() {
     let mut resume = ResumeTrajectory::new(H, 2.0, TICKS);
     let start = estimate_of([0.0], [1.0]);
     resume.start(&start, 100);
-    let way: Vec<_> = (0..TICKS)
-        .map(|tick| resume.at(&PARABOLA, f64::from(tick) / f64::from(TICKS)))
-        .collect();
+    let way: Vec<_> =
+        (0..TICKS).map(|tick| resume.at(&PARABOLA, f64::from(tick) / f64::from(TICKS))).collect();
     for pair in way.windows(2) {
         let mean = 0.5 * (pair[0].qdd[0] + pair[1].qdd[0]);
         let change = pair[1].qd[0] - pair[0].qd[0] - H * mean;

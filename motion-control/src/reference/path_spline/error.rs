@@ -46,19 +46,13 @@ impl fmt::Display for PathSplineError {
             Self::TooFew => out.write_str("there are fewer than two way-points"),
             Self::TooMany => out.write_str("there are more way-points than the path can have"),
             Self::NotFinite { point, joint } => {
-                write!(
-                    out,
-                    "way-point {point}, joint {joint}: the position is not finite"
-                )
+                write!(out, "way-point {point}, joint {joint}: the position is not finite")
             }
             Self::Coincident { point } => {
                 write!(out, "way-point {point} is where the one before it is")
             }
             Self::Tolerance { joint } => {
-                write!(
-                    out,
-                    "joint {joint}: the tolerance is negative or not a number"
-                )
+                write!(out, "joint {joint}: the tolerance is negative or not a number")
             }
             Self::TooLong => {
                 out.write_str("the length of the path in spacings is not a finite number")

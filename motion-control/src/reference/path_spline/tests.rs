@@ -132,17 +132,11 @@ fn the_tolerance_keeps_noise_out_of_the_curvature() {
 #[test]
 fn f32_has_the_path_of_f64() {
     let points = arc::<65>(0.002);
-    for (tolerance, bounds) in [
-        (0.0, [3e-6, 5e-6]),
-        (0.004, [3e-6, 5e-7]),
-        (0.1, [1e-4, 5e-6]),
-    ] {
+    for (tolerance, bounds) in [(0.0, [3e-6, 5e-6]), (0.004, [3e-6, 5e-7]), (0.1, [1e-4, 5e-6])] {
         let path = fit(&points, tolerance);
         let mut single = PathSpline::<f32, 2, 65>::EMPTY;
         let rounded = points.map(|q| q.map(|q| q as f32));
-        single
-            .fit(&rounded, &[0.1; 2], &[tolerance as f32; 2])
-            .expect("good");
+        single.fit(&rounded, &[0.1; 2], &[tolerance as f32; 2]).expect("good");
         let (mut off, mut bend) = (0.0_f64, 0.0_f64);
         for s in along() {
             let (double, single) = (path.point(s), single.point(s as f32));
@@ -162,9 +156,7 @@ fn invalid_way_points_are_named_and_leave_no_path() {
     use PathSplineError::*;
     let mut path = PathSpline::<f64, 2, 4>::EMPTY;
     let mut refused = |points: &[[f64; 2]], spacing: f64, tolerance: f64| {
-        let error = path
-            .fit(points, &[spacing; 2], &[0.0, tolerance])
-            .expect_err("refused");
+        let error = path.fit(points, &[spacing; 2], &[0.0, tolerance]).expect_err("refused");
         assert_eq!(path, PathSpline::EMPTY);
         error
     };
@@ -190,9 +182,8 @@ fn invalid_way_points_are_named_and_leave_no_path() {
 fn a_grid_has_all_knots_and_even_spans() {
     let path = fit(&arc::<17>(0.0), 0.0);
     for segments in [16, 17, 40, 400] {
-        let grid: std::vec::Vec<f64> = (0..=segments)
-            .map(|point| path.grid_point(point, segments))
-            .collect();
+        let grid: std::vec::Vec<f64> =
+            (0..=segments).map(|point| path.grid_point(point, segments)).collect();
         assert_eq!((grid[0], grid[segments]), (0.0, 1.0));
         assert!(grid.windows(2).all(|pair| pair[0] < pair[1]), "{grid:?}");
         for k in 0..16 {

@@ -5,12 +5,7 @@ use std::vec::Vec as List;
 const TICK: f64 = 0.01;
 
 fn sway(omega: f64, damping_ratio: f64) -> Vibration<f64> {
-    Vibration {
-        link: "boom",
-        mode: 2,
-        omega,
-        damping_ratio,
-    }
+    Vibration { link: "boom", mode: 2, omega, damping_ratio }
 }
 
 /// Half a period of this many ticks.
@@ -38,13 +33,7 @@ fn a_delay_between_two_ticks_is_divided_by_its_fraction() {
     same(&impulses(&zv), &[(0, 0.5), (10, 0.375), (11, 0.125)]);
     assert_eq!(zv.delay(), 11);
     let zvd = Shaper::<f64, 5>::zvd(&[half_of(10.25)], TICK).expect("a shaper");
-    let want = [
-        (0, 0.25),
-        (10, 0.375),
-        (11, 0.125),
-        (20, 0.125),
-        (21, 0.125),
-    ];
+    let want = [(0, 0.25), (10, 0.375), (11, 0.125), (20, 0.125), (21, 0.125)];
     same(&impulses(&zvd), &want);
     assert_eq!(zvd.delay(), 21);
 }
@@ -61,13 +50,8 @@ fn damping_makes_later_impulses_smaller_and_later() {
     let zvd = Shaper::<f64, 5>::zvd(&[sway(omega, 0.6)], TICK).expect("a shaper");
     let all = (1.0 + k) * (1.0 + k);
     let [first, middle, last] = [1.0, 2.0 * k, k * k].map(|part| part / all);
-    let want = [
-        (0, first),
-        (20, 0.75 * middle),
-        (21, 0.25 * middle),
-        (40, 0.5 * last),
-        (41, 0.5 * last),
-    ];
+    let want =
+        [(0, first), (20, 0.75 * middle), (21, 0.25 * middle), (40, 0.5 * last), (41, 0.5 * last)];
     same(&impulses(&zvd), &want);
 }
 
@@ -98,11 +82,7 @@ struct Ramp;
 impl Reference<f64, 2> for Ramp {
     fn at(&self, tick: u32) -> State<f64, 2, 2> {
         let t = f64::from(tick);
-        State {
-            q: [t, -2.0 * t],
-            qd: [3.0 + t, 4.0 * t],
-            qdd: [5.0 - t, 6.0 * t],
-        }
+        State { q: [t, -2.0 * t], qd: [3.0 + t, 4.0 * t], qdd: [5.0 - t, 6.0 * t] }
     }
     fn ticks(&self) -> u32 {
         100
@@ -112,10 +92,7 @@ impl Reference<f64, 2> for Ramp {
 #[test]
 fn a_shaped_state_is_the_sum_of_its_delayed_states() {
     let shaper = Shaper::<f64, 3>::zv(&[half_of(10.25)], TICK).expect("a shaper");
-    let shaped = Shaped {
-        reference: Ramp,
-        shaper,
-    };
+    let shaped = Shaped { reference: Ramp, shaper };
     assert_eq!(shaped.ticks(), 111);
     // Before its delay an impulse is of the first state.
     for (tick, earlier) in [(0, [0, 0, 0]), (7, [7, 0, 0]), (40, [40, 30, 29])] {
@@ -126,11 +103,7 @@ fn a_shaped_state_is_the_sum_of_its_delayed_states() {
             [0, 1].map(|k| 0.5 * a[k] + 0.375 * b[k] + 0.125 * c[k])
         };
         let want = [sum(|s| s.q), sum(|s| s.qd), sum(|s| s.qdd)];
-        for (got, want) in [at.q, at.qd, at.qdd]
-            .as_flattened()
-            .iter()
-            .zip(want.as_flattened())
-        {
+        for (got, want) in [at.q, at.qd, at.qdd].as_flattened().iter().zip(want.as_flattened()) {
             assert!((got - want).abs() < 1e-7, "{tick}: {at:?}, not {want:?}");
         }
     }
@@ -140,10 +113,7 @@ fn a_shaped_state_is_the_sum_of_its_delayed_states() {
 fn without_a_vibration_the_reference_is_as_it_was() {
     let shaper = Shaper::<f64, 1>::zv(&[], TICK).expect("a shaper");
     assert_eq!((impulses(&shaper), shaper.delay()), (vec![(0, 1.0)], 0));
-    let shaped = Shaped {
-        reference: Ramp,
-        shaper,
-    };
+    let shaped = Shaped { reference: Ramp, shaper };
     assert_eq!((shaped.at(7), shaped.ticks()), (Ramp.at(7), 100));
 }
 

@@ -80,9 +80,7 @@ fn positions_that_are_not_finite_change_nothing() {
 
 #[test]
 fn a_spacing_that_is_no_positive_number_is_refused() {
-    let error = ConfigError::OutOfRange {
-        parameter: ConfigParameter::PathSpacing,
-    };
+    let error = ConfigError::OutOfRange { parameter: ConfigParameter::PathSpacing };
     for bad in [0.0, -0.1, f64::NAN, f64::INFINITY, 1e-320] {
         assert_eq!(TaughtPath::<f64, 2, 4>::try_new([0.1, bad]), Err(error));
     }

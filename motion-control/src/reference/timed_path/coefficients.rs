@@ -50,9 +50,7 @@ impl<R: Real, const V: usize> Coefficients<R, V> {
             .iter()
             .chain(&forth)
             .chain(&back)
-            .fold(R::MIN_POSITIVE, |most, tau| {
-                if tau.abs() > most { tau.abs() } else { most }
-            });
+            .fold(R::MIN_POSITIVE, |most, tau| if tau.abs() > most { tau.abs() } else { most });
         let rounding = R::from_f64(ROUNDING) * R::EPSILON * largest;
         let mut signs = forth.iter().zip(&back);
         if let Some(joint) = signs.position(|(&forth, &back)| (forth - back).abs() > rounding) {

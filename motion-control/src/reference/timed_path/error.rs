@@ -92,10 +92,7 @@ impl fmt::Display for TimedPathError {
             }
             Self::MotionLimit { joint, of, value } => {
                 let value = value as f32;
-                write!(
-                    out,
-                    "joint {joint}: its {of}, {value}, is not a positive number"
-                )
+                write!(out, "joint {joint}: its {of}, {value}, is not a positive number")
             }
             Self::Friction { joint } => write!(
                 out,
@@ -110,20 +107,14 @@ impl fmt::Display for TimedPathError {
                 out,
                 "grid point {point}, joint {joint}: there is friction in the inverse dynamics"
             ),
-            Self::Torque {
-                point,
-                joint,
-                needed,
-                allowed,
-            } => write!(
+            Self::Torque { point, joint, needed, allowed } => write!(
                 out,
                 "grid point {point}, joint {joint}: gravity and friction need a torque of \
                  {needed:.4}, {allowed:.4} allowed"
             ),
-            Self::Stuck { point } => write!(
-                out,
-                "grid point {point}: the limits leave no torque to move on"
-            ),
+            Self::Stuck { point } => {
+                write!(out, "grid point {point}: the limits leave no torque to move on")
+            }
             Self::TooLong => out.write_str("the motion has more ticks than can be counted"),
         }
     }

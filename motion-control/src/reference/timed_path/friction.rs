@@ -36,31 +36,17 @@ impl<R: Real> SegmentFriction<R> {
         j: usize,
         slopes: [R; 2],
     ) -> [HalfPlane<R>; 2] {
-        let friction = limits
-            .friction
-            .get(j)
-            .copied()
-            .unwrap_or(JointFriction::NONE);
+        let friction = limits.friction.get(j).copied().unwrap_or(JointFriction::NONE);
         let [a, b, c] = [entry(&at.a, j), entry(&at.b, j), entry(&at.c, j)];
         let torque = entry(&limits.torque, j);
         let viscous = friction.viscous * entry(&at.slope, j).abs();
         let half = R::from_f64(0.5);
-        let against = [
-            half * viscous / self.touch,
-            friction.coulomb + half * viscous * self.touch,
-        ];
+        let against = [half * viscous / self.touch, friction.coulomb + half * viscous * self.touch];
         let [up, down] = directions(slopes);
         let relief = if up ^ down { friction.certain } else { R::ZERO };
-        let with = [
-            -(relief * viscous * self.chord),
-            -(relief * friction.coulomb),
-        ];
+        let with = [-(relief * viscous * self.chord), -(relief * friction.coulomb)];
         let [rise, fall] = [up, down].map(|opposed| if opposed { against } else { with });
-        both(
-            a,
-            [b + rise[0], fall[0] - b],
-            [torque - c - rise[1], torque + c - fall[1]],
-        )
+        both(a, [b + rise[0], fall[0] - b], [torque - c - rise[1], torque + c - fall[1]])
     }
 }
 

@@ -13,10 +13,7 @@ pub(super) struct HalfPlane<R> {
 impl<R: Real> HalfPlane<R> {
     /// A limit of u and of x at the end of the segment, where x is greater by 2 Δ u.
     pub(super) fn at_end(self, across: R) -> Self {
-        Self {
-            alpha: self.alpha + across * self.beta,
-            ..self
-        }
+        Self { alpha: self.alpha + across * self.beta, ..self }
     }
 }
 

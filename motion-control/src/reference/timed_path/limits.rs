@@ -50,11 +50,7 @@ pub struct JointFriction<R> {
 
 impl<R: Real> JointFriction<R> {
     /// No friction.
-    pub const NONE: Self = Self {
-        coulomb: R::ZERO,
-        viscous: R::ZERO,
-        certain: R::ZERO,
-    };
+    pub const NONE: Self = Self { coulomb: R::ZERO, viscous: R::ZERO, certain: R::ZERO };
 }
 
 impl<R: Real, const V: usize> From<SafetyLimits<R, V>> for PathLimits<R, V> {
@@ -62,10 +58,9 @@ impl<R: Real, const V: usize> From<SafetyLimits<R, V>> for PathLimits<R, V> {
     fn from(limits: SafetyLimits<R, V>) -> Self {
         Self {
             torque: limits.torque,
-            motion: limits.speed.map(|velocity| MotionLimits {
-                velocity,
-                acceleration: R::ONE / R::ZERO,
-            }),
+            motion: limits
+                .speed
+                .map(|velocity| MotionLimits { velocity, acceleration: R::ONE / R::ZERO }),
             friction: [JointFriction::NONE; V],
         }
     }
@@ -82,10 +77,7 @@ impl<R: Real, const V: usize> PathLimits<R, V> {
     /// ```
     #[must_use]
     pub fn with_torque_share(self, share: R) -> Self {
-        Self {
-            torque: self.torque.map(|torque| torque * share),
-            ..self
-        }
+        Self { torque: self.torque.map(|torque| torque * share), ..self }
     }
 
     /// Checks that torques are positive and finite, speeds and accelerations positive, and
@@ -102,10 +94,8 @@ impl<R: Real, const V: usize> PathLimits<R, V> {
             }
         }
         for (joint, limit) in self.motion.iter().enumerate() {
-            let both = [
-                (LimitKind::Speed, limit.velocity),
-                (LimitKind::Acceleration, limit.acceleration),
-            ];
+            let both =
+                [(LimitKind::Speed, limit.velocity), (LimitKind::Acceleration, limit.acceleration)];
             for (of, limit) in both {
                 // Written so that a NaN is refused, too.
                 let allows = limit > zero;
@@ -116,11 +106,7 @@ impl<R: Real, const V: usize> PathLimits<R, V> {
             }
         }
         for (joint, friction) in self.friction.iter().enumerate() {
-            let JointFriction {
-                coulomb,
-                viscous,
-                certain,
-            } = *friction;
+            let JointFriction { coulomb, viscous, certain } = *friction;
             let numbers = [coulomb, viscous, certain];
             let valid = numbers.iter().all(|x| x.is_finite() & (*x >= zero));
             if !valid || certain > R::ONE {

@@ -26,10 +26,7 @@ impl<R: Real, P, const M: usize> TimedPath<'_, R, P, M> {
         let path = self.path;
         let coefficients =
             |point: usize, s| Coefficients::at(path, (point, s), limits, &inverse_dynamics);
-        let viscous = limits
-            .friction
-            .iter()
-            .any(|friction| friction.viscous > R::ZERO);
+        let viscous = limits.friction.iter().any(|friction| friction.viscous > R::ZERO);
         for round in 0..if viscous { ROUNDS } else { 1 } {
             self.backward(round == 0, limits, coefficients)?;
             self.forward(limits, coefficients)?;

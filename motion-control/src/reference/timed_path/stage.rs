@@ -38,11 +38,7 @@ impl<R: Real, const V: usize> Stage<R, V> {
         let step = to.s - from.s;
         let across = step + step;
         let mut fastest = from.fastest;
-        fastest = if to.fastest > fastest {
-            to.fastest
-        } else {
-            fastest
-        };
+        fastest = if to.fastest > fastest { to.fastest } else { fastest };
         let friction = SegmentFriction {
             touch: least_touch([from, to], limits, touch)?.sqrt(),
             chord: R::ONE / fastest.sqrt(),
@@ -56,10 +52,7 @@ impl<R: Real, const V: usize> Stage<R, V> {
         let accelerations = |at: &Coefficients<R, V>| {
             core::array::from_fn(|j| {
                 let [alpha, beta] = [entry(&at.slope, j), entry(&at.curvature, j)];
-                let limit = limits
-                    .motion
-                    .get(j)
-                    .map_or(R::ZERO, |limit| limit.acceleration);
+                let limit = limits.motion.get(j).map_or(R::ZERO, |limit| limit.acceleration);
                 both(alpha, [beta, -beta], [limit, limit])
             })
         };
@@ -118,10 +111,6 @@ impl<R: Real, const V: usize> Stage<R, V> {
             }
         }
         // By rounding alone the upper one may be below.
-        if upper < lower {
-            R::from_f64(0.5) * (upper + lower)
-        } else {
-            upper
-        }
+        if upper < lower { R::from_f64(0.5) * (upper + lower) } else { upper }
     }
 }

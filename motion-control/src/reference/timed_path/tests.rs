@@ -15,11 +15,7 @@ struct Curve<F>(F);
 impl<R: Real, F: Fn(R) -> [[R; V]; 3], const V: usize> GeometricPath<R, V> for Curve<F> {
     fn point(&self, s: R) -> PathPoint<R, V> {
         let [q, slope, curvature] = (self.0)(s);
-        PathPoint {
-            q,
-            slope,
-            curvature,
-        }
+        PathPoint { q, slope, curvature }
     }
 }
 
@@ -31,19 +27,11 @@ fn line<R: Real>(d: R) -> Curve<impl Fn(R) -> [[R; 1]; 3]> {
 const ANY: MotionLimits<f64> = motion_limits(f64::INFINITY, f64::INFINITY);
 
 fn torques<const V: usize>(torque: [f64; V]) -> PathLimits<f64, V> {
-    PathLimits {
-        torque,
-        motion: [ANY; V],
-        friction: [JointFriction::NONE; V],
-    }
+    PathLimits { torque, motion: [ANY; V], friction: [JointFriction::NONE; V] }
 }
 
 fn friction<R>(coulomb: R, viscous: R, certain: R) -> JointFriction<R> {
-    JointFriction {
-        coulomb,
-        viscous,
-        certain,
-    }
+    JointFriction { coulomb, viscous, certain }
 }
 
 /// 2.5 kg·m².
@@ -59,9 +47,8 @@ fn share_off(is: f64, of: f64) -> f64 {
 fn an_inertia_alone_has_the_bang_bang_motion() {
     for (d, tau) in [(1.3, 8.0), (-0.02, 30.0), (20.0, 0.5)] {
         let path = line(d);
-        let timed = TimedPath::<_, _, 101>::new(&path, 1e-3, &torques([tau]), inertia)
-            .ok()
-            .unwrap();
+        let timed =
+            TimedPath::<_, _, 101>::new(&path, 1e-3, &torques([tau]), inertia).ok().unwrap();
         let best = 2.0 * (d.abs() * 2.5 / tau).sqrt();
         assert!(share_off(timed.seconds(), best) < 1e-13, "{d} {tau}");
         assert_eq!(timed.ticks(), (1e3 * best - 1e-6).ceil() as u32);
@@ -83,14 +70,9 @@ fn limits_of_speed_and_acceleration_make_it_a_trapezoid() {
     let (d, v, a) = (1.5, 0.9, 4.0);
     let best = d / v + v / a;
     let path = line(d);
-    let by_acceleration = PathLimits {
-        motion: [motion_limits(v, a)],
-        ..torques([1e3])
-    };
-    let by_torque = PathLimits {
-        motion: [MotionLimits { velocity: v, ..ANY }],
-        ..torques([2.5 * a])
-    };
+    let by_acceleration = PathLimits { motion: [motion_limits(v, a)], ..torques([1e3]) };
+    let by_torque =
+        PathLimits { motion: [MotionLimits { velocity: v, ..ANY }], ..torques([2.5 * a]) };
     for limits in [by_acceleration, by_torque] {
         let timed = TimedPath::<_, _, 301>::new(&path, 1e-3, &limits, inertia).unwrap();
         let lost = timed.seconds() / best - 1.0;

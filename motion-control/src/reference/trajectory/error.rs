@@ -67,35 +67,23 @@ impl fmt::Display for TrajectoryError {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
             Self::Tick => write!(out, "the length of a tick is not a positive number"),
-            Self::NotFinite { point, joint } => write!(
-                out,
-                "way-point {point}, joint {joint}: position or velocity is not finite"
-            ),
+            Self::NotFinite { point, joint } => {
+                write!(out, "way-point {point}, joint {joint}: position or velocity is not finite")
+            }
             Self::NotAtRest { point, joint } => write!(
                 out,
                 "way-point {point}, joint {joint}: the first and the last way-point have to stop"
             ),
             Self::Ticks { point: 0 } => write!(out, "way-point 0: its ticks are not 0"),
-            Self::Ticks { point } => write!(
-                out,
-                "way-point {point}: no ticks to get there, or more than 2^32 in total"
-            ),
-            Self::Velocity {
-                point,
-                joint,
-                needed,
-                allowed,
-            } => write!(
+            Self::Ticks { point } => {
+                write!(out, "way-point {point}: no ticks to get there, or more than 2^32 in total")
+            }
+            Self::Velocity { point, joint, needed, allowed } => write!(
                 out,
                 "way-point {point}, joint {joint}: needs a speed of {needed:.4}, {allowed:.4} \
                  allowed"
             ),
-            Self::Acceleration {
-                point,
-                joint,
-                needed,
-                allowed,
-            } => write!(
+            Self::Acceleration { point, joint, needed, allowed } => write!(
                 out,
                 "way-point {point}, joint {joint}: needs an acceleration of {needed:.4}, \
                  {allowed:.4} allowed"

@@ -54,9 +54,7 @@ impl<R: Real, const V: usize, const W: usize> RestToRest<R, V, W> {
         limits: &[MotionLimits<R>; V],
     ) -> Result<Self, TrajectoryError> {
         let mut segments = Segments::REST;
-        segments.plan(points, tick, true, |point, segment| {
-            check(point, segment, limits)
-        })?;
+        segments.plan(points, tick, true, |point, segment| check(point, segment, limits))?;
         Ok(Self { segments })
     }
 
@@ -78,11 +76,7 @@ impl<R: Real, const V: usize, const W: usize> RestToRest<R, V, W> {
     /// ```
     pub fn elastic_reference(&self, tick: u32) -> ElasticReference<R, V, V> {
         let zero = [R::ZERO; V];
-        let mut course = ElasticReference {
-            state: State::at(zero),
-            jerk: zero,
-            snap: zero,
-        };
+        let mut course = ElasticReference { state: State::at(zero), jerk: zero, snap: zero };
         let Some(segment) = self.segments.find(tick) else {
             return course;
         };

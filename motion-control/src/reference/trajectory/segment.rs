@@ -97,10 +97,7 @@ impl<R: Real, const V: usize> Segment<R, V> {
 
     /// Rest at q, of zero duration: only the weights of zeros differ from zero.
     pub(super) fn rest(q: [R; V]) -> Self {
-        Self {
-            joints: q.map(|q| [q, R::ZERO, R::ZERO, R::ZERO]),
-            ..Self::REST
-        }
+        Self { joints: q.map(|q| [q, R::ZERO, R::ZERO, R::ZERO]), ..Self::REST }
     }
 
     pub(super) fn between(start: u32, from: &WayPoint<R, V>, to: &WayPoint<R, V>, tick: R) -> Self {
@@ -112,13 +109,7 @@ impl<R: Real, const V: usize> Segment<R, V> {
         }
         let ticks = real::<R>(to.ticks);
         let seconds = ticks * tick;
-        Self {
-            start,
-            ticks_inv: R::ONE / ticks,
-            seconds,
-            seconds_inv: R::ONE / seconds,
-            joints,
-        }
+        Self { start, ticks_inv: R::ONE / ticks, seconds, seconds_inv: R::ONE / seconds, joints }
     }
 
     #[inline(always)]
@@ -177,9 +168,7 @@ impl<R: Real, const V: usize> Segment<R, V> {
             let b = weigh([-120.0, 60.0, 60.0].map(R::from_f64), scaled);
 
             let change = [step, v_0, v_1];
-            let needed = peak([R::ZERO, -a / b, R::ONE], |s| {
-                weigh(self.weights(s).qd, change)
-            });
+            let needed = peak([R::ZERO, -a / b, R::ONE], |s| weigh(self.weights(s).qd, change));
             let needed = if all_finite(&[a, b]) { needed } else { a + b };
             limit.admits_speed(needed, point, joint)?;
             let needed = peak(jerk_roots(a, b), |s| weigh(self.weights(s).qdd, change));

@@ -15,10 +15,7 @@ pub(super) struct Segments<R, const V: usize, const W: usize> {
 
 impl<R: Real, const V: usize, const W: usize> Segments<R, V, W> {
     /// Rest at zero.
-    pub(super) const REST: Self = Self {
-        each: [Segment::REST; W],
-        ticks: 0,
-    };
+    pub(super) const REST: Self = Self { each: [Segment::REST; W], ticks: 0 };
 
     /// Replaces the segments by those between `points`, each of which `check` has passed; `stops`
     /// if every way-point has to be at rest. After an error they are as before.

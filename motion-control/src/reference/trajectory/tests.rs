@@ -154,10 +154,7 @@ fn overflows_and_nan_limits_are_errors() {
     }
     let points = [stop(0.0, 0), stop(0.0, 10)];
     assert!(Trajectory::new(&points, 1e-3, &[unlimited]).is_ok());
-    let unclear = MotionLimits {
-        acceleration: f64::NAN,
-        ..unlimited
-    };
+    let unclear = MotionLimits { acceleration: f64::NAN, ..unlimited };
     assert!(matches!(
         Trajectory::new(&points, 1e-3, &[unclear]),
         Err(TrajectoryError::Acceleration { point: 1, .. })

@@ -121,9 +121,7 @@ fn a_reference_to_detectors_detects_as_they_do() {
         detectors.restart();
         let restarted = detectors.referenced(&State::at([0.9]), Mode::Full).err();
         let saturated = detectors.commanded(&full_command([10.0], false)).err();
-        [
-            frozen[1], frozen[2], steps[0], steps[1], restarted, saturated,
-        ]
+        [frozen[1], frozen[2], steps[0], steps[1], restarted, saturated]
     }
     let joint = 0;
     let [frozen, step] = [Fault::Frozen { joint }, Fault::Reference { joint }].map(Some);
@@ -151,10 +149,7 @@ fn a_frozen_position_is_a_fault_after_its_ticks() {
         let mut frozen = FrozenEncoder::new([0.1], ticks);
         let moves = [0.0, 0.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0];
         let from = ticks as usize + 2;
-        assert_eq!(
-            frozen_ticks(&mut frozen, &moves),
-            (from..8).collect::<Vec<_>>()
-        );
+        assert_eq!(frozen_ticks(&mut frozen, &moves), (from..8).collect::<Vec<_>>());
     }
 }
 

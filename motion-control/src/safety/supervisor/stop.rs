@@ -13,9 +13,7 @@ impl<R: Real, const V: usize> Stopping<R, V> {
             Some(Ending::Hold) => self.configured,
             ending => ending,
         };
-        State::Stopped {
-            lowers: ending == Some(Ending::Lowering),
-        }
+        State::Stopped { lowers: ending == Some(Ending::Lowering) }
     }
 }
 
@@ -78,10 +76,7 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
             return;
         }
         self.state = State::Stopping {
-            required: Required {
-                reason,
-                again: false,
-            },
+            required: Required { reason, again: false },
             ending,
             ticks: self.hold_ticks,
         };
@@ -115,11 +110,7 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         self.state = match ending {
             Ending::Hold if ticks_left == 0 => State::Standing(required),
             Ending::Off | Ending::Lowering if ticks == 0 => self.stopping.stopped(Some(ending)),
-            _ => State::Stopping {
-                required,
-                ending,
-                ticks: ticks_left,
-            },
+            _ => State::Stopping { required, ending, ticks: ticks_left },
         };
     }
 
@@ -201,9 +192,7 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         {
             let wanted = -(d * qd);
             if wanted.is_finite() {
-                *out = wanted
-                    .clamped(-most, most)
-                    .clamped(last - rate, last + rate);
+                *out = wanted.clamped(-most, most).clamped(last - rate, last + rate);
             }
         }
         torque

@@ -23,10 +23,7 @@ fn supervisor() -> Supervisor<f32, 2> {
 
 /// One that rides through this many ticks.
 fn riding(ticks: u32) -> Supervisor<f32, 2> {
-    Supervisor::new(SupervisorConfig {
-        ride_through_ticks: ticks,
-        ..CONFIG
-    })
+    Supervisor::new(SupervisorConfig { ride_through_ticks: ticks, ..CONFIG })
 }
 
 impl<const V: usize> Supervisor<f32, V> {

@@ -105,10 +105,7 @@ impl Task<'_> {
         let arm = Base::<V>::new(model, RIGID_BODY, Width::new(options.width), limits);
         let nominal = arm.of_all(&bodies, &joints);
         let known = known(&arm, &options.effects);
-        let mut fit = Fit {
-            cutoff: options.cutoff,
-            ..Fit::new(part.tick())
-        };
+        let mut fit = Fit { cutoff: options.cutoff, ..Fit::new(part.tick()) };
         let gears = options.effects.contains(&JointEffect::Load);
         let gears = gears.then_some([[0.0; 2]; V]);
         let run = |fit: &Fit| fit.identify(&arm, part, &nominal, &known, gears);
@@ -144,16 +141,7 @@ impl Task<'_> {
             (0..V).map(share).sum()
         };
         let residual = pairs.map(square).sum::<f64>() / compared.measured.len() as f64;
-        Ok(Attempt {
-            arm,
-            joints,
-            nominal,
-            known,
-            fit,
-            found,
-            set,
-            residual,
-        })
+        Ok(Attempt { arm, joints, nominal, known, fit, found, set, residual })
     }
 }
 
@@ -188,9 +176,7 @@ fn limits<const V: usize>(
         let path = path.to_owned();
         return Err(Error::AtRest { path });
     }
-    let largest = extremes
-        .iter()
-        .fold(1e-6, |most: f64, [.., tau]| most.max(*tau));
+    let largest = extremes.iter().fold(1e-6, |most: f64, [.., tau]| most.max(*tau));
     for (j, [low, high, torque]) in extremes.into_iter().enumerate() {
         let body = &robot.imported.tree.bodies[j];
         if let Some([lower, upper]) = body.limits.position.filter(|[a, b]| a < b) {
@@ -234,8 +220,7 @@ fn known<const V: usize>(arm: &Base<V>, effects: &[JointEffect]) -> Vec<bool> {
         }),
     };
     let all = 0..arm.len();
-    all.map(|base| arm.terms(base).iter().all(is_left_out))
-        .collect()
+    all.map(|base| arm.terms(base).iter().all(is_left_out)).collect()
 }
 
 /// The parameters of the joints around which the physical set is looked for: of an effect that the
@@ -253,11 +238,7 @@ fn believed<const V: usize>(
         (OfJoint::Coulomb, JointEffect::Coulomb),
         (OfJoint::Armature, JointEffect::Armature),
     ];
-    let is_wanted = |of| {
-        kinds
-            .iter()
-            .any(|(one, effect)| *one == of && effects.contains(effect))
-    };
+    let is_wanted = |of| kinds.iter().any(|(one, effect)| *one == of && effects.contains(effect));
     for (base, nominal) in nominal.iter().enumerate() {
         for (factor, parameter) in arm.terms(base) {
             let Parameter::Joint { joint, of } = parameter else {

@@ -15,15 +15,9 @@ pub type Result<T> = std::result::Result<T, Error>;
 #[non_exhaustive]
 pub enum Error {
     #[error("cannot read {}: {source}", path.display())]
-    Read {
-        path: PathBuf,
-        source: std::io::Error,
-    },
+    Read { path: PathBuf, source: std::io::Error },
     #[error("cannot write {}: {source}", path.display())]
-    Write {
-        path: PathBuf,
-        source: std::io::Error,
-    },
+    Write { path: PathBuf, source: std::io::Error },
     /// It would replace a file that is read, or another that is written.
     #[error(transparent)]
     Output(Box<ImportError>),
@@ -40,10 +34,7 @@ pub enum Error {
     Recording { path: PathBuf, problem: Problem },
     /// The description of the robot.
     #[error("{}: {source}", path.display())]
-    Robot {
-        path: PathBuf,
-        source: Box<ImportError>,
-    },
+    Robot { path: PathBuf, source: Box<ImportError> },
     /// A robot whose torques are not those of single joints.
     #[error("{}: {reason}", path.display())]
     Unsuitable { path: PathBuf, reason: String },
@@ -53,13 +44,7 @@ pub enum Error {
          --without or --lock select those that were recorded",
         recording.display(), robot.display()
     )]
-    Joints {
-        recording: PathBuf,
-        recorded: usize,
-        robot: PathBuf,
-        described: usize,
-        names: String,
-    },
+    Joints { recording: PathBuf, recorded: usize, robot: PathBuf, described: usize, names: String },
     /// The joint was where the description does not allow it to be.
     #[error(
         "{}: joint {joint} (`{name}`) was at {position:.3}, its limits in {} are {lower:.3} and \
@@ -83,10 +68,7 @@ pub enum Error {
     #[error("{} has ticks of {other:.6} s, the first recording of {own:.6} s", path.display())]
     Ticks { path: PathBuf, own: f64, other: f64 },
     #[error("{}: {source}", path.display())]
-    Identification {
-        path: PathBuf,
-        source: IdentificationError,
-    },
+    Identification { path: PathBuf, source: IdentificationError },
     /// The recording has a mistake, for which no possible robot fits it.
     #[error("{}: {mistake}. Nothing is offered to paste: correct the recording and identify again", path.display())]
     Mistake { path: PathBuf, mistake: Mistake },
@@ -112,22 +94,14 @@ pub enum Problem {
     #[error("the line is no text in UTF-8")]
     NoText,
     #[error("column `{column}`: `{text}` is not {expected}")]
-    Value {
-        column: String,
-        text: String,
-        expected: &'static str,
-    },
+    Value { column: String, text: String, expected: &'static str },
     #[error(
         "column `number`: {number} follows {before}: each tick has a greater number than the one \
          before; two runs are two files"
     )]
     Order { number: u32, before: u32 },
     #[error("column `time_s`: {found} s in place of {expected} s, which the tick of {tick} s says")]
-    Time {
-        found: f64,
-        expected: f64,
-        tick: f64,
-    },
+    Time { found: f64, expected: f64, tick: f64 },
     #[error("{0} joints are more than {max}", max = crate::files::MOST_JOINTS)]
     TooManyJoints(usize),
     #[error("more than {0} ticks")]

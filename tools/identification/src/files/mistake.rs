@@ -27,20 +27,13 @@ impl std::fmt::Display for Mistake {
                     true => ": are they in mN·m, or currents in mA?",
                     false => ": are they in another unit, or on the motor's side of a gear?",
                 };
-                write!(
-                    out,
-                    "the torques are about {factor:.3} times those of the description{why}"
-                )
+                write!(out, "the torques are about {factor:.3} times those of the description{why}")
             }
             Self::TorqueSign { joints } => {
                 write!(out, "the torques of `{}` have the wrong sign", list(joints))
             }
             Self::PositionSign { joints } => {
-                write!(
-                    out,
-                    "the positions of `{}` have the wrong sign",
-                    list(joints)
-                )
+                write!(out, "the positions of `{}` have the wrong sign", list(joints))
             }
             Self::Zero { joint, shift } => write!(
                 out,

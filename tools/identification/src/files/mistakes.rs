@@ -38,11 +38,7 @@ struct Correction<const V: usize> {
 }
 
 impl<const V: usize> Correction<V> {
-    const NONE: Self = Self {
-        torque: [1.0; V],
-        position: [1.0; V],
-        shift: [0.0; V],
-    };
+    const NONE: Self = Self { torque: [1.0; V], position: [1.0; V], shift: [0.0; V] };
 
     fn of(&self, recording: &TickRecording<V>) -> TickRecording<V> {
         recording.map(|q, tau| {
@@ -72,10 +68,7 @@ pub(crate) fn explains<const V: usize>(
     let before = attempt.residual;
     let factor = unit(attempt);
     if !(OTHER_UNIT.recip()..=OTHER_UNIT).contains(&factor) {
-        let same = Correction {
-            torque: [1.0 / factor; V],
-            ..Correction::NONE
-        };
+        let same = Correction { torque: [1.0 / factor; V], ..Correction::NONE };
         if after(same) < 2.0 * before {
             return Some(Mistake::Unit { factor });
         }
@@ -93,22 +86,15 @@ pub(crate) fn explains<const V: usize>(
     for joints in each {
         let signs = std::array::from_fn(|j| if joints.contains(&j) { -1.0 } else { 1.0 });
         let joints: Vec<String> = joints.iter().map(|&j| names[j].clone()).collect();
-        let torque = Correction {
-            torque: signs,
-            ..Correction::NONE
-        };
-        let position = Correction {
-            position: signs,
-            ..Correction::NONE
-        };
+        let torque = Correction { torque: signs, ..Correction::NONE };
+        let position = Correction { position: signs, ..Correction::NONE };
         let named = joints.clone();
         tried.push((after(torque), Mistake::TorqueSign { joints }));
         tried.push((after(position), Mistake::PositionSign { joints: named }));
     }
     tried.extend((0..V).filter_map(|joint| zero(joint, names, before, &after)));
     let best = tried.into_iter().min_by(|(a, _), (b, _)| a.total_cmp(b));
-    best.filter(|(left, _)| *left < EXPLAINED * before)
-        .map(|(_, mistake)| mistake)
+    best.filter(|(left, _)| *left < EXPLAINED * before).map(|(_, mistake)| mistake)
 }
 
 /// The shift of a joint's zero that leaves the least residuals: the minimum of the parabola through
@@ -146,9 +132,7 @@ fn zero<const V: usize>(
     }
     let [least, most] = SHIFTS;
     let joint = names[joint].clone();
-    (least..=most)
-        .contains(&shift.abs())
-        .then_some((left, Mistake::Zero { joint, shift }))
+    (least..=most).contains(&shift.abs()).then_some((left, Mistake::Zero { joint, shift }))
 }
 
 /// The ratio of the estimated first moments of mass to the description's, by least squares

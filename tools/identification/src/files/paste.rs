@@ -16,11 +16,8 @@ pub fn file(robot: &Robot, found: &Found) -> String {
     let imported = &robot.imported;
     let mut tree = imported.tree.clone();
     for ((body, own), joint) in tree.bodies.iter_mut().zip(&found.bodies).zip(&found.joints) {
-        body.inertia = MassProperties {
-            mass: own.after.mass,
-            com: own.after.com,
-            inertia: own.after.inertia,
-        };
+        body.inertia =
+            MassProperties { mass: own.after.mass, com: own.after.com, inertia: own.after.inertia };
         [body.damping, body.friction, body.armature] = [0, 1, 2].map(|k| rounded(joint.after[k]));
     }
     let origin = write::Origin {
@@ -35,10 +32,8 @@ pub fn file(robot: &Robot, found: &Found) -> String {
     let source = write::source(&tree, &imported.name, &imported.report.type_name, &origin);
     let width = format!("Width::f32({:?})", found.width);
     let source = source.replace(WIDTH, &width);
-    let source = source.replace(
-        "full beyond 0.02 rad/s",
-        &format!("full beyond {:?} rad/s", found.width),
-    );
+    let source =
+        source.replace("full beyond 0.02 rad/s", &format!("full beyond {:?} rad/s", found.width));
     write::formatted(&(source + &offsets(found) + &gears(found, &width)))
 }
 
@@ -64,21 +59,12 @@ pub fn lines(file: &str) -> String {
         true => between("/// Friction of the gears", "\u{0}"),
         false => added,
     };
-    [bodies, joints, gears]
-        .map(str::trim_end)
-        .join("\n\n")
-        .trim_end()
-        .to_owned()
-        + "\n"
+    [bodies, joints, gears].map(str::trim_end).join("\n\n").trim_end().to_owned() + "\n"
 }
 
 /// The constant torques, if the recording shows some; the importer knows none.
 fn offsets(found: &Found) -> String {
-    let each: Vec<f64> = found
-        .joints
-        .iter()
-        .map(|joint| rounded(joint.after[3]))
-        .collect();
+    let each: Vec<f64> = found.joints.iter().map(|joint| rounded(joint.after[3])).collect();
     if each.iter().all(|offset| *offset == 0.0) {
         return String::new();
     }
@@ -114,10 +100,7 @@ fn gears(found: &Found, width: &str) -> String {
 /// each joint its friction.
 pub fn c(found: &Found) -> String {
     let list = |numbers: &[f64]| {
-        let each: Vec<String> = numbers
-            .iter()
-            .map(|x| format!("{:?}f", rounded(*x)))
-            .collect();
+        let each: Vec<String> = numbers.iter().map(|x| format!("{:?}f", rounded(*x))).collect();
         format!("{{{}}}", each.join(", "))
     };
     let mut text = format!(

@@ -14,11 +14,8 @@ const LEFT: f64 = 64.0;
 const ABOVE: f64 = 46.0;
 const BELOW: f64 = 40.0;
 /// The lines: name, class and width. What lies below is wider, so that none is hidden.
-const LINES: [(&str, &str, u32); 3] = [
-    ("measured", "a", 5),
-    ("by the description", "b", 2),
-    ("by what was found", "c", 2),
-];
+const LINES: [(&str, &str, u32); 3] =
+    [("measured", "a", 5), ("by the description", "b", 2), ("by what was found", "c", 2)];
 /// Colours on a light and on a dark page; colour-blind readers can distinguish them.
 const STYLE: &str = "text{font:13px system-ui,Helvetica,Arial,sans-serif;fill:#2d323a}path{fill:none}.p{fill:#fff}.g{stroke:#e4e7eb}\
 .a{stroke:#b4bac4}.b{stroke:#e69100}.c{stroke:#1b50a2}@media(prefers-color-scheme:dark){text{fill:#dfe3e8}.p{fill:#16191d}\
@@ -61,16 +58,10 @@ fn chart(svg: &mut String, trace: &Trace, high: f64) {
     let mut text = |at: [f64; 2], side: &str, text: &str| {
         let text = text.replace('&', "&amp;").replace('<', "&lt;");
         let [x, y] = at;
-        let _ = writeln!(
-            svg,
-            "<text x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"{side}\">{text}</text>"
-        );
+        let _ =
+            writeln!(svg, "<text x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"{side}\">{text}</text>");
     };
-    text(
-        [20.0, 16.0],
-        "start",
-        &format!("{}, torque in N·m or N", trace.joint),
-    );
+    text([20.0, 16.0], "start", &format!("{}, torque in N·m or N", trace.joint));
     let mut drawn = String::new();
     for (number, (name, class, width)) in LINES.into_iter().enumerate() {
         let left = LEFT + 150.0 * number as f64;
@@ -87,21 +78,12 @@ fn chart(svg: &mut String, trace: &Trace, high: f64) {
     for value in ticks(y) {
         text([LEFT - 8.0, up(value) + 4.0], "end", &label(value));
         let (left, wide) = (LEFT, WIDTH - LEFT - 20.0);
-        let _ = writeln!(
-            drawn,
-            "<path class=\"g\" d=\"M{left} {:.1}h{wide}\"/>",
-            up(value)
-        );
+        let _ = writeln!(drawn, "<path class=\"g\" d=\"M{left} {:.1}h{wide}\"/>", up(value));
     }
     for (points, (_, class, width)) in lines.iter().zip(LINES) {
-        let places = points
-            .iter()
-            .map(|(t, tau)| format!("{:.1} {:.1}", right(*t), up(*tau)));
+        let places = points.iter().map(|(t, tau)| format!("{:.1} {:.1}", right(*t), up(*tau)));
         let path = places.collect::<Vec<_>>().join("L");
-        let _ = writeln!(
-            drawn,
-            "<path class=\"{class}\" stroke-width=\"{width}\" d=\"M{path}\"/>"
-        );
+        let _ = writeln!(drawn, "<path class=\"{class}\" stroke-width=\"{width}\" d=\"M{path}\"/>");
     }
     *svg += &drawn;
 }
@@ -111,10 +93,7 @@ fn ticks([low, high]: [f64; 2]) -> impl Iterator<Item = f64> {
     let rough = (high - low) / 4.0;
     let ten = 10_f64.powf(rough.log10().floor());
     let steps = [1.0, 2.0, 5.0].map(|digit| digit * ten);
-    let step = steps
-        .into_iter()
-        .find(|step| *step >= rough)
-        .unwrap_or(10.0 * ten);
+    let step = steps.into_iter().find(|step| *step >= rough).unwrap_or(10.0 * ten);
     let (first, last) = ((low / step).ceil() as i64, (high / step).floor() as i64);
     (first..=last).map(move |number| number as f64 * step)
 }

@@ -65,10 +65,7 @@ impl Recorded {
     /// # Errors
     /// [`Error`] names the line and the column.
     pub fn read(path: &Path) -> Result<Self> {
-        let read = |source| Error::Read {
-            path: path.to_owned(),
-            source,
-        };
+        let read = |source| Error::Read { path: path.to_owned(), source };
         Self::from(path, File::open(path).map_err(read)?)
     }
 
@@ -77,14 +74,9 @@ impl Recorded {
     /// # Errors
     /// As [`Recorded::read`].
     pub fn from(path: &Path, text: impl Read) -> Result<Self> {
-        let whole = |problem| Error::Recording {
-            path: path.to_owned(),
-            problem,
-        };
-        let mut rows = ReaderBuilder::new()
-            .has_headers(false)
-            .flexible(true)
-            .from_reader(text.take(0));
+        let whole = |problem| Error::Recording { path: path.to_owned(), problem };
+        let mut rows =
+            ReaderBuilder::new().has_headers(false).flexible(true).from_reader(text.take(0));
         let mut line = 0;
         let mut next = || {
             line += 1;
@@ -101,11 +93,7 @@ impl Recorded {
                 Err(_) => Problem::NoText,
             };
             let path = path.to_owned();
-            Err(Error::Line {
-                path,
-                line,
-                problem,
-            })
+            Err(Error::Line { path, line, problem })
         };
         let titles = next()?.ok_or_else(|| whole(Problem::Empty))?;
         let columns = Columns::of(&titles).map_err(whole)?;
@@ -120,11 +108,7 @@ impl Recorded {
         let (mut ticks, mut number) = (0, 1);
         while let Some(fields) = next()? {
             number += 1;
-            let wrong = |problem| Error::Line {
-                path: path.to_owned(),
-                line: number,
-                problem,
-            };
+            let wrong = |problem| Error::Line { path: path.to_owned(), line: number, problem };
             let line = columns.line(&fields).map_err(wrong)?;
             ticks += 1;
             if ticks > MOST_TICKS {
@@ -165,11 +149,7 @@ impl Recorded {
         let expected = start + ticks * tick;
         let is_off = (time - expected).abs() > OFF * tick.max(1e-4) * (1.0 + 1e-3 * ticks);
         if is_off || (number > first && tick <= 0.0) {
-            return Err(Problem::Time {
-                found: time,
-                expected,
-                tick,
-            });
+            return Err(Problem::Time { found: time, expected, tick });
         }
         Ok(())
     }
@@ -203,10 +183,8 @@ impl Recorded {
             let pairs = rows.iter().map(|(q, tau)| (array(q), array(tau)));
             pairs.unzip()
         });
-        TickRecording::try_new(each.collect(), self.tick).map_err(|source| Error::Identification {
-            path: path.to_owned(),
-            source,
-        })
+        TickRecording::try_new(each.collect(), self.tick)
+            .map_err(|source| Error::Identification { path: path.to_owned(), source })
     }
 }
 
@@ -221,10 +199,7 @@ impl Columns {
                 _ => Err(Problem::NoColumn(name.to_owned())),
             }
         };
-        let joints = names
-            .iter()
-            .filter(|name| name.starts_with("torque_"))
-            .count();
+        let joints = names.iter().filter(|name| name.starts_with("torque_")).count();
         if joints > MOST_JOINTS {
             return Err(Problem::TooManyJoints(joints));
         }

@@ -120,11 +120,7 @@ pub struct Trace {
 
 impl Numbers {
     pub fn of(inertia: &MassProperties) -> Self {
-        Self {
-            mass: inertia.mass,
-            com: inertia.com,
-            inertia: inertia.inertia,
-        }
+        Self { mass: inertia.mass, com: inertia.com, inertia: inertia.inertia }
     }
 
     /// With as many digits as are pasted.
@@ -168,10 +164,7 @@ impl Found {
     pub fn worst(&self) -> Option<(&JointFound, f64)> {
         let each = self.joints.iter().map(|joint| {
             let part = joint.held_out.unwrap_or(joint.fitted);
-            (
-                joint,
-                part.residuals[1].rms / part.largest_torque.max(1e-300),
-            )
+            (joint, part.residuals[1].rms / part.largest_torque.max(1e-300))
         });
         each.max_by(|a, b| a.1.total_cmp(&b.1))
     }
@@ -224,11 +217,7 @@ impl Found {
                 text,
                 "warning: the torques {} the positions by {ms} ms, relative to a torque that is \
                  held for a tick; the fit takes this into account",
-                if lag > 0.0 {
-                    "lag behind"
-                } else {
-                    "are ahead of"
-                }
+                if lag > 0.0 { "lag behind" } else { "are ahead of" }
             ),
         };
     }
@@ -251,14 +240,7 @@ impl Found {
     }
 
     fn tables(&self, text: &mut String) {
-        let titles = [
-            "joint",
-            "viscous",
-            "Coulomb",
-            "armature",
-            "offset",
-            "gear driving, driven",
-        ];
+        let titles = ["joint", "viscous", "Coulomb", "armature", "offset", "gear driving, driven"];
         let mut rows = vec![titles.map(str::to_owned)];
         for joint in &self.joints {
             let number = |k: usize| {
@@ -313,20 +295,9 @@ impl Found {
     /// The base parameters that the motion shows.
     fn base(&self, text: &mut String) {
         let mut rows = vec![
-            [
-                "base parameter",
-                "description",
-                "found",
-                "deviation",
-                "of it",
-            ]
-            .map(str::to_owned),
+            ["base parameter", "description", "found", "deviation", "of it"].map(str::to_owned),
         ];
-        for one in self
-            .parameters
-            .iter()
-            .filter(|one| !one.is_known && one.is_determined)
-        {
+        for one in self.parameters.iter().filter(|one| !one.is_known && one.is_determined) {
             rows.push([
                 one.name.clone(),
                 short(one.before),
@@ -340,13 +311,8 @@ impl Found {
     }
 
     fn residuals(&self, text: &mut String, held: &str) {
-        let titles = [
-            "joint",
-            "largest torque",
-            "description, RMS",
-            "found, RMS",
-            "found, largest",
-        ];
+        let titles =
+            ["joint", "largest torque", "description, RMS", "found, RMS", "found, largest"];
         let mut table = |title: &str, of: &dyn Fn(&JointFound) -> Option<Part>| {
             let mut rows = vec![titles.map(str::to_owned)];
             for joint in &self.joints {

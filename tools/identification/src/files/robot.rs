@@ -32,20 +32,13 @@ impl Robot {
         let args = import::Args {
             file: path.to_owned(),
             name: name.map(str::to_owned),
-            options: Options {
-                python: "none".to_owned(),
-                ..options.clone()
-            },
+            options: Options { python: "none".to_owned(), ..options.clone() },
             ..import::Args::default()
         };
-        let imported = import::import(&args, "this day").map_err(|source| Error::Robot {
-            path: path.to_owned(),
-            source: source.into(),
-        })?;
-        let unsuitable = |reason: &str| Error::Unsuitable {
-            path: path.to_owned(),
-            reason: reason.to_owned(),
-        };
+        let imported = import::import(&args, "this day")
+            .map_err(|source| Error::Robot { path: path.to_owned(), source: source.into() })?;
+        let unsuitable =
+            |reason: &str| Error::Unsuitable { path: path.to_owned(), reason: reason.to_owned() };
         if !imported.tree.is_single() {
             return Err(unsuitable(
                 "parameters are identified of robots whose joints have one coordinate each, on a \
@@ -58,10 +51,7 @@ impl Robot {
                  the link that closes one",
             ));
         }
-        Ok(Self {
-            path: path.to_owned(),
-            imported,
-        })
+        Ok(Self { path: path.to_owned(), imported })
     }
 
     pub fn joints(&self) -> Vec<String> {
@@ -79,11 +69,8 @@ impl Robot {
     /// # Errors
     /// [`Error::Robot`].
     pub fn model<const V: usize>(&self) -> Result<Described<V>> {
-        let arm: ArmModel<f64, V> =
-            model::arm(&self.imported.tree).map_err(|source| Error::Robot {
-                path: self.path.clone(),
-                source: source.into(),
-            })?;
+        let arm: ArmModel<f64, V> = model::arm(&self.imported.tree)
+            .map_err(|source| Error::Robot { path: self.path.clone(), source: source.into() })?;
         let joints = std::array::from_fn(|j| {
             let body = &self.imported.tree.bodies[j];
             [body.damping, body.friction, body.armature, 0.0]

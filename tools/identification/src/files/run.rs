@@ -65,11 +65,7 @@ fn of_size<const V: usize>(
     other: Option<(&Path, &Recorded)>,
     options: &Options,
 ) -> Result<Found> {
-    let task = Task {
-        robot,
-        path,
-        options,
-    };
+    let task = Task { robot, path, options };
     let whole: TickRecording<V> = recorded.ticks(path)?;
     let (fitted_part, held) = match other {
         Some((path, other)) => (whole.clone(), other.ticks(path)?),
@@ -78,16 +74,7 @@ fn of_size<const V: usize>(
     let attempt = task.attempt(&whole, &fitted_part, None)?;
     let names = robot.joints();
     let mistake = mistakes::explains(&task, &whole, &fitted_part, &attempt, &names);
-    let Attempt {
-        arm,
-        joints,
-        nominal,
-        known,
-        fit,
-        found,
-        set,
-        ..
-    } = &attempt;
+    let Attempt { arm, joints, nominal, known, fit, found, set, .. } = &attempt;
     let pasted = set.joints;
     let after = arm.of_all(&set.bodies, &pasted);
     let gears = possible(found);
@@ -107,17 +94,12 @@ fn of_size<const V: usize>(
         name: names[j].clone(),
         before: joints[j],
         after: pasted[j],
-        deviations: [
-            OfJoint::Viscous,
-            OfJoint::Coulomb,
-            OfJoint::Armature,
-            OfJoint::Offset,
-        ]
-        .map(|of| own_of(j, of)),
-        gear: found.gears.zip(gears).map(|(found, used)| Gear {
-            friction: used[j],
-            deviations: found[j][1],
-        }),
+        deviations: [OfJoint::Viscous, OfJoint::Coulomb, OfJoint::Armature, OfJoint::Offset]
+            .map(|of| own_of(j, of)),
+        gear: found
+            .gears
+            .zip(gears)
+            .map(|(found, used)| Gear { friction: used[j], deviations: found[j][1] }),
         fitted: part(&own_part, j),
         held_out: validated.as_ref().map(|held| part(held, j)),
     };
@@ -129,11 +111,7 @@ fn of_size<const V: usize>(
             true => Numbers::rounded(&about(set.bodies[i])),
             false => before,
         };
-        BodyFound {
-            name: body.name.clone(),
-            before,
-            after,
-        }
+        BodyFound { name: body.name.clone(), before, after }
     };
     let of_parameter = |base: usize| ParameterFound {
         name: arm.name(base),

@@ -60,10 +60,7 @@ pub fn torques(robot: &Robot, at: &At) -> [f64; 2] {
     let of = |of: fn(&robot_import::tree::Body) -> f64| {
         std::array::from_fn(|j| of(&robot.imported.tree.bodies[j]))
     };
-    let coulomb = Coulomb {
-        torque: of(|body| body.friction),
-        width: Width::new(0.02),
-    };
+    let coulomb = Coulomb { torque: of(|body| body.friction), width: Width::new(0.02) };
     let armature = dynamics_core::effects::Armature(of(|body| body.armature));
     let viscous = Viscous(of(|body| body.damping));
     rnea(&arm, at, &(RIGID_BODY, viscous, coulomb, armature))

@@ -18,11 +18,8 @@ fn pasted(found: &Found) -> Robot {
     let mut robot = off();
     let bodies = &mut robot.imported.tree.bodies;
     for ((body, own), joint) in bodies.iter_mut().zip(&found.bodies).zip(&found.joints) {
-        body.inertia = MassProperties {
-            mass: own.after.mass,
-            com: own.after.com,
-            inertia: own.after.inertia,
-        };
+        body.inertia =
+            MassProperties { mass: own.after.mass, com: own.after.com, inertia: own.after.inertia };
         [body.damping, body.friction, body.armature, _] = joint.after;
     }
     robot
@@ -48,11 +45,7 @@ fn torques_of_another_path_are_within_five_per_cent() {
     let found = identified(&record(|t| swing(t, SIZE, RATES), 10_000)).expect("parameters");
     let (before, after) = (error(&off()), error(&pasted(&found)));
     assert!(before > 0.15 && after < 0.05, "{before} {after}");
-    assert!(
-        found.undetermined().is_empty(),
-        "{:?}",
-        found.undetermined()
-    );
+    assert!(found.undetermined().is_empty(), "{:?}", found.undetermined());
     // The part that was not fitted has a small error, too: it has the noise of the measurement.
     let (_, share) = found.worst().expect("joints");
     assert!(share < 0.05, "{share}");
@@ -70,12 +63,7 @@ fn the_text_has_what_is_pasted() {
     let found = identified(&record(|t| swing(t, SIZE, RATES), 4_000)).expect("parameters");
     let text = found.text();
     let svg = picture::svg(&found.traces);
-    for part in [
-        "shoulder, torque",
-        "elbow, torque",
-        "by what was found",
-        "height=\"600\"",
-    ] {
+    for part in ["shoulder, torque", "elbow, torque", "by what was found", "height=\"600\""] {
         assert!(svg.contains(part), "{part}");
     }
     let mass = format!("{:?}", found.bodies[1].after.mass);
@@ -92,11 +80,8 @@ fn the_text_has_what_is_pasted() {
     }
     assert!(!lines.contains("SCENE"), "{lines}");
     assert!(paste::c(&found).contains(&format!(".mass = {mass}f")));
-    for part in [
-        "condition number",
-        "joint 1 viscous friction",
-        "torques of its last part within",
-    ] {
+    for part in ["condition number", "joint 1 viscous friction", "torques of its last part within"]
+    {
         assert!(text.contains(part), "{part}\n{text}");
     }
 }
@@ -111,10 +96,7 @@ fn a_joint_that_rests_leaves_its_parameters_and_is_named() {
     assert!(found.text().contains("not determined by this motion"));
     // It stays as described.
     let joint = &found.joints[1];
-    assert!(
-        (joint.after[0] / joint.before[0] - 1.0).abs() < 0.1,
-        "{joint:?}"
-    );
+    assert!((joint.after[0] / joint.before[0] - 1.0).abs() < 0.1, "{joint:?}");
 }
 
 #[test]
@@ -126,17 +108,11 @@ fn a_recording_at_rest_is_refused() {
 #[test]
 fn an_effect_that_is_not_asked_for_stays_as_described() {
     let recorded = read(&record(|t| swing(t, SIZE, RATES), 4_000)).expect("ticks");
-    let options = run::Options {
-        effects: vec![run::JointEffect::Coulomb],
-        ..OPTIONS()
-    };
+    let options = run::Options { effects: vec![run::JointEffect::Coulomb], ..OPTIONS() };
     let record = (Path::new("run.csv"), &recorded);
     let found = run::identify(&off(), record, None, &options).expect("parameters");
     for joint in &found.joints {
-        assert!(
-            (joint.after[0] / joint.before[0] - 1.0).abs() < 1e-3,
-            "{joint:?}"
-        );
+        assert!((joint.after[0] / joint.before[0] - 1.0).abs() < 1e-3, "{joint:?}");
         assert_eq!(joint.deviations[0], None);
     }
 }

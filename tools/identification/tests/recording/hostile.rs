@@ -25,32 +25,16 @@ fn changed(field: usize, to: &str) -> String {
 #[test]
 fn a_wrong_field_is_named_with_line_and_column() {
     for (field, to, why) in [
-        (
-            0,
-            "-3",
-            "line 10: column `number`: `-3` is not a whole number",
-        ),
+        (0, "-3", "line 10: column `number`: `-3` is not a whole number"),
         (0, "2", "line 10: column `number`: 2 follows 7"),
         (2, "fast", "line 10: column `mode`: `fast` is not `full`"),
-        (
-            6,
-            "0.5",
-            "line 10: column `time_s`: 0.5 s in place of 0.016 s",
-        ),
-        (
-            8,
-            "nan",
-            "line 10: column `estimate_0`: `nan` is not a number that is finite",
-        ),
+        (6, "0.5", "line 10: column `time_s`: 0.5 s in place of 0.016 s"),
+        (8, "nan", "line 10: column `estimate_0`: `nan` is not a number that is finite"),
         (12, "inf", "line 10: column `torque_1`: `inf` is not"),
         (12, "1e300", "line 10: column `torque_1`: `1e300` is not"),
         (12, "", "line 10: column `torque_1`: `` is not"),
         (12, "1,2", "line 10: 15 columns in place of 14"),
-        (
-            8,
-            "\u{1b}[2J",
-            "line 10: column `estimate_0`: `\\u{1b}[2J` is not",
-        ),
+        (8, "\u{1b}[2J", "line 10: column `estimate_0`: `\\u{1b}[2J` is not"),
     ] {
         let error = changed(field, to);
         assert!(error.starts_with(&format!("run.csv, {why}")), "{error}");
@@ -69,16 +53,10 @@ fn a_file_that_is_no_record_is_refused() {
         (without("time_s"), "it lacks the column `time_s`"),
         (without("estimate_1"), "it lacks the column `estimate_1`"),
         (without("torque_0"), "it lacks the column `estimate_0`"),
-        (
-            good().replacen("reference_0", "tick", 1),
-            "it has the column `tick` twice",
-        ),
+        (good().replacen("reference_0", "tick", 1), "it has the column `tick` twice"),
         (titles.clone() + &many, "joints are more than 12"),
         (titles.clone(), "it has no two ticks with a time"),
-        (
-            good().replace("full", "hold"),
-            "no tick has the mode `full`",
-        ),
+        (good().replace("full", "hold"), "no tick has the mode `full`"),
         (long, "line 2: the line has more than"),
     ] {
         let error = read(&text).expect_err(why).to_string();
@@ -87,17 +65,12 @@ fn a_file_that_is_no_record_is_refused() {
     }
     let bytes = [titles.as_bytes(), b"\n\xff\xfe,\n"].concat();
     let error = Recorded::from(Path::new("run.csv"), &bytes[..]).expect_err("no text");
-    assert!(
-        error.to_string().contains("line 2: the line is no text"),
-        "{error}"
-    );
+    assert!(error.to_string().contains("line 2: the line is no text"), "{error}");
 }
 
 #[test]
 fn gaps_holds_and_restarts_part_the_recording() {
-    let text = good()
-        .replace("\n20,20,full", "\n20,20,hold")
-        .replace("\n31,31,", "\n31,0,");
+    let text = good().replace("\n20,20,full", "\n20,20,hold").replace("\n31,31,", "\n31,0,");
     let recorded = read(&text).expect("ticks");
     let lengths: Vec<usize> = recorded.stretches.iter().map(Vec::len).collect();
     // The tick after a restart follows no other; the one after that follows neither.
@@ -116,18 +89,10 @@ fn a_recording_of_another_robot_is_refused() {
     };
     let mut one = described();
     one.imported.tree.bodies.truncate(1);
-    assert!(
-        refused(&one).contains("run.csv has 2 joints, but the robot of"),
-        "{}",
-        refused(&one)
-    );
+    assert!(refused(&one).contains("run.csv has 2 joints, but the robot of"), "{}", refused(&one));
     let mut narrow = described();
     narrow.imported.tree.bodies[1].limits.position = Some([1.0, 2.0]);
-    assert!(
-        refused(&narrow).contains("joint 1 (`elbow`) was at"),
-        "{}",
-        refused(&narrow)
-    );
+    assert!(refused(&narrow).contains("joint 1 (`elbow`) was at"), "{}", refused(&narrow));
     let short = read(&good()).expect("ticks");
     let outcome = run::identify(&off(), (Path::new("run.csv"), &short), None, &OPTIONS());
     let error = outcome.expect_err("too short").to_string();

@@ -48,22 +48,13 @@ fn a_constant_torque_is_found_and_pasted_beside_the_masses() {
     assert_eq!(found.mistake, None);
     for (joint, offset) in found.joints.iter().zip(offsets) {
         let deviation = joint.deviations[3].expect("a parameter of its own");
-        assert!(
-            (joint.after[3] - offset).abs() < 4.0 * deviation + 0.01,
-            "{joint:?}"
-        );
-        assert!(
-            (joint.after[1] - if offset > 0.0 { 0.5 } else { 0.2 }).abs() < 0.05,
-            "{joint:?}"
-        );
+        assert!((joint.after[3] - offset).abs() < 4.0 * deviation + 0.01, "{joint:?}");
+        assert!((joint.after[1] - if offset > 0.0 { 0.5 } else { 0.2 }).abs() < 0.05, "{joint:?}");
     }
     let lines = paste::lines(&paste::file(&off(), &found));
     let lines: String = lines.split_whitespace().collect();
     let offset = format!("ConstantTorque([{:?},", rounded(found.joints[0].after[3]));
-    assert!(
-        lines.contains("pubconstOFFSET:") && lines.contains(&offset),
-        "{lines}"
-    );
+    assert!(lines.contains("pubconstOFFSET:") && lines.contains(&offset), "{lines}");
     assert!(paste::c(&found).contains("offset[2]"));
     // The residuals are those of what is pasted.
     assert!(found.worst().expect("joints").1 < 0.02, "{}", found.text());
@@ -83,12 +74,7 @@ fn one_wrong_sign_is_named_and_nothing_is_explained_by_another_robot() {
         let names = ["shoulder", "elbow"].map(str::to_owned);
         let joints = vec![names[joint].clone()];
         let torque = found(&changed(same, of(joint, -1.0)));
-        assert_eq!(
-            torque.mistake,
-            Some(Mistake::TorqueSign { joints }),
-            "{}",
-            torque.text()
-        );
+        assert_eq!(torque.mistake, Some(Mistake::TorqueSign { joints }), "{}", torque.text());
         assert!(torque.text().contains("wrong sign"));
     }
 }
@@ -129,15 +115,9 @@ fn a_late_torque_is_estimated_and_reported() {
             identification::files::run::identify(&off(), (file, &recorded), None, &OPTIONS());
         let found = found.expect("parameters");
         // The torque belongs to the time before it was recorded.
+        assert!((found.delay + late - 0.5 * TICK).abs() < 2e-3, "{} for {late}", found.delay);
         assert!(
-            (found.delay + late - 0.5 * TICK).abs() < 2e-3,
-            "{} for {late}",
-            found.delay
-        );
-        assert!(
-            found
-                .text()
-                .contains("the torques lag behind the positions by 2"),
+            found.text().contains("the torques lag behind the positions by 2"),
             "{}",
             found.text()
         );

@@ -15,10 +15,7 @@ fn the_torques_by_base_parameters_are_those_of_inverse_dynamics() {
     for seed in 0..5 {
         let truth = Parameters::off(seed);
         let of = |k: usize| truth.joints.map(|joint| joint[k]);
-        let coulomb = Coulomb {
-            torque: of(1),
-            width: WIDTH,
-        };
+        let coulomb = Coulomb { torque: of(1), width: WIDTH };
         let scene = (RIGID_BODY, Viscous(of(0)), coulomb, Armature(of(2)));
         let (arm, base) = (arm(&truth), truth.base());
         for state in states(&CHOSEN, 50) {

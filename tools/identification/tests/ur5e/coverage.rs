@@ -31,18 +31,8 @@ struct Outcome {
 }
 
 static OTHER: LazyLock<FourierMotion<6>> = LazyLock::new(|| {
-    let random = Search {
-        starts: 1,
-        fresh: 1,
-        steps: 0,
-        seed: 77,
-        harmonics: 8,
-        ..SEARCH
-    };
-    random
-        .run(&*ARM, |_| true, |_| ())
-        .expect("a motion")
-        .motion
+    let random = Search { starts: 1, fresh: 1, steps: 0, seed: 77, harmonics: 8, ..SEARCH };
+    random.run(&*ARM, |_| true, |_| ()).expect("a motion").motion
 });
 
 /// Errors of the torques of a path: of the joint with the largest ones, relative to its largest
@@ -74,10 +64,7 @@ pub fn errors(
         }
     }
     let worst = |of: &dyn Fn(usize) -> f64| (0..6).map(of).fold(0.0, f64::max);
-    println!(
-        "{:.4?}",
-        std::array::from_fn::<f64, 6, _>(|j| errors[j] / full[j])
-    );
+    println!("{:.4?}", std::array::from_fn::<f64, 6, _>(|j| errors[j] / full[j]));
     Errors {
         largest: worst(&|j| errors[j] / full[j]),
         rms: worst(&|j| squares[j].sqrt() / full[j]),
@@ -88,9 +75,7 @@ pub fn errors(
 pub fn identified(arm: &Arm, truth: &Parameters, friction: Friction, seed: u64) -> Identified<6> {
     let run = Run::new(&CHOSEN, truth, friction);
     let recording = run.recorded(NOISE, 1000 + seed);
-    Batch::new(HARMONICS, TICK)
-        .identify(arm, &recording)
-        .expect("a good motion")
+    Batch::new(HARMONICS, TICK).identify(arm, &recording).expect("a good motion")
 }
 
 fn outcome(arm: &Arm, seed: u64, friction: Friction) -> Outcome {
@@ -106,16 +91,11 @@ fn outcome(arm: &Arm, seed: u64, friction: Friction) -> Outcome {
     };
     let physical = ARM.of_all(&set.bodies, &set.joints);
     let torques = [&nominal.base(), &found.base, &physical].map(|found| {
-        [
-            errors(arm, found, &base, &other, &more),
-            errors(arm, found, &base, &work, &[]),
-        ]
+        [errors(arm, found, &base, &other, &more), errors(arm, found, &base, &work, &[])]
     });
     let deviations = found.base.iter().zip(&base).zip(&found.deviations);
     Outcome {
-        errors: deviations
-            .map(|((found, base), deviation)| (found - base) / deviation)
-            .collect(),
+        errors: deviations.map(|((found, base), deviation)| (found - base) / deviation).collect(),
         torques,
         misfit: set.misfit,
         noise: std::array::from_fn(|j| {
@@ -124,19 +104,13 @@ fn outcome(arm: &Arm, seed: u64, friction: Friction) -> Outcome {
     }
 }
 
-static ALL: LazyLock<Vec<Outcome>> = LazyLock::new(|| {
-    (0..SEEDS)
-        .map(|seed| outcome(&ARM, seed, Friction::Modelled))
-        .collect()
-});
+static ALL: LazyLock<Vec<Outcome>> =
+    LazyLock::new(|| (0..SEEDS).map(|seed| outcome(&ARM, seed, Friction::Modelled)).collect());
 
 /// The share of errors within this many stated deviations.
 fn coverage(all: &[Outcome], deviations: f64) -> f64 {
     let errors = all.iter().flat_map(|outcome| &outcome.errors);
-    let inside = errors
-        .clone()
-        .filter(|error| error.abs() < deviations)
-        .count();
+    let inside = errors.clone().filter(|error| error.abs() < deviations).count();
     inside as f64 / errors.count() as f64
 }
 
@@ -175,10 +149,7 @@ fn the_deviations_are_those_of_coloured_noise_too() {
             ratio += deviation / white.deviations[k];
         }
     }
-    let (share, ratio) = (
-        f64::from(inside as u32) / f64::from(all),
-        ratio / f64::from(all),
-    );
+    let (share, ratio) = (f64::from(inside as u32) / f64::from(all), ratio / f64::from(all));
     assert!((0.92..0.98).contains(&share), "{share}");
     assert!((3.0..6.0).contains(&ratio), "{ratio}");
 }
@@ -240,10 +211,7 @@ fn the_figures_of_the_page_are_those_of_these_arms() {
         ("bristles, stiction; model with w = 0.005 rad/s", &narrow),
     ] {
         let covered = 100.0 * coverage(all, 2.0);
-        for (k, by) in ["nominal model", "estimate", "physical set"]
-            .iter()
-            .enumerate()
-        {
+        for (k, by) in ["nominal model", "estimate", "physical set"].iter().enumerate() {
             let worst = |of: &dyn Fn(&Errors) -> f64| 100.0 * most(all, |x| of(&x.torques[k][0]));
             let mut largest: Vec<f64> = all.iter().map(|x| x.torques[k][0].largest).collect();
             largest.sort_by(f64::total_cmp);

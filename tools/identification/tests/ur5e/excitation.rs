@@ -8,10 +8,7 @@ use nalgebra::DMatrix;
 use crate::generated::Ur5eExcitation;
 use crate::setup::*;
 
-const FILE: &str = concat!(
-    env!("CARGO_MANIFEST_DIR"),
-    "/tests/generated/ur5e_excitation.rs"
-);
+const FILE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/generated/ur5e_excitation.rs");
 
 fn search(search: Search) -> (FourierMotion<6>, f64) {
     let found = search.run(&*ARM, |_| true, |_| ()).expect("a motion");
@@ -20,16 +17,7 @@ fn search(search: Search) -> (FourierMotion<6>, f64) {
 
 /// The condition numbers of random motions that use the limits fully, in order.
 fn random() -> Vec<f64> {
-    let one = |seed| {
-        search(Search {
-            starts: 1,
-            fresh: 1,
-            steps: 0,
-            seed,
-            ..SEARCH
-        })
-        .1
-    };
+    let one = |seed| search(Search { starts: 1, fresh: 1, steps: 0, seed, ..SEARCH }).1;
     let mut all: Vec<f64> = (0..100).map(one).collect();
     all.sort_by(f64::total_cmp);
     all
@@ -38,11 +26,7 @@ fn random() -> Vec<f64> {
 /// `EXCITATION_WRITE=1` writes the file of the firmware.
 #[test]
 fn the_search_is_repeatable_and_as_good_as_recorded() {
-    let brief = Search {
-        starts: 1,
-        steps: 30,
-        ..SEARCH
-    };
+    let brief = Search { starts: 1, steps: 30, ..SEARCH };
     assert_eq!(search(brief), search(brief));
     let (motion, condition) = search(SEARCH);
     if std::env::var_os("EXCITATION_WRITE").is_some() {
@@ -76,10 +60,7 @@ fn the_chosen_motion_beats_100_random_ones() {
     assert!(work > 1e6, "{work}");
     rows += "| pick and place, where a joint rests | above 10⁶ |\n";
     crate::table("conditions").check(&rows);
-    assert!(
-        chosen < 0.8 * best && best < 0.5 * median && worst > 2.0 * median,
-        "{rows}"
-    );
+    assert!(chosen < 0.8 * best && best < 0.5 * median && worst > 2.0 * median, "{rows}");
 }
 
 #[test]
@@ -125,10 +106,7 @@ fn each_joint_reaches_a_limit_and_exceeds_none() {
             *most = share.into_iter().fold(*most, f64::max);
         }
     }
-    assert!(
-        shares.iter().all(|share| (0.98..1.0001).contains(share)),
-        "{shares:?}"
-    );
+    assert!(shares.iter().all(|share| (0.98..1.0001).contains(share)), "{shares:?}");
 }
 
 // Its reference in f32 follows the motion.
@@ -143,16 +121,9 @@ fn the_firmware_file_agrees_with_the_motion() {
     for tick in (0..=end + 10).step_by(7) {
         let expected: State<f64, 6, 6> = host.at(tick);
         let found = Ur5eExcitation.at(tick);
-        let pairs = [
-            (expected.q, found.q),
-            (expected.qd, found.qd),
-            (expected.qdd, found.qdd),
-        ];
+        let pairs = [(expected.q, found.q), (expected.qd, found.qd), (expected.qdd, found.qdd)];
         for (expected, found) in pairs {
-            let off = expected
-                .iter()
-                .zip(found)
-                .map(|(x, y)| (x - f64::from(y)).abs());
+            let off = expected.iter().zip(found).map(|(x, y)| (x - f64::from(y)).abs());
             most = off.fold(most, f64::max);
         }
     }
@@ -163,19 +134,10 @@ fn the_firmware_file_agrees_with_the_motion() {
 // If none is clear there is no motion.
 #[test]
 fn the_search_keeps_to_clear_configurations() {
-    let brief = Search {
-        starts: 1,
-        fresh: 60,
-        steps: 30,
-        ..SEARCH
-    };
+    let brief = Search { starts: 1, fresh: 60, steps: 30, ..SEARCH };
     let clear = |q: &[f64; 6]| q[0] < 1.6;
     let found = brief.run(&*ARM, clear, |_| ()).expect("a motion");
-    assert!(
-        states(&found.motion, SEARCH.samples as u32)
-            .iter()
-            .all(|state| clear(&state.q))
-    );
+    assert!(states(&found.motion, SEARCH.samples as u32).iter().all(|state| clear(&state.q)));
     assert!(brief.run(&*ARM, |_| false, |_| ()).is_none());
 }
 

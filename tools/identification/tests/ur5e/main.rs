@@ -15,9 +15,5 @@ mod setup;
 use host_tests::page::Table;
 
 const fn table(name: &'static str) -> Table {
-    Table {
-        page: "identification.md",
-        name,
-        test: "tools/identification/tests/ur5e",
-    }
+    Table { page: "identification.md", name, test: "tools/identification/tests/ur5e" }
 }

@@ -13,12 +13,7 @@ pub fn assert_possible(set: &PhysicalSet<6, 6>) {
     type Stored = PhysicalParameters<f32, 6, 78>;
     let all = |bodies: &[[f64; 10]; 6], joints: &[[f64; 4]; 6]| -> [f32; 78] {
         let own = joints.iter().flat_map(|joint| &joint[..3]);
-        let all: Vec<f32> = bodies
-            .as_flattened()
-            .iter()
-            .chain(own)
-            .map(|x| *x as f32)
-            .collect();
+        let all: Vec<f32> = bodies.as_flattened().iter().chain(own).map(|x| *x as f32).collect();
         all.try_into().expect("78")
     };
     let Parameters { bodies, joints } = Parameters::nominal();
@@ -48,11 +43,7 @@ fn the_physical_set_agrees_as_well_as_the_truth() {
             (off.dot(&whitened.solve(&off)) / n as f64).sqrt()
         };
         let stated = misfit(ARM.of_all(&set.bodies, &set.joints));
-        assert!(
-            (stated - set.misfit).abs() < 1e-6,
-            "{stated} {}",
-            set.misfit
-        );
+        assert!((stated - set.misfit).abs() < 1e-6, "{stated} {}", set.misfit);
         assert!(set.misfit < 1.001 * misfit(truth.base()), "{seed}");
         impossible += usize::from(set.misfit > 0.05);
     }

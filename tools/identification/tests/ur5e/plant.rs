@@ -35,15 +35,11 @@ impl Run {
     pub fn new(motion: &FourierMotion<6>, truth: &Parameters, friction: Friction) -> Self {
         let mut plant = Plant::new(truth, friction, motion.at(0.0));
         let nominal = Parameters::nominal().base();
-        let mut run = Self {
-            positions: Vec::new(),
-            torques: Vec::new(),
-        };
+        let mut run = Self { positions: Vec::new(), torques: Vec::new() };
         let mut before = plant.encoders();
         let mut speed = [0.0; 6];
-        let ahead: Vec<_> = (0..EACH)
-            .map(|k| ARM.torques(&nominal, &motion.at(TICK * k as f64)))
-            .collect();
+        let ahead: Vec<_> =
+            (0..EACH).map(|k| ARM.torques(&nominal, &motion.at(TICK * k as f64))).collect();
         for k in 0..PERIODS * EACH {
             let wanted = motion.at(TICK * k as f64);
             let q = plant.encoders();
@@ -126,10 +122,7 @@ impl Plant {
             arm,
             joints: truth.joints,
             bristles: (friction == Friction::Bristles).then(|| bristles(truth)),
-            at: State {
-                qdd: [0.0; 6],
-                ..at
-            },
+            at: State { qdd: [0.0; 6], ..at },
         }
     }
 
@@ -160,10 +153,7 @@ impl Plant {
             self.bristles = Some(bristles);
             return;
         }
-        let coulomb = Coulomb {
-            torque: of(1),
-            width: WIDTH,
-        };
+        let coulomb = Coulomb { torque: of(1), width: WIDTH };
         let scene = (RIGID_BODY, armature, Viscous(of(0)), coulomb);
         let moved = |x: &[f64; 6], rate: &[f64; 6], h: f64| -> [f64; 6] {
             std::array::from_fn(|i| x[i] + h * rate[i])
@@ -173,11 +163,7 @@ impl Plant {
         for (share, weight) in [(0.0, 1.0), (0.5, 2.0), (0.5, 2.0), (1.0, 1.0)] {
             let q = moved(&start.q, &last.0, share * TICK);
             let qd = moved(&start.qd, &last.1, share * TICK);
-            let state = State {
-                q,
-                qd,
-                qdd: [0.0; 6],
-            };
+            let state = State { q, qd, qdd: [0.0; 6] };
             let qdd = aba(&self.arm, &state, &tau, &scene).expect("an arm with mass");
             self.at.q = moved(&self.at.q, &qd, weight * TICK / 6.0);
             self.at.qd = moved(&self.at.qd, &qdd, weight * TICK / 6.0);
@@ -192,13 +178,7 @@ pub fn beyond(truth: &Parameters, motion: &FourierMotion<6>) -> Vec<[f64; 6]> {
     const STEP: f64 = 1e-4;
     let per_state = (PERIOD / STEP / 500.0) as usize;
     let of = |k: usize| truth.joints.map(|joint| joint[k]);
-    let modelled = (
-        Viscous(of(0)),
-        Coulomb {
-            torque: of(1),
-            width: WIDTH,
-        },
-    );
+    let modelled = (Viscous(of(0)), Coulomb { torque: of(1), width: WIDTH });
     let mut friction = bristles(truth);
     let mut all = Vec::new();
     for k in 0..2 * 500 * per_state {

@@ -37,15 +37,8 @@ pub const LIMITS: ExcitationLimits<6> = ExcitationLimits {
     torque: RATED,
 };
 
-pub const SEARCH: Search = Search {
-    period: PERIOD,
-    harmonics: 5,
-    samples: 60,
-    starts: 4,
-    fresh: 20,
-    steps: 500,
-    seed: 1,
-};
+pub const SEARCH: Search =
+    Search { period: PERIOD, harmonics: 5, samples: 60, starts: 4, fresh: 20, steps: 500, seed: 1 };
 
 pub static ARM: LazyLock<Arm> =
     LazyLock::new(|| BaseModel::new(Ur5e::MODEL, RIGID_BODY, WIDTH, LIMITS));
@@ -74,11 +67,7 @@ pub fn pick_and_place() -> Vec<State<f64, 6, 6>> {
     let ticks = (0..Reference::<f32, 6>::ticks(&path)).step_by(20);
     let states = ticks.map(|tick| {
         let State { q, qd, qdd } = path.at(tick);
-        State {
-            q: q.map(f64::from),
-            qd: qd.map(f64::from),
-            qdd: qdd.map(f64::from),
-        }
+        State { q: q.map(f64::from), qd: qd.map(f64::from), qdd: qdd.map(f64::from) }
     });
     states.collect()
 }
@@ -102,10 +91,7 @@ pub struct Parameters {
 
 impl Parameters {
     pub fn nominal() -> Self {
-        Self {
-            bodies: inertial_parameters(&Ur5e::MODEL, &()),
-            joints: JOINTS,
-        }
+        Self { bodies: inertial_parameters(&Ur5e::MODEL, &()), joints: JOINTS }
     }
 
     /// Each mass, each component of each centre of mass, the inertias of each body about its

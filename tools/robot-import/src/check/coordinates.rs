@@ -33,9 +33,7 @@ pub fn motion(kind: Kind, u: &[f64], ud: &[f64], udd: &[f64]) -> JointMotion {
     }
     let [pose, rate, second] = derivatives(kind, u, ud, udd);
     let columns = (0..u.len()).map(|i| {
-        let unit: Vec<f64> = (0..u.len())
-            .map(|k| if k == i { 1.0 } else { 0.0 })
-            .collect();
+        let unit: Vec<f64> = (0..u.len()).map(|k| if k == i { 1.0 } else { 0.0 }).collect();
         let [pose, rate, _] = derivatives(kind, u, &unit, &vec![0.0; u.len()]);
         selected(kind, velocity(&pose, &rate))
     });

@@ -59,17 +59,8 @@ impl<'a> Energy<'a> {
                 coordinates += axes(robot.joints[j].kind).len();
             }
         }
-        let masses = robot
-            .links
-            .iter()
-            .map(|link| link.inertial.as_ref().map(second_moments));
-        Self {
-            masses: masses.collect(),
-            robot,
-            selected,
-            first,
-            coordinates,
-        }
+        let masses = robot.links.iter().map(|link| link.inertial.as_ref().map(second_moments));
+        Self { masses: masses.collect(), robot, selected, first, coordinates }
     }
 
     /// The forces on the coordinates u of a motion.
@@ -93,13 +84,7 @@ impl<'a> Energy<'a> {
             if self.selected.roles[j] == Role::Moves {
                 let before = placed(&value(parent), &joint.origin);
                 let own = self.first[j]..self.first[j] + axes(joint.kind).len();
-                forces(
-                    before,
-                    &steps(joint),
-                    &u[own.clone()],
-                    &sum,
-                    &mut torque[own],
-                );
+                forces(before, &steps(joint), &u[own.clone()], &sum, &mut torque[own]);
             }
             add(&mut sums[joint.parent], &sum);
         }
@@ -161,10 +146,7 @@ impl Step {
 
 /// One of [`BALL`], [`PLANE`] or [`FREE`].
 fn step_along(axis: usize) -> Step {
-    Step {
-        is_turn: axis < 3,
-        axis: DVec3::AXES[axis % 3],
-    }
+    Step { is_turn: axis < 3, axis: DVec3::AXES[axis % 3] }
 }
 
 /// The one-coordinate joints in place of a joint, with their axes.
@@ -174,10 +156,7 @@ fn steps(joint: &Joint) -> Vec<Step> {
             is_turn: joint.kind != Kind::Prismatic,
             axis: joint.axis.normalize_or_zero(),
         }],
-        false => axes(joint.kind)
-            .iter()
-            .map(|&axis| step_along(axis))
-            .collect(),
+        false => axes(joint.kind).iter().map(|&axis| step_along(axis)).collect(),
     }
 }
 
@@ -400,9 +379,7 @@ mod tests {
                 Dual::new(Dual::new(x, rate), Dual::new(outer, 0.0))
             };
             let u: Vec<_> = (0..u.len()).map(|k| in_time(u[k], ud[k], 0.0)).collect();
-            let ud: Vec<_> = (0..u.len())
-                .map(|k| in_time(ud[k], udd[k], unit(k)))
-                .collect();
+            let ud: Vec<_> = (0..u.len()).map(|k| in_time(ud[k], udd[k], unit(k))).collect();
             lagrangian(energy, &u, &ud).eps.eps - slope
         };
         (0..u.len()).map(along).collect()
@@ -422,8 +399,7 @@ mod tests {
             let energy = Energy::of(&robot, &selected);
             let number = |size: f64, phase: f64| -> Vec<f64> {
                 let each = 0..energy.coordinates;
-                each.map(|i| size * (1.7 * i as f64 + phase).sin())
-                    .collect()
+                each.map(|i| size * (1.7 * i as f64 + phase).sin()).collect()
             };
             let (u, ud, udd) = (number(1.2, 0.3), number(2.0, 1.1), number(5.0, 2.3));
             let expected = by_derivatives(&energy, &u, &ud, &udd);

@@ -31,9 +31,7 @@ pub fn loops(
     let (library, energy) = (AnyModel::of(given)?, Energy::of(robot, selected));
     let (mut random, mut most) = (Random::new(2), 0.0_f64);
     for _ in 0..states {
-        let u: Vec<f64> = (0..energy.coordinates)
-            .map(|_| SIZE * random.symmetric())
-            .collect();
+        let u: Vec<f64> = (0..energy.coordinates).map(|_| SIZE * random.symmetric()).collect();
         let still = vec![0.0; u.len()];
         let (motion, _) = in_library(given, &u, &still, &still);
         let (links, bodies) = (energy.poses(&u), library.poses(&motion.q));
@@ -44,10 +42,8 @@ pub fn loops(
                     return Ok(f64::INFINITY);
                 };
                 let expected = product(link, &rows(&source.frames[i]));
-                let own = rows(&Pose {
-                    position: DVec3::from_array(*xyz),
-                    rotation: rotation(attitude),
-                });
+                let own =
+                    rows(&Pose { position: DVec3::from_array(*xyz), rotation: rotation(attitude) });
                 let found = match body {
                     Some(body) => product(&bodies[*body], &own),
                     None => product(&identity(), &own),

@@ -96,9 +96,7 @@ pub fn check_trees(
     let of_inertia = (MOST_WORK_OF_INERTIA / (v * v)).max(1);
     for state in 0..states {
         let mut draw = |size: f64| -> Vec<f64> {
-            (0..energy.coordinates)
-                .map(|_| size * random.symmetric())
-                .collect()
+            (0..energy.coordinates).map(|_| size * random.symmetric()).collect()
         };
         let (u, ud, udd) = (draw(SIZE), draw(2.0), draw(5.0));
         let by_energy = energy.torque(&u, &ud, &udd);
@@ -118,11 +116,7 @@ pub fn check_trees(
         checked.samples.push((motion, found));
     }
     // A robot without mass has no torque.
-    let scale = if checked.full_scale > 0.0 {
-        checked.full_scale
-    } else {
-        1.0
-    };
+    let scale = if checked.full_scale > 0.0 { checked.full_scale } else { 1.0 };
     for difference in [&mut checked.energy, &mut checked.snapping, &mut checked.f32] {
         *difference /= scale;
     }
@@ -131,11 +125,7 @@ pub fn check_trees(
 
 /// A motion of the chains in the library's coordinates, with ∂v/∂u̇ of each body.
 fn in_library(tree: &Tree, u: &[f64], ud: &[f64], udd: &[f64]) -> (Motion, Vec<Vec<Vec<f64>>>) {
-    let mut motion = Motion {
-        q: Vec::new(),
-        qd: Vec::new(),
-        qdd: Vec::new(),
-    };
+    let mut motion = Motion { q: Vec::new(), qd: Vec::new(), qdd: Vec::new() };
     let (mut at, mut columns) = (0, Vec::new());
     for body in &tree.bodies {
         let range = at..at + energy::axes(body.kind).len();
@@ -166,13 +156,7 @@ fn on_chain(columns: &[Vec<Vec<f64>>], torque: &[f64]) -> Vec<f64> {
 /// The largest difference; infinite if one is not a number.
 fn largest(a: &[f64], b: &[f64]) -> f64 {
     let apart = a.iter().zip(b).map(|(a, b)| (a - b).abs());
-    apart.fold(0.0, |most: f64, x| {
-        if x.is_nan() {
-            f64::INFINITY
-        } else {
-            most.max(x)
-        }
-    })
+    apart.fold(0.0, |most: f64, x| if x.is_nan() { f64::INFINITY } else { most.max(x) })
 }
 
 /// The decadic logarithm of the ratio of the largest pivot of M to the smallest: a bound from below
@@ -188,9 +172,5 @@ fn condition(m: &[Vec<f64>]) -> f64 {
             entries.for_each(|(entry, &other)| *entry -= factor / pivot * other);
         }
     }
-    if least > 0.0 {
-        (most / least).log10()
-    } else {
-        f64::INFINITY
-    }
+    if least > 0.0 { (most / least).log10() } else { f64::INFINITY }
 }

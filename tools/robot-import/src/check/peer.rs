@@ -136,9 +136,7 @@ pub fn compare(
     let answer: Answer = serde_json::from_slice(&ended.stdout)
         .map_err(|error| failed(format!("its answer is none: {error}")))?;
     if answer.torques.len() != checked.samples.len() {
-        return Err(failed(
-            "it answered for another number of states".to_owned(),
-        ));
+        return Err(failed("it answered for another number of states".to_owned()));
     }
     let mut peer = difference(&answer, tree, checked);
     peer.complaint = complaint(&ended.messages);
@@ -148,9 +146,8 @@ pub fn compare(
 /// The comparison of an answer.
 fn difference(answer: &Answer, tree: &Tree, checked: &Checked) -> Peer {
     let joints = tree.bodies.iter();
-    let joints: Vec<&str> = joints
-        .flat_map(|body| vec![body.joint.as_str(); body.kind.coordinates()[1]])
-        .collect();
+    let joints: Vec<&str> =
+        joints.flat_map(|body| vec![body.joint.as_str(); body.kind.coordinates()[1]]).collect();
     let (mut most, mut joint) = (0.0, "");
     for ((_, own), theirs) in checked.samples.iter().zip(&answer.torques) {
         if own.len() != theirs.len() {
@@ -163,11 +160,7 @@ fn difference(answer: &Answer, tree: &Tree, checked: &Checked) -> Peer {
             }
         }
     }
-    let scale = if checked.full_scale > 0.0 {
-        checked.full_scale
-    } else {
-        1.0
-    };
+    let scale = if checked.full_scale > 0.0 { checked.full_scale } else { 1.0 };
     Peer {
         name: printable(&answer.name),
         difference: most / scale,
@@ -237,14 +230,8 @@ fn started(python: &Python, request: Vec<u8>) -> Result<Ended, NoPeer> {
         false => &["-I"],
     };
     let mut command = Command::new(absolute(&python.program));
-    command
-        .args(isolation)
-        .args(["-c", SCRIPT])
-        .current_dir(folder.path());
-    let bounds = Bounds {
-        time: python.time,
-        bytes: MOST_ANSWER,
-    };
+    command.args(isolation).args(["-c", SCRIPT]).current_dir(folder.path());
+    let bounds = Bounds { time: python.time, bytes: MOST_ANSWER };
     run(&mut command, request, bounds).map_err(|failure| match failure {
         Failure::System(error) if error.kind() == std::io::ErrorKind::NotFound => {
             NoPeer::Absent(format!("{}: {error}", python.program))
@@ -254,10 +241,9 @@ fn started(python: &Python, request: Vec<u8>) -> Result<Ended, NoPeer> {
             "it had not answered after {} s and was ended; `--peer-time` gives it more",
             python.time.as_secs_f64()
         )),
-        Failure::Bytes => failed(format!(
-            "it wrote more than {} MB and was ended",
-            MOST_ANSWER >> 20
-        )),
+        Failure::Bytes => {
+            failed(format!("it wrote more than {} MB and was ended", MOST_ANSWER >> 20))
+        }
     })
 }
 
@@ -280,9 +266,7 @@ fn last_line(messages: &[u8]) -> String {
 /// The first messages, without the places in the peer's own source.
 fn complaint(messages: &[u8]) -> String {
     let text = String::from_utf8_lossy(messages);
-    let lines = text
-        .lines()
-        .filter(|line| !line.trim_start().starts_with("at line"));
+    let lines = text.lines().filter(|line| !line.trim_start().starts_with("at line"));
     let mut shown: Vec<String> = Vec::new();
     for line in lines.map(printable).filter(|line| !line.is_empty()) {
         if !shown.contains(&line) && shown.len() < MOST_COMPLAINTS {

@@ -53,28 +53,19 @@ pub fn run(command: &mut Command, input: Vec<u8>, bounds: Bounds) -> Result<Ende
     let deadline = Instant::now() + bounds.time;
     #[cfg(unix)]
     std::os::unix::process::CommandExt::process_group(command, 0);
-    let piped = command
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped());
+    let piped = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
     let mut child = piped.spawn().map_err(Failure::System)?;
     if let Some(mut stdin) = child.stdin.take() {
         // A process that does not read must not block this one; one that ends early says why on
         // stderr.
         thread::spawn(move || stdin.write_all(&input));
     }
-    let stdout = in_thread(child.stdout.take(), move |pipe| {
-        beginning(pipe, bounds.bytes)
-    });
+    let stdout = in_thread(child.stdout.take(), move |pipe| beginning(pipe, bounds.bytes));
     let stderr = in_thread(child.stderr.take(), ending);
     let done = finished(&mut child, &stdout, deadline, bounds.bytes);
     end(&mut child);
     let (code, stdout) = done?;
-    Ok(Ended {
-        code,
-        stdout,
-        messages: stderr.recv_timeout(REST).unwrap_or_default(),
-    })
+    Ok(Ended { code, stdout, messages: stderr.recv_timeout(REST).unwrap_or_default() })
 }
 
 /// The exit status and the stdout of a process that ends before the deadline.
@@ -136,10 +127,7 @@ fn end(child: &mut Child) {
     {
         use nix::sys::signal::{Signal, killpg};
         // It fails if all of them have ended, which is what is wanted.
-        let _ = killpg(
-            nix::unistd::Pid::from_raw(child.id().cast_signed()),
-            Signal::SIGKILL,
-        );
+        let _ = killpg(nix::unistd::Pid::from_raw(child.id().cast_signed()), Signal::SIGKILL);
     }
     let _ = child.kill();
     let _ = child.wait();

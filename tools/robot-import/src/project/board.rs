@@ -59,10 +59,7 @@ pub static BOARDS: [Board; 2] = [
         chip_feature: "stm32f446",
         spi_rate: ", 10 MHz",
         pins: include_str!("../../template/board/nucleo-f446re/pins.md"),
-        files: [
-            RTIC,
-            files!["board/nucleo-f446re": "memory.x", "src/pins.rs"],
-        ],
+        files: [RTIC, files!["board/nucleo-f446re": "memory.x", "src/pins.rs"]],
     },
     Board {
         name: "pico2",
@@ -91,9 +88,8 @@ pub static BOARDS: [Board; 2] = [
 ];
 
 /// The names of the joints' placeholders.
-pub(super) const JOINTS: [&str; 6] = [
-    "joint 1", "joint 2", "joint 3", "joint 4", "joint 5", "joint 6",
-];
+pub(super) const JOINTS: [&str; 6] =
+    ["joint 1", "joint 2", "joint 3", "joint 4", "joint 5", "joint 6"];
 
 impl Board {
     /// The files of its template.
@@ -124,10 +120,7 @@ pub(super) fn of_joints(text: &str, joints: usize) -> String {
     let mut kept = String::new();
     for line in text.lines() {
         let of_row = number(line, " <!-- joint ", " -->");
-        if of_row
-            .or(number(line, "// joint ", ""))
-            .is_some_and(|joint| joint > joints)
-        {
+        if of_row.or(number(line, "// joint ", "")).is_some_and(|joint| joint > joints) {
             continue;
         }
         let line = match of_row {
@@ -141,9 +134,7 @@ pub(super) fn of_joints(text: &str, joints: usize) -> String {
 
 /// The boards with their frameworks, for a list.
 pub(super) fn all(name: Option<&str>) -> String {
-    let listed = BOARDS
-        .iter()
-        .filter(|board| name.is_none_or(|name| name == board.name));
+    let listed = BOARDS.iter().filter(|board| name.is_none_or(|name| name == board.name));
     let words = listed.map(|board| format!("{} with {}", board.name, board.framework));
     words.collect::<Vec<_>>().join(", ")
 }

@@ -14,10 +14,7 @@ impl Board {
             return Err(ProjectError::Board(name.to_owned()));
         }
         let fits = |board: &&Self| framework.is_none_or(|wanted| wanted == board.framework);
-        let no_such = |framework| ProjectError::Framework {
-            board: name.to_owned(),
-            framework,
-        };
+        let no_such = |framework| ProjectError::Framework { board: name.to_owned(), framework };
         match (of_name().find(fits), framework) {
             (Some(board), _) => Ok(board),
             (None, wanted) => Err(no_such(wanted.unwrap_or(Framework::Rtic))),

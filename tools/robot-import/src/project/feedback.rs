@@ -48,10 +48,7 @@ pub struct Feedback {
 
 impl Default for Feedback {
     fn default() -> Self {
-        Self {
-            omega_n: OMEGA_N,
-            words: Vec::new(),
-        }
+        Self { omega_n: OMEGA_N, words: Vec::new() }
     }
 }
 
@@ -212,26 +209,16 @@ impl Place {
             })
             .collect();
         let gravity = (0..q.len())
-            .map(|i| {
-                (0..q.len())
-                    .map(|j| 0.5 * (columns[i][j] + columns[j][i]))
-                    .collect()
-            })
+            .map(|i| (0..q.len()).map(|j| 0.5 * (columns[i][j] + columns[j][i])).collect())
             .collect();
-        Self {
-            q: q.to_vec(),
-            mass,
-            gravity,
-        }
+        Self { q: q.to_vec(), mass, gravity }
     }
 
     /// The first joint with which the feedback's share of stiffness does not hold the robot.
     fn falls(&self, omega_n: f64) -> Option<usize> {
         let sum = |(mass, gravity): (&Vec<f64>, &Vec<f64>)| {
             let entries = mass.iter().zip(gravity);
-            entries
-                .map(|(m, g)| SHARE * omega_n * omega_n * m + g)
-                .collect()
+            entries.map(|(m, g)| SHARE * omega_n * omega_n * m + g).collect()
         };
         let stiffness: Vec<Vec<f64>> = self.mass.iter().zip(&self.gravity).map(sum).collect();
         factor(&stiffness).err()
@@ -295,19 +282,13 @@ fn home(tree: &Tree) -> Vec<f64> {
         }
         None => 0.0,
     };
-    tree.bodies
-        .iter()
-        .map(|body| of(&body.limits.position))
-        .collect()
+    tree.bodies.iter().map(|body| of(&body.limits.position)).collect()
 }
 
 /// The place where the motion turns back, as in the template's `scene.rs`.
 fn away(tree: &Tree, home: &[f64]) -> Vec<f64> {
     let of = |(body, home): (&Body, &f64)| {
-        let [lower, upper] = body
-            .limits
-            .position
-            .unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
+        let [lower, upper] = body.limits.position.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
         if upper - lower < NARROW * RESOLUTION * ratio(body.kind) {
             return *home;
         }
@@ -322,11 +303,7 @@ fn away(tree: &Tree, home: &[f64]) -> Vec<f64> {
 /// The greatest torque of each joint along the motion.
 fn needed(tree: &Tree, model: &AnyModel, home: &[f64]) -> Vec<f64> {
     let away = away(tree, home);
-    let way: Vec<f64> = away
-        .iter()
-        .zip(home)
-        .map(|(away, home)| away - home)
-        .collect();
+    let way: Vec<f64> = away.iter().zip(home).map(|(away, home)| away - home).collect();
     let seconds = tree
         .bodies
         .iter()
@@ -345,11 +322,7 @@ fn needed(tree: &Tree, model: &AnyModel, home: &[f64]) -> Vec<f64> {
         for sign in [1.0, -1.0] {
             let scaled = |factor: f64| way.iter().map(|way| factor * way).collect::<Vec<f64>>();
             let motion = Motion {
-                q: scaled(place)
-                    .iter()
-                    .zip(home)
-                    .map(|(way, home)| way + home)
-                    .collect(),
+                q: scaled(place).iter().zip(home).map(|(way, home)| way + home).collect(),
                 qd: scaled(sign * speed),
                 // The way back is the same in the opposite direction of time.
                 qdd: scaled(acceleration),

@@ -18,14 +18,8 @@ const WORKSPACE: &str = include_str!("../../../../Cargo.toml");
 pub(super) const LOCK: &str = include_str!("../../../../Cargo.lock");
 pub(super) const LOCK_OF_BOARDS: &str = include_str!("../../../../firmware-demo/boards/Cargo.lock");
 const LICENCES: [(&str, &str); 2] = [
-    (
-        "libraries/LICENSE-APACHE",
-        include_str!("../../../../LICENSE-APACHE"),
-    ),
-    (
-        "libraries/LICENSE-MIT",
-        include_str!("../../../../LICENSE-MIT"),
-    ),
+    ("libraries/LICENSE-APACHE", include_str!("../../../../LICENSE-APACHE")),
+    ("libraries/LICENSE-MIT", include_str!("../../../../LICENSE-MIT")),
 ];
 
 /// The folder of a project with the crates.
@@ -156,11 +150,8 @@ mod tests {
     #[test]
     fn no_crate_of_the_repository_keeps_what_only_the_repository_has() {
         for one in CRATES {
-            let (_, text) = one
-                .files
-                .iter()
-                .find(|file| file.0 == "Cargo.toml")
-                .expect("a manifest");
+            let (_, text) =
+                one.files.iter().find(|file| file.0 == "Cargo.toml").expect("a manifest");
             let text = stand_alone(text, WORKSPACE);
             assert!(!text.contains("workspace"), "{text}");
             for path in text.split("path = \"").skip(1) {
@@ -176,11 +167,7 @@ mod tests {
         let files = copies("joint-drivers = { path = \"libraries/drivers\" }");
         for one in ["drivers", "dynamics-core", "motion-control"] {
             let manifest = format!("libraries/{one}/Cargo.toml");
-            assert_eq!(
-                files.iter().filter(|file| file.0 == manifest).count(),
-                1,
-                "{one}"
-            );
+            assert_eq!(files.iter().filter(|file| file.0 == manifest).count(), 1, "{one}");
         }
         assert!(!files.iter().any(|file| file.0.contains("/telemetry/")));
     }

@@ -124,10 +124,7 @@ impl Library {
             }
             Self::Git(address) => {
                 let wrong = || ProjectError::Library(address.clone());
-                Ok(format!(
-                    "{{ git = {} }}",
-                    toml_string(address).ok_or_else(wrong)?
-                ))
+                Ok(format!("{{ git = {} }}", toml_string(address).ok_or_else(wrong)?))
             }
         }
     }
@@ -208,29 +205,18 @@ pub fn create(folder: &Path, project: &Project) -> Result<Created, ProjectError>
         Some(_) => Vec::new(),
         None => notes(project),
     };
-    Ok(Created {
-        files,
-        robot_only,
-        notes,
-    })
+    Ok(Created { files, robot_only, notes })
 }
 
 /// Notes for the user of a project.
 fn notes(project: &Project) -> Vec<String> {
     let Feedback { omega_n, words } = &project.robot.feedback;
-    let mut notes: Vec<String> = project
-        .robot
-        .coupled
-        .then(|| COUPLED.to_owned())
-        .into_iter()
-        .collect();
+    let mut notes: Vec<String> =
+        project.robot.coupled.then(|| COUPLED.to_owned()).into_iter().collect();
     let is_c = matches!(project.kind, Kind::C);
     if *omega_n > OMEGA_N {
-        let taken = if is_c {
-            "give the controller as much"
-        } else {
-            "`OMEGA_N` in src/scene.rs is that"
-        };
+        let taken =
+            if is_c { "give the controller as much" } else { "`OMEGA_N` in src/scene.rs is that" };
         notes.push(format!(
             "the links of this file have little inertia for their weight, and a feedback of \
              {OMEGA_N} rad/s does not hold them against gravity within the joints' limits; \
@@ -309,10 +295,7 @@ fn format(files: &[PathBuf], libraries: &Path) {
     if let Some(folder) = files.first().and_then(|file| file.parent()) {
         rustfmt.current_dir(folder);
     }
-    let silent = rustfmt
-        .args(sources)
-        .stdout(Stdio::null())
-        .stderr(Stdio::null());
+    let silent = rustfmt.args(sources).stdout(Stdio::null()).stderr(Stdio::null());
     // A project whose lines are too long is as good.
     let _ = silent.status();
 }
@@ -335,20 +318,13 @@ fn values(project: &Project) -> Result<Vec<Value>, ProjectError> {
     let robot = &project.robot;
     let crate_name = snake_case(&project.name);
     let prefix = crate_name.to_ascii_uppercase();
-    let form = if robot.v > MOST_JOINTS_FOLDED {
-        "Core"
-    } else {
-        "Engine"
-    };
+    let form = if robot.v > MOST_JOINTS_FOLDED { "Core" } else { "Engine" };
     let (names, types, effects) = robot.effects.in_scene(&["Gravity", "Inertia", "Coriolis"]);
     let (_, force_types, force_values) = robot.effects.in_scene(&["Inertia", "Coriolis"]);
     let taken = &constants(C);
     let mut values = vec![
         ("project-name", project.name.clone()),
-        (
-            "joints",
-            enumerators(&prefix, "JOINT", &robot.joints, taken),
-        ),
+        ("joints", enumerators(&prefix, "JOINT", &robot.joints, taken)),
         ("bodies", enumerators(&prefix, "BODY", &robot.bodies, taken)),
         ("n", robot.v.to_string()),
         ("omega_n", format!("{:.1}", robot.feedback.omega_n)),

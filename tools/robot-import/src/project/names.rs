@@ -31,10 +31,7 @@ pub(super) fn check_name(name: &str) -> Result<(), ProjectError> {
     if name.len() > 60 {
         return wrong("it is longer than 60 characters");
     }
-    if RESERVED
-        .split_whitespace()
-        .any(|reserved| reserved == snake_case(name))
-    {
+    if RESERVED.split_whitespace().any(|reserved| reserved == snake_case(name)) {
         return wrong("Rust, Cargo or a dependency uses it; add `-arm` for example");
     }
     Ok(())

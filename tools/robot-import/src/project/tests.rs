@@ -14,10 +14,7 @@ fn pendulum() -> RobotFile {
         q: 1,
         v: 1,
         coupled: false,
-        effects: FileEffects {
-            viscous: true,
-            ..FileEffects::default()
-        },
+        effects: FileEffects { viscous: true, ..FileEffects::default() },
         feedback: Feedback::default(),
     }
 }
@@ -57,28 +54,15 @@ fn no_placeholder_is_left_in_a_project() {
     for c in [false, true] {
         let folder = Folder::new(if c { "c" } else { "rust" });
         let created = create(&folder.0, &project(c)).unwrap_or_else(|error| panic!("{error}"));
-        assert_eq!(
-            created.files.len(),
-            2 + if c { C.len() } else { RUST.len() }
-        );
+        assert_eq!(created.files.len(), 2 + if c { C.len() } else { RUST.len() });
         for file in &created.files {
             let text = read(file);
-            assert!(
-                !text.contains("{{") && !text.contains("{%"),
-                "{}",
-                file.display()
-            );
+            assert!(!text.contains("{{") && !text.contains("{%"), "{}", file.display());
         }
         let manifest = read(&folder.0.join("Cargo.toml"));
-        assert!(
-            manifest.contains(r#"{ path = "/a \"b\"\\c" }"#),
-            "{manifest}"
-        );
+        assert!(manifest.contains(r#"{ path = "/a \"b\"\\c" }"#), "{manifest}");
         let scene = read(&folder.0.join("src/scene.rs"));
-        assert!(
-            scene.contains("effects::{Coriolis, Gravity, Inertia, Viscous};"),
-            "{scene}"
-        );
+        assert!(scene.contains("effects::{Coriolis, Gravity, Inertia, Viscous};"), "{scene}");
         if c {
             let header = read(&folder.0.join("include/my_arm.h"));
             assert!(header.contains("MY_ARM_JOINT_BEARING = 0,"), "{header}");
@@ -91,12 +75,7 @@ fn for_board(board: &'static Board, joints: &[&str]) -> Project {
     let mut robot = pendulum();
     robot.joints = joints.iter().map(|&joint| joint.into()).collect();
     (robot.b, robot.q, robot.v) = (joints.len(), joints.len(), joints.len());
-    Project {
-        robot,
-        library: Library::Copy,
-        kind: Kind::Board(board),
-        ..project(false)
-    }
+    Project { robot, library: Library::Copy, kind: Kind::Board(board), ..project(false) }
 }
 
 const NAMES: [&str; 6] = ["a", "b", "c|d`\u{202e}", "{{n}}", "e -->", "// joint 9"];
@@ -107,40 +86,22 @@ fn a_project_for_a_board_has_the_lines_of_its_joints_alone() {
         for joints in 1..=board.most_joints {
             let files =
                 files(&for_board(board, &NAMES[..joints])).unwrap_or_else(|e| panic!("{e}"));
-            let own = files
-                .iter()
-                .filter(|(path, _)| !path.starts_with("libraries/"));
+            let own = files.iter().filter(|(path, _)| !path.starts_with("libraries/"));
             let text: String = own.clone().map(|(_, text)| text.as_str()).collect();
             let pins = own.clone().find(|(path, _)| path == "src/pins.rs");
-            let pins = &pins
-                .unwrap_or_else(|| panic!("no pins for {}", board.name))
-                .1;
+            let pins = &pins.unwrap_or_else(|| panic!("no pins for {}", board.name)).1;
             // A select and a PWM channel.
             for joint in 1..=board.most_joints {
-                let lines = pins
-                    .lines()
-                    .filter(|line| line.ends_with(&format!("// joint {joint}")));
+                let lines =
+                    pins.lines().filter(|line| line.ends_with(&format!("// joint {joint}")));
                 let count = lines.filter(|line| !line.starts_with("use ")).count();
                 assert_eq!(count >= 2, joint <= joints, "{} {joint}", board.name);
             }
-            assert!(
-                !text.contains("<!-- joint") && !text.contains("{{pins"),
-                "{}",
-                board.name
-            );
-            assert_eq!(
-                text.matches("{{").count(),
-                usize::from(joints > 3),
-                "{}",
-                board.name
-            );
-            let readme = own
-                .clone()
-                .find(|(path, _)| path == "README.md")
-                .expect("a README");
-            let rows: Vec<_> = (readme.1.lines())
-                .filter(|line| line.starts_with("| joint "))
-                .collect();
+            assert!(!text.contains("<!-- joint") && !text.contains("{{pins"), "{}", board.name);
+            assert_eq!(text.matches("{{").count(), usize::from(joints > 3), "{}", board.name);
+            let readme = own.clone().find(|(path, _)| path == "README.md").expect("a README");
+            let rows: Vec<_> =
+                (readme.1.lines()).filter(|line| line.starts_with("| joint ")).collect();
             assert_eq!(rows.len(), joints);
             for row in rows {
                 assert_eq!(row.matches('|').count(), 3, "{row}");
@@ -156,10 +117,7 @@ fn a_project_for_a_board_has_the_lines_of_its_joints_alone() {
 #[test]
 fn a_project_has_no_path_out_of_its_folder() {
     let boards = BOARDS.iter().map(|board| for_board(board, &["a"]));
-    let others = [false, true].map(|c| Project {
-        library: Library::Copy,
-        ..project(c)
-    });
+    let others = [false, true].map(|c| Project { library: Library::Copy, ..project(c) });
     for project in boards.chain(others) {
         let files = files(&project).unwrap_or_else(|error| panic!("{error}"));
         let mut manifests = 0;
@@ -168,10 +126,7 @@ fn a_project_has_no_path_out_of_its_folder() {
                 continue;
             };
             manifests += 1;
-            assert!(
-                !text.contains("workspace = true") && !text.contains("git ="),
-                "{text}"
-            );
+            assert!(!text.contains("workspace = true") && !text.contains("git ="), "{text}");
             for target in text.split("path = \"").skip(1) {
                 let target = target.split('"').next().unwrap_or_default();
                 // From a library to one beside it.
@@ -191,10 +146,7 @@ fn a_project_has_no_path_out_of_its_folder() {
             for target in text.split("include_str!(\"").skip(1) {
                 let target = target.split('"').next().unwrap_or_default();
                 let found = included(path, target);
-                assert!(
-                    files.iter().any(|(file, _)| *file == found),
-                    "{path}: {target}"
-                );
+                assert!(files.iter().any(|(file, _)| *file == found), "{path}: {target}");
             }
         }
     }
@@ -215,11 +167,8 @@ fn included(path: &str, target: &str) -> String {
 
 #[test]
 fn what_no_board_has_is_refused_with_what_there_is() {
-    let said = |name, framework| {
-        Board::find(name, framework)
-            .map(|_| ())
-            .map_err(|e| e.to_string())
-    };
+    let said =
+        |name, framework| Board::find(name, framework).map(|_| ()).map_err(|e| e.to_string());
     for board in &BOARDS {
         assert_eq!(said(board.name, None), Ok(()));
         assert_eq!(said(board.name, Some(board.framework)), Ok(()));
@@ -231,23 +180,10 @@ fn what_no_board_has_is_refused_with_what_there_is() {
     );
     assert!(error.contains(r"uno\u{1b}"), "{error}");
     let error = said("pico2", Some(Framework::Rtic)).expect_err("no such firmware");
-    assert!(
-        error.contains("pico2 with Embassy") && !error.contains("nucleo"),
-        "{error}"
-    );
+    assert!(error.contains("pico2 with Embassy") && !error.contains("nucleo"), "{error}");
     let folder = Folder::new("seven");
     let error = create(&folder.0, &for_board(&BOARDS[0], &["a"; 7])).expect_err("seven joints");
-    assert!(
-        matches!(
-            error,
-            ProjectError::TooManyJoints {
-                joints: 7,
-                most: 6,
-                ..
-            }
-        ),
-        "{error}"
-    );
+    assert!(matches!(error, ProjectError::TooManyJoints { joints: 7, most: 6, .. }), "{error}");
     assert!(!folder.0.exists());
 }
 
@@ -255,13 +191,8 @@ fn what_no_board_has_is_refused_with_what_there_is() {
 fn the_boards_use_the_versions_of_the_lock_file() {
     for board in &BOARDS {
         let files = files(&for_board(board, &["a"])).unwrap_or_else(|error| panic!("{error}"));
-        let (_, manifest) = files
-            .iter()
-            .find(|file| file.0 == "Cargo.toml")
-            .expect("a manifest");
-        let (_, dependencies) = manifest
-            .split_once("[dependencies]\n")
-            .expect("dependencies");
+        let (_, manifest) = files.iter().find(|file| file.0 == "Cargo.toml").expect("a manifest");
+        let (_, dependencies) = manifest.split_once("[dependencies]\n").expect("dependencies");
         let registry = dependencies
             .lines()
             .take_while(|line| !line.is_empty())
@@ -287,10 +218,7 @@ fn templates_have_only_what_cargo_generate_knows() {
     for (c, template) in [(false, RUST), (true, C)] {
         let mut used = Vec::new();
         for file in template {
-            for part in [file.path, file.text]
-                .iter()
-                .flat_map(|text| text.split("{{").skip(1))
-            {
+            for part in [file.path, file.text].iter().flat_map(|text| text.split("{{").skip(1)) {
                 used.push(part.split("}}").next().unwrap_or_default());
             }
         }
@@ -299,9 +227,8 @@ fn templates_have_only_what_cargo_generate_knows() {
         assert!(used.len() > 3);
         for name in used {
             let is_built_in = ["project-name", "crate_name", "crate_name | upcase"].contains(&name);
-            let is_placeholder = config(c)
-                .lines()
-                .any(|line| line.starts_with(&format!("{name} = ")));
+            let is_placeholder =
+                config(c).lines().any(|line| line.starts_with(&format!("{name} = ")));
             assert!(is_built_in || is_placeholder, "{name}");
         }
     }
@@ -319,37 +246,19 @@ fn a_folder_with_files_is_left_as_it_is() {
 
 #[test]
 fn names_that_are_no_crates_are_refused() {
-    for name in [
-        "",
-        "My-arm",
-        "1arm",
-        "a b",
-        "../x",
-        "core",
-        "dynamics-core",
-        "self",
-        "ärm",
-    ] {
-        let project = Project {
-            name: name.into(),
-            ..project(false)
-        };
+    for name in ["", "My-arm", "1arm", "a b", "../x", "core", "dynamics-core", "self", "ärm"] {
+        let project = Project { name: name.into(), ..project(false) };
         let folder = Folder::new("name");
         let error = create(&folder.0, &project).expect_err(name);
-        assert!(
-            matches!(error, ProjectError::Name { .. }),
-            "{name}: {error}"
-        );
+        assert!(matches!(error, ProjectError::Name { .. }), "{name}: {error}");
         assert!(!folder.0.exists());
     }
 }
 
 #[test]
 fn addresses_that_are_no_toml_are_refused() {
-    let project = Project {
-        library: Library::Git("https://example.org/a\nb".into()),
-        ..project(false)
-    };
+    let project =
+        Project { library: Library::Git("https://example.org/a\nb".into()), ..project(false) };
     let folder = Folder::new("address");
     let error = create(&folder.0, &project).expect_err("a line end");
     assert!(matches!(error, ProjectError::Library(_)), "{error}");
@@ -379,10 +288,7 @@ fn no_two_joints_have_one_constant() {
     // own.
     let all = ["", "é", "-", "1", "a", "A", "a_4", "a_4_4", "a 5"];
     let text = lines(&all);
-    let mut names: Vec<&str> = text
-        .lines()
-        .filter_map(|line| line.split('=').next())
-        .collect();
+    let mut names: Vec<&str> = text.lines().filter_map(|line| line.split('=').next()).collect();
     names.sort_unstable();
     names.dedup();
     assert_eq!(names.len(), all.len(), "{text}");
@@ -394,8 +300,5 @@ fn no_two_joints_have_one_constant() {
 #[test]
 fn values_are_not_searched_for_placeholders() {
     let values = [("a", "{{b}}".to_owned()), ("b", "x".to_owned())];
-    assert_eq!(
-        substitute("{{a}} {{b}} {{c}} }}", &values),
-        "{{b}} x {{c}} }}"
-    );
+    assert_eq!(substitute("{{a}} {{b}} {{c}} }}", &values), "{{b}} x {{c}} }}");
 }

@@ -13,10 +13,7 @@ use crate::limits::MOST_DECLARATION;
 /// An encoding that is not known, by its name, and bytes that are none of it.
 pub fn decode(bytes: &[u8]) -> Result<(String, Option<String>)> {
     let unknown = |name: &str| {
-        Problem::Encoding(format!(
-            "`{}` is not known: save the file as UTF-8",
-            shortened(name)
-        ))
+        Problem::Encoding(format!("`{}` is not known: save the file as UTF-8", shortened(name)))
     };
     let declared = declared(bytes);
     let label = declared.as_deref().unwrap_or("UTF-8");
@@ -56,11 +53,7 @@ pub fn decode(bytes: &[u8]) -> Result<(String, Option<String>)> {
     let valid = std::str::from_utf8(bytes).map_or_else(|error| error.valid_up_to(), str::len);
     let line = bytes[..valid].iter().filter(|&&byte| byte == b'\n').count() + 1;
     let (text, ..) = WINDOWS_1252.decode(bytes);
-    let of = if declared.is_some() {
-        "which it declares"
-    } else {
-        "as it declares no other"
-    };
+    let of = if declared.is_some() { "which it declares" } else { "as it declares no other" };
     let note = format!(
         "The file is not of UTF-8, {of}, on line {line}: it is read as windows-1252 (Latin-1)."
     );
@@ -74,10 +67,7 @@ fn declared(bytes: &[u8]) -> Option<String> {
     let declaration = start.strip_prefix("<?xml")?;
     let declaration = &declaration[..declaration.find("?>")?];
     let (_, value) = declaration.split_once("encoding")?;
-    let value = value
-        .trim_ascii_start()
-        .strip_prefix('=')?
-        .trim_ascii_start();
+    let value = value.trim_ascii_start().strip_prefix('=')?.trim_ascii_start();
     let quote = value.chars().next().filter(|c| matches!(c, '"' | '\''))?;
     let (name, _) = value[1..].split_once(quote)?;
     Some(name.to_owned())

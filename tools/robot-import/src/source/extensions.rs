@@ -27,26 +27,9 @@ const CORE: [(&str, &[&str]); 14] = [
     ("child", &["link"]),
     ("axis", &["xyz"]),
     ("limit", &["lower", "upper", "effort", "velocity"]),
-    (
-        "dynamics",
-        &[
-            "damping",
-            "friction",
-            "armature",
-            "spring_stiffness",
-            "spring_reference",
-        ],
-    ),
+    ("dynamics", &["damping", "friction", "armature", "spring_stiffness", "spring_reference"]),
     ("mimic", &["joint", "multiplier", "offset"]),
-    (
-        "safety_controller",
-        &[
-            "soft_lower_limit",
-            "soft_upper_limit",
-            "k_position",
-            "k_velocity",
-        ],
-    ),
+    ("safety_controller", &["soft_lower_limit", "soft_upper_limit", "k_position", "k_velocity"]),
     ("calibration", &["rising", "falling", "reference_position"]),
 ];
 /// Elements of links and references to them that are looks, shapes or contacts.
@@ -161,18 +144,12 @@ pub fn dynamics(node: Option<Node<'_, '_>>) -> Result<([f64; 2], f64)> {
     let at_least_zero = |name| -> Result<f64> {
         let x = number(node, name)?.unwrap_or_default();
         match x < 0.0 {
-            true => Err(xml::error(
-                node,
-                Problem::Value(format!("`{name}` is {x}, at least 0")),
-            )),
+            true => Err(xml::error(node, Problem::Value(format!("`{name}` is {x}, at least 0")))),
             false => Ok(x),
         }
     };
     let rest = number(node, "spring_reference")?.unwrap_or_default();
-    Ok((
-        [at_least_zero("spring_stiffness")?, rest],
-        at_least_zero("armature")?,
-    ))
+    Ok(([at_least_zero("spring_stiffness")?, rest], at_least_zero("armature")?))
 }
 
 fn name_of(node: Node<'_, '_>) -> String {
@@ -204,9 +181,8 @@ fn unknown(node: Node<'_, '_>, names: &mut BTreeSet<String>) {
     match CORE.iter().find(|(other, _)| *other == own) {
         Some((_, known)) => {
             let attributes = node.attributes().filter(|one| is_number(one.value()));
-            let unknown = attributes
-                .map(|one| qualified(node, one))
-                .filter(|name| !known.contains(name));
+            let unknown =
+                attributes.map(|one| qualified(node, one)).filter(|name| !known.contains(name));
             names.extend(unknown.map(|name| format!("{own} {}", shortened(name))));
             let inside = node.children().filter(Node::is_element);
             inside.for_each(|inner| unknown_in(inner, names));
@@ -260,9 +236,8 @@ fn transmission(
     index: &HashMap<String, usize>,
     found: &mut Found,
 ) -> Result<()> {
-    let of_joints: Vec<&str> = children(node, "joint")
-        .filter_map(|joint| joint.attribute("name"))
-        .collect();
+    let of_joints: Vec<&str> =
+        children(node, "joint").filter_map(|joint| joint.attribute("name")).collect();
     let actuators = children(node, "actuator").count();
     let what = format!("The <transmission> `{}`", name_of(node));
     let mut left_out = BTreeSet::new();
@@ -278,10 +253,8 @@ fn transmission(
         }
         let reduction =
             child(actuator, "mechanicalReduction").or_else(|| child(node, "mechanicalReduction"));
-        let reduction = reduction
-            .and_then(|node| node.text())
-            .map(str::trim)
-            .filter(|text| is_number(text));
+        let reduction =
+            reduction.and_then(|node| node.text()).map(str::trim).filter(|text| is_number(text));
         let own = actuator.children().filter(Node::is_element);
         let others = own.filter(|node| {
             !matches!(
@@ -289,14 +262,8 @@ fn transmission(
                 "mechanicalReduction" | "drake:rotor_inertia" | "drake:gear_ratio"
             )
         });
-        left_out.extend(
-            others
-                .filter(|node| has_numbers(*node))
-                .map(|node| shortened(tag(node))),
-        );
-        let gear = ratio
-            .map(|ratio| ratio.to_string())
-            .or_else(|| reduction.map(shortened));
+        left_out.extend(others.filter(|node| has_numbers(*node)).map(|node| shortened(tag(node))));
+        let gear = ratio.map(|ratio| ratio.to_string()).or_else(|| reduction.map(shortened));
         let joint = match of_joints.as_slice() {
             [name] if actuators == 1 => index.get(*name).map(|&j| &mut joints[j]),
             _ => None,
@@ -347,15 +314,10 @@ fn ros2_control(node: Node<'_, '_>, found: &mut Found) {
             found.gear(&shortened(text), &of);
         }
     }
-    let parameters = node
-        .descendants()
-        .filter(|node| tag(*node) == "param" && has_numbers(*node));
+    let parameters = node.descendants().filter(|node| tag(*node) == "param" && has_numbers(*node));
     let names: BTreeSet<String> = parameters.map(name_of).collect();
     if !names.is_empty() {
-        found.notes.push(format!(
-            "{what}: the parameters {} are left out.",
-            quoted(names)
-        ));
+        found.notes.push(format!("{what}: the parameters {} are left out.", quoted(names)));
     }
 }
 
@@ -416,30 +378,17 @@ fn gazebo(
         }
     }
     if !left_out.is_empty() {
-        notes.push(format!(
-            "The <gazebo> of `{of}`: {} is left out.",
-            quoted(left_out)
-        ));
+        notes.push(format!("The <gazebo> of `{of}`: {} is left out.", quoted(left_out)));
     }
     Ok(())
 }
 
 /// Settings by which MuJoCo changes the inertias of a URDF.
 fn mujoco(node: Node<'_, '_>, notes: &mut Vec<String>) {
-    let names = [
-        "balanceinertia",
-        "boundinertia",
-        "boundmass",
-        "inertiafromgeom",
-        "settotalmass",
-    ];
+    let names = ["balanceinertia", "boundinertia", "boundmass", "inertiafromgeom", "settotalmass"];
     let compilers = children(node, "compiler");
     let stated: BTreeSet<String> = compilers
-        .flat_map(|node| {
-            names
-                .into_iter()
-                .filter(move |name| node.has_attribute(*name))
-        })
+        .flat_map(|node| names.into_iter().filter(move |name| node.has_attribute(*name)))
         .map(str::to_owned)
         .collect();
     if !stated.is_empty() {

@@ -10,10 +10,9 @@ pub fn without(robot: &mut Description) {
     for joint in &mut robot.joints {
         let mut none = Vec::new();
         let limits = &mut joint.limits;
-        for (what, limit) in [
-            ("speed", &mut limits.velocity),
-            ("torque or force", &mut limits.effort),
-        ] {
+        for (what, limit) in
+            [("speed", &mut limits.velocity), ("torque or force", &mut limits.effort)]
+        {
             if let Some(x) = limit.take_if(|x| x.abs() >= NO_LIMIT) {
                 none.push(format!("{what} {x:e}"));
             }

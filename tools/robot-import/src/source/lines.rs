@@ -7,11 +7,7 @@ impl Lines {
     /// Finds the lines of a text.
     pub fn of(text: &str) -> Self {
         let ends = text.bytes().enumerate();
-        Self(
-            ends.filter(|(_, byte)| *byte == b'\n')
-                .map(|(i, _)| i as u32)
-                .collect(),
-        )
+        Self(ends.filter(|(_, byte)| *byte == b'\n').map(|(i, _)| i as u32).collect())
     }
 
     /// The line of an offset.

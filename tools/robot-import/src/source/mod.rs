@@ -55,10 +55,7 @@ impl<'p> Folders<'p> {
     /// The folders for the file of a description.
     pub fn of(path: &'p Path, include_root: Option<&'p Path>) -> Self {
         let model = path.parent().unwrap_or(Path::new("."));
-        Self {
-            model,
-            include_root,
-        }
+        Self { model, include_root }
     }
 }
 
@@ -120,11 +117,8 @@ fn text(path: &Path) -> Result<(String, Option<String>)> {
         path: path.display().to_string(),
         reason: reason.to_string(),
     };
-    let too_large = |found: usize| Problem::TooLarge {
-        what: "bytes in the file",
-        found,
-        most: MOST_BYTES,
-    };
+    let too_large =
+        |found: usize| Problem::TooLarge { what: "bytes in the file", found, most: MOST_BYTES };
     let length = std::fs::metadata(path).map_err(unreadable)?.len();
     if length > MOST_BYTES as u64 {
         return Err(too_large(length as usize).into());
@@ -145,10 +139,7 @@ fn text(path: &Path) -> Result<(String, Option<String>)> {
 /// # Errors
 /// [`ImportError`] with the line and the element.
 pub fn parse(text: &str, folder: &Path) -> Result<Description> {
-    let folders = Folders {
-        model: folder,
-        include_root: None,
-    };
+    let folders = Folders { model: folder, include_root: None };
     on_a_large_stack(|| described(text, folders))
 }
 
@@ -186,9 +177,7 @@ fn licence(text: &str) -> Option<String> {
     ];
     let start: String = text.chars().take(4_000).collect();
     let comments = start.split("<!--").skip(1);
-    let comments: String = comments
-        .filter_map(|part| part.split("-->").next())
-        .collect();
+    let comments: String = comments.filter_map(|part| part.split("-->").next()).collect();
     let found = names.iter().find(|name| comments.contains(*name));
     found.map(|name| (*name).to_owned())
 }
@@ -198,12 +187,7 @@ fn few_enough(count: usize) -> Result<()> {
     if count <= MOST_LINKS {
         return Ok(());
     }
-    Err(Problem::TooLarge {
-        what: "links or joints",
-        found: count,
-        most: MOST_LINKS,
-    }
-    .into())
+    Err(Problem::TooLarge { what: "links or joints", found: count, most: MOST_LINKS }.into())
 }
 
 /// The requirements of both formats: few enough links, different names, numbers of a robot's size,
@@ -246,11 +230,7 @@ fn of_pose(format: Format, pose: &Pose) -> impl Iterator<Item = Bounded> {
         Format::Mjcf => ["pos", "quat"],
     };
     let turns = pose.rotation.to_cols_array().map(|x| (turn, x, MOST));
-    pose.position
-        .to_array()
-        .map(|x| (position, x, MOST))
-        .into_iter()
-        .chain(turns)
+    pose.position.to_array().map(|x| (position, x, MOST)).into_iter().chain(turns)
 }
 
 /// Numbers with which f64 does not overflow, and axes that are directions.
@@ -261,19 +241,11 @@ fn sizes(robot: &Description) -> Result<()> {
         };
         let names = match robot.format {
             Format::Urdf => ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"],
-            Format::Mjcf => [
-                "inertia xx",
-                "inertia xy",
-                "inertia xz",
-                "inertia yy",
-                "inertia yz",
-                "inertia zz",
-            ],
+            Format::Mjcf => {
+                ["inertia xx", "inertia xy", "inertia xz", "inertia yy", "inertia yz", "inertia zz"]
+            }
         };
-        let entries = names
-            .into_iter()
-            .zip(inertial.inertia)
-            .map(|(name, x)| (name, x, MOST));
+        let entries = names.into_iter().zip(inertial.inertia).map(|(name, x)| (name, x, MOST));
         let all = [("mass", inertial.mass, MOST)]
             .into_iter()
             .chain(of_pose(robot.format, &inertial.frame));
@@ -316,11 +288,7 @@ fn sizes(robot: &Description) -> Result<()> {
             None => continue,
         };
         let element = format!("joint `{}`", shortened(&joint.name));
-        return Err(ImportError::at(
-            joint.line,
-            element,
-            Problem::Value(problem),
-        ));
+        return Err(ImportError::at(joint.line, element, Problem::Value(problem)));
     }
     Ok(())
 }

@@ -114,32 +114,22 @@ impl<'t> Tolerant<'t> {
         }
         if let Some(root) = pass.root {
             let missing: Vec<&str> = pass.used.difference(&pass.of_root).copied().collect();
-            let declarations = missing
-                .iter()
-                .map(|prefix| format!(" xmlns:{prefix}=\"{prefix}\""));
+            let declarations = missing.iter().map(|prefix| format!(" xmlns:{prefix}=\"{prefix}\""));
             let declarations: String = declarations.collect();
             if !declarations.is_empty() {
                 pass.edits.push((root..root, Some(declarations)));
             }
         }
-        let Pass {
-            mut edits, found, ..
-        } = pass;
+        let Pass { mut edits, found, .. } = pass;
         edits.sort_by_key(|(range, _)| range.start);
         let lines = match found.is_empty() {
             true => Lines::of(""),
             false => Lines::of(text),
         };
-        let found = found
-            .into_iter()
-            .map(|(kind, at, what)| (kind, lines.line(at as u32), what));
+        let found = found.into_iter().map(|(kind, at, what)| (kind, lines.line(at as u32), what));
         let found = found.collect();
         let (text, inserted) = edited(text, &edits);
-        Ok(Self {
-            text,
-            inserted,
-            found,
-        })
+        Ok(Self { text, inserted, found })
     }
 
     /// The well-formed text, if nothing else is wrong with it.
@@ -152,38 +142,24 @@ impl<'t> Tolerant<'t> {
         let start = match line {
             0 | 1 => 0,
             line => {
-                let mut ends = self
-                    .text
-                    .bytes()
-                    .enumerate()
-                    .filter(|(_, byte)| *byte == b'\n');
+                let mut ends = self.text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n');
                 ends.nth(line as usize - 2).map_or(0, |(end, _)| end + 1)
             }
         };
-        let before = self.text[start..]
-            .char_indices()
-            .nth(column.saturating_sub(1) as usize);
+        let before = self.text[start..].char_indices().nth(column.saturating_sub(1) as usize);
         let end = before.map_or(self.text.len(), |(at, _)| start + at);
-        let shift = self
-            .inserted
-            .iter()
-            .filter(|(at, _)| (start..end).contains(at));
+        let shift = self.inserted.iter().filter(|(at, _)| (start..end).contains(at));
         let shift: usize = shift.map(|(_, length)| length).sum();
         column.saturating_sub(shift as u32).max(1)
     }
 
     /// Notes on what was tolerated and where, a sentence for each kind.
     pub fn notes(&self) -> Vec<String> {
-        let each = self
-            .found
-            .iter()
-            .map(|(kind, _, detail)| (*kind, detail.as_str()));
+        let each = self.found.iter().map(|(kind, _, detail)| (*kind, detail.as_str()));
         let kinds: BTreeSet<(Kind, &str)> = each.collect();
         let sentence = |(kind, detail): (Kind, &str)| {
-            let same = self
-                .found
-                .iter()
-                .filter(|(other, _, what)| *other == kind && what == detail);
+            let same =
+                self.found.iter().filter(|(other, _, what)| *other == kind && what == detail);
             let mut lines: Vec<u32> = same.map(|(_, line, _)| *line).collect();
             lines.dedup();
             let more = match lines.len() - lines.len().min(3) {
@@ -224,10 +200,7 @@ fn edited<'t>(text: &'t str, edits: &[Edit]) -> (Cow<'t, str>, Vec<(usize, usize
                 inserted.push((out.len(), new.len() - old.len()));
                 out += new;
             }
-            None => out.extend(
-                old.chars()
-                    .map(|c| if c == '\n' || c == '\r' { c } else { ' ' }),
-            ),
+            None => out.extend(old.chars().map(|c| if c == '\n' || c == '\r' { c } else { ' ' })),
         }
         copied = range.end;
     }
@@ -247,10 +220,7 @@ impl<'t> Pass<'t> {
     fn without_end(&self, at: usize, what: &str) -> ImportError {
         let line = self.text[..at].rfind('\n').map_or(0, |end| end + 1);
         let column = self.text[line..at].chars().count() + 1;
-        self.error(
-            at,
-            Problem::Xml(format!("{what} that begins in column {column} has no end")),
-        )
+        self.error(at, Problem::Xml(format!("{what} that begins in column {column} has no end")))
     }
 
     /// The end of what begins at `at` and ends with `end`.
@@ -320,12 +290,7 @@ impl<'t> Pass<'t> {
             return Ok(Next::AfterRoot(at));
         }
         if rest.starts_with("<![CDATA[") {
-            return Ok(Next::At(self.end_of(
-                at,
-                9,
-                "]]>",
-                "a section of characters",
-            )?));
+            return Ok(Next::At(self.end_of(at, 9, "]]>", "a section of characters")?));
         }
         if rest.starts_with("<!DOCTYPE") {
             let end = self.document_type(at)?;
@@ -383,17 +348,11 @@ impl<'t> Pass<'t> {
         let is_end =
             |byte: u8| byte.is_ascii_whitespace() || matches!(byte, b'/' | b'>' | b'=' | b'<');
         let name_end = |from: usize| {
-            bytes[from..]
-                .iter()
-                .position(|&byte| is_end(byte))
-                .map_or(text.len(), |n| from + n)
+            bytes[from..].iter().position(|&byte| is_end(byte)).map_or(text.len(), |n| from + n)
         };
         let space_end = |from: usize| {
             let blank = |byte: &u8| !byte.is_ascii_whitespace();
-            bytes[from..]
-                .iter()
-                .position(blank)
-                .map_or(text.len(), |n| from + n)
+            bytes[from..].iter().position(blank).map_or(text.len(), |n| from + n)
         };
         let mut at = name_end(start + 1);
         if at == start + 1 {
@@ -401,11 +360,8 @@ impl<'t> Pass<'t> {
         }
         self.depth += 1;
         if self.depth > MOST_DEPTH {
-            let problem = Problem::TooLarge {
-                what: "nested elements",
-                found: self.depth,
-                most: MOST_DEPTH,
-            };
+            let problem =
+                Problem::TooLarge { what: "nested elements", found: self.depth, most: MOST_DEPTH };
             return Err(problem.into());
         }
         let is_root = self.root.is_none();
@@ -429,10 +385,7 @@ impl<'t> Pass<'t> {
             let end = name_end(name);
             let equals = space_end(end);
             let open = space_end((equals + 1).min(text.len()));
-            let quote = bytes
-                .get(open)
-                .copied()
-                .filter(|byte| matches!(byte, b'"' | b'\''));
+            let quote = bytes.get(open).copied().filter(|byte| matches!(byte, b'"' | b'\''));
             let (Some(b'='), Some(quote), true) = (bytes.get(equals), quote, end > name) else {
                 return Ok(Next::Refused);
             };
@@ -536,10 +489,7 @@ impl<'t> Pass<'t> {
         if !text.contains('&') && !text.contains('<') && !text.contains("]]>") {
             return;
         }
-        for (i, c) in text
-            .char_indices()
-            .filter(|(_, c)| matches!(c, '&' | '<' | ']'))
-        {
+        for (i, c) in text.char_indices().filter(|(_, c)| matches!(c, '&' | '<' | ']')) {
             if self.found.len() > MOST_TOLERATED {
                 return;
             }
@@ -565,22 +515,11 @@ impl<'t> Pass<'t> {
     /// Leaves out all that follows the end of the root.
     fn leave_out_after(&mut self, at: usize) {
         let start = self.text.len() - self.text[at..].trim_start().len();
-        let what: String = self.text[start..]
-            .chars()
-            .take_while(|c| !c.is_control())
-            .take(20)
-            .collect();
-        let what = what
-            .split_inclusive('>')
-            .next()
-            .unwrap_or_default()
-            .to_owned();
+        let what: String =
+            self.text[start..].chars().take_while(|c| !c.is_control()).take(20).collect();
+        let what = what.split_inclusive('>').next().unwrap_or_default().to_owned();
         self.edits.push((at..self.text.len(), None));
-        self.tolerate(
-            Kind::AfterRoot,
-            start,
-            format!(", `{}`", what.replace('`', "'")),
-        );
+        self.tolerate(Kind::AfterRoot, start, format!(", `{}`", what.replace('`', "'")));
     }
 }
 
@@ -591,11 +530,7 @@ fn is_blank(text: &str) -> bool {
 /// Whether what follows an `&` makes it a reference of XML: to a character, or one of the five
 /// names.
 fn is_reference(rest: &str) -> bool {
-    let word = rest
-        .as_bytes()
-        .iter()
-        .take(12)
-        .position(|&byte| byte == b';');
+    let word = rest.as_bytes().iter().take(12).position(|&byte| byte == b';');
     let Some(word) = word.and_then(|end| rest.get(..end)) else {
         return false;
     };

@@ -28,9 +28,7 @@ pub fn read(root: Node<'_, '_>) -> Result<Description> {
     let mut notes = xacro::left_out(root);
     // The version that has quaternions (urdfdom).
     let quaternions = version != "1.0";
-    let count = children(root, "link")
-        .count()
-        .max(children(root, "joint").count());
+    let count = children(root, "link").count().max(children(root, "joint").count());
     super::few_enough(count)?;
     let links = children(root, "link").map(|node| link(node, quaternions));
     let links = links.collect::<Result<Vec<_>>>()?;
@@ -110,11 +108,7 @@ struct Origin {
 
 impl Origin {
     /// The placement without a displacement.
-    const NONE: Self = Self {
-        pose: Pose::IDENTITY,
-        exact: Pose::IDENTITY,
-        snapped: Vec::new(),
-    };
+    const NONE: Self = Self { pose: Pose::IDENTITY, exact: Pose::IDENTITY, snapped: Vec::new() };
 }
 
 fn origin(node: Node<'_, '_>, quaternions: bool) -> Result<Origin> {
@@ -144,15 +138,9 @@ fn origin(node: Node<'_, '_>, quaternions: bool) -> Result<Origin> {
         Some(xyzw) => quaternion(node, xyzw, &mut snapped)?,
         None => angles(node, &mut snapped)?,
     };
-    let pose = |position: [f64; 3], rotation| Pose {
-        position: DVec3::from_array(position),
-        rotation,
-    };
-    Ok(Origin {
-        pose: pose(position, rotation),
-        exact: pose(exact_position, exact),
-        snapped,
-    })
+    let pose =
+        |position: [f64; 3], rotation| Pose { position: DVec3::from_array(position), rotation };
+    Ok(Origin { pose: pose(position, rotation), exact: pose(exact_position, exact), snapped })
 }
 
 /// The rotation by `rpy`, and the exact one.
@@ -216,11 +204,10 @@ fn quaternion(
 /// it.
 fn ignored_quaternion(node: Node<'_, '_>) -> Option<String> {
     node.attribute("quat_xyzw")?;
-    let part = node.ancestors().skip(1).find(|node| {
-        ["inertial", "link", "joint"]
-            .iter()
-            .any(|tag| xml::tag(*node) == *tag)
-    })?;
+    let part = node
+        .ancestors()
+        .skip(1)
+        .find(|node| ["inertial", "link", "joint"].iter().any(|tag| xml::tag(*node) == *tag))?;
     let of = part.ancestors().find(|node| node.has_attribute("name"))?;
     // Looks and shapes have placements, too.
     if xml::tag(part) == "link" {

@@ -120,9 +120,7 @@ pub fn left_out(root: Node<'_, '_>) -> Vec<String> {
     for link in children(root, "link").chain(children(root, "joint")) {
         let name = shortened(link.attribute("name").unwrap_or_default());
         let named = ["link", "joint"];
-        for inner in link
-            .children()
-            .filter(|node| named.iter().any(|tag| xml::tag(*node) == *tag))
+        for inner in link.children().filter(|node| named.iter().any(|tag| xml::tag(*node) == *tag))
         {
             notes.push(format!(
                 "The <{}> on line {} is inside of `{name}`, where URDF has none, and is left out.",

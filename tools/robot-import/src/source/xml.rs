@@ -44,10 +44,8 @@ impl<'t> Xml<'t> {
         Document::parse_with_options(self.0.text(), options).map_err(|error| {
             let (place, message) = (error.pos(), error.to_string());
             let column = self.0.column(place.row, place.col);
-            let message = message.replace(
-                &format!("at {place}"),
-                &format!("at {}:{column}", place.row),
-            );
+            let message =
+                message.replace(&format!("at {place}"), &format!("at {}:{column}", place.row));
             ImportError::at(place.row, "", Problem::Xml(message))
         })
     }
@@ -143,14 +141,7 @@ pub fn not_numbers(node: Node<'_, '_>, attribute: &str, n: usize) -> ImportError
     };
     let text = shortened(node.attribute(attribute).unwrap_or_default());
     let attribute = attribute.to_owned();
-    error(
-        node,
-        Problem::Number {
-            attribute,
-            text,
-            expected,
-        },
-    )
+    error(node, Problem::Number { attribute, text, expected })
 }
 
 /// N finite numbers, separated by white space, and nothing else.
@@ -158,11 +149,7 @@ fn parsed<const N: usize>(text: &str) -> Option<[f64; N]> {
     let mut words = text.split_ascii_whitespace();
     let mut out = [0.0; N];
     for x in &mut out {
-        *x = words
-            .next()?
-            .parse::<f64>()
-            .ok()
-            .filter(|x| x.is_finite())?;
+        *x = words.next()?.parse::<f64>().ok().filter(|x| x.is_finite())?;
     }
     words.next().is_none().then_some(out)
 }

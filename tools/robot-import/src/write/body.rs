@@ -55,13 +55,8 @@ pub fn entry(body: &Body) -> String {
         Kind::Planar => "planar()".to_owned(),
         Kind::Free => "free()".to_owned(),
     };
-    let parent = body
-        .parent
-        .map_or("BASE".to_owned(), |parent| parent.to_string());
-    let mut out = format!(
-        "Body::new({}, {parent}, Joint::{joint})",
-        string_literal(&body.name)
-    );
+    let parent = body.parent.map_or("BASE".to_owned(), |parent| parent.to_string());
+    let mut out = format!("Body::new({}, {parent}, Joint::{joint})", string_literal(&body.name));
     out += &placed(body.xyz, body.attitude);
     let own = &body.inertia;
     if own.mass != 0.0 {
@@ -100,9 +95,6 @@ pub fn limits(body: &Body) -> Option<String> {
     match stated.len() {
         0 => None,
         4 => Some(format!("JointLimits {{ {} }}", stated.join(", "))),
-        _ => Some(format!(
-            "JointLimits {{ {}, ..JointLimits::NONE }}",
-            stated.join(", ")
-        )),
+        _ => Some(format!("JointLimits {{ {}, ..JointLimits::NONE }}", stated.join(", "))),
     }
 }

@@ -6,10 +6,7 @@ use crate::tree::{Body, Tree};
 
 /// A value for each velocity coordinate.
 fn per_coordinate(tree: &Tree, of: fn(&Body) -> f64) -> Vec<f64> {
-    let each = tree
-        .bodies
-        .iter()
-        .map(|body| vec![of(body); body.kind.coordinates()[1]]);
+    let each = tree.bodies.iter().map(|body| vec![of(body); body.kind.coordinates()[1]]);
     each.collect::<Vec<_>>().concat()
 }
 
@@ -23,15 +20,10 @@ pub fn effects(tree: &Tree, type_name: &str) -> String {
     let viscous = per_coordinate(tree, |body| body.damping);
     let coulomb = per_coordinate(tree, |body| body.friction);
     let armature = per_coordinate(tree, |body| body.armature);
-    let mut scene = vec![
-        ("Gravity", "Gravity::EARTH"),
-        ("Inertia", "Inertia"),
-        ("Coriolis", "Coriolis"),
-    ];
-    let [stiffness, rest] = [
-        per_coordinate(tree, |body| body.spring[0]),
-        per_coordinate(tree, |body| body.spring[1]),
-    ];
+    let mut scene =
+        vec![("Gravity", "Gravity::EARTH"), ("Inertia", "Inertia"), ("Coriolis", "Coriolis")];
+    let [stiffness, rest] =
+        [per_coordinate(tree, |body| body.spring[0]), per_coordinate(tree, |body| body.spring[1])];
     let is_some = |values: &[f64]| values.iter().any(|&x| x != 0.0);
     let each = [
         (&viscous, ("Viscous<f32, V>", "VISCOUS")),
@@ -39,11 +31,7 @@ pub fn effects(tree: &Tree, type_name: &str) -> String {
         (&armature, ("Armature<f32, V>", "ARMATURE")),
         (&stiffness, ("Spring<f32, V>", "SPRING")),
     ];
-    scene.extend(
-        each.iter()
-            .filter(|(values, _)| is_some(values))
-            .map(|(_, effect)| *effect),
-    );
+    scene.extend(each.iter().filter(|(values, _)| is_some(values)).map(|(_, effect)| *effect));
     let types: Vec<&str> = scene.iter().map(|(name, _)| *name).collect();
     let values: Vec<&str> = scene.iter().map(|(_, value)| *value).collect();
     let spring = match tree.has_springs() {
@@ -74,15 +62,12 @@ pub fn effects(tree: &Tree, type_name: &str) -> String {
 
 /// The constant coupling of joints that follow others.
 pub fn coupling(tree: &Tree) -> String {
-    let leaders: Vec<usize> = (0..tree.bodies.len())
-        .filter(|&i| tree.bodies[i].follows.is_none())
-        .collect();
+    let leaders: Vec<usize> =
+        (0..tree.bodies.len()).filter(|&i| tree.bodies[i].follows.is_none()).collect();
     let (mut rows, mut offsets) = (Vec::new(), Vec::new());
     for (i, body) in tree.bodies.iter().enumerate() {
         let (leader, ratio, offset) = body.follows.unwrap_or((i, 1.0, 0.0));
-        let entries = leaders
-            .iter()
-            .map(|&k| literal(if k == leader { ratio } else { 0.0 }));
+        let entries = leaders.iter().map(|&k| literal(if k == leader { ratio } else { 0.0 }));
         rows.push(format!("[{}]", entries.collect::<Vec<_>>().join(", ")));
         offsets.push(literal(offset));
     }

@@ -52,11 +52,7 @@ pub fn source(tree: &Tree, name: &str, type_name: &str, origin: &Origin) -> Stri
     } else {
         ""
     };
-    let base = if tree.bodies.iter().any(|body| body.parent.is_none()) {
-        "BASE, "
-    } else {
-        ""
-    };
+    let base = if tree.bodies.iter().any(|body| body.parent.is_none()) { "BASE, " } else { "" };
     let arm = if single { "ArmModel, " } else { "" };
     let spring = if tree.has_springs() { "Spring, " } else { "" };
     let _ = writeln!(
@@ -67,27 +63,14 @@ pub fn source(tree: &Tree, name: &str, type_name: &str, origin: &Origin) -> Stri
         out,
         "use ::dynamics_core::model::{{{arm}{base}Body, Joint{limited}, Model, Robot}};"
     );
-    let _ = writeln!(
-        out,
-        "\n/// The number of bodies.\npub const B: usize = {b};"
-    );
-    let _ = writeln!(
-        out,
-        "/// The number of position coordinates.\npub const Q: usize = {q};"
-    );
-    let _ = writeln!(
-        out,
-        "/// The number of velocity coordinates.\npub const V: usize = {v};"
-    );
+    let _ = writeln!(out, "\n/// The number of bodies.\npub const B: usize = {b};");
+    let _ = writeln!(out, "/// The number of position coordinates.\npub const Q: usize = {q};");
+    let _ = writeln!(out, "/// The number of velocity coordinates.\npub const V: usize = {v};");
     if single {
         out += "/// The number of joints.\npub const N: usize = V;\n";
     }
     let list = |of: fn(&Body) -> &String| {
-        let names: Vec<String> = tree
-            .bodies
-            .iter()
-            .map(|body| string_literal(of(body)))
-            .collect();
+        let names: Vec<String> = tree.bodies.iter().map(|body| string_literal(of(body))).collect();
         names.join(", ")
     };
     let _ = writeln!(
@@ -106,23 +89,15 @@ pub fn source(tree: &Tree, name: &str, type_name: &str, origin: &Origin) -> Stri
         doc_name(name),
         counted(b, "body", "bodies")
     );
-    let _ = writeln!(
-        out,
-        "#[derive(Clone, Copy, Debug, Default)]\npub struct {type_name};\n"
-    );
-    let model = if single {
-        format!("ArmModel<f64, {b}>")
-    } else {
-        format!("Model<f64, {b}, {q}, {v}>")
-    };
+    let _ = writeln!(out, "#[derive(Clone, Copy, Debug, Default)]\npub struct {type_name};\n");
+    let model =
+        if single { format!("ArmModel<f64, {b}>") } else { format!("Model<f64, {b}, {q}, {v}>") };
     let _ = writeln!(
         out,
         "impl Robot<{b}, {q}, {v}> for {type_name} {{\nconst MODEL: {model} = Model::new({}, [",
         string_literal(name)
     );
-    tree.bodies
-        .iter()
-        .for_each(|body| out += &body::entry(body));
+    tree.bodies.iter().for_each(|body| out += &body::entry(body));
     let _ = writeln!(
         out,
         "]);\n}}\n\n// A robot with an impossible joint or a negative mass does not compile.{}\nconst _: {model} = {type_name}::MODEL;",
@@ -156,10 +131,7 @@ fn counted(n: usize, one: &str, many: &str) -> String {
 fn head(tree: &Tree, name: &str, origin: &Origin) -> String {
     let mut out = format!("//! {}.\n//!\n//! # Source\n//!\n", doc_name(name));
     let licence = match &origin.licence {
-        Some(licence) => format!(
-            "licence as its comments state it: {}",
-            doc_sentence(licence)
-        ),
+        Some(licence) => format!("licence as its comments state it: {}", doc_sentence(licence)),
         None => "it states no licence".to_owned(),
     };
     let _ = writeln!(
@@ -173,11 +145,7 @@ fn head(tree: &Tree, name: &str, origin: &Origin) -> String {
     for body in &tree.bodies {
         if !body.merged.is_empty() {
             let links: Vec<String> = body.merged.iter().map(|link| code_span(link)).collect();
-            changes.push(format!(
-                "Part of body {}: {}.",
-                code_span(&body.name),
-                links.join(", ")
-            ));
+            changes.push(format!("Part of body {}: {}.", code_span(&body.name), links.join(", ")));
         }
     }
     for body in &tree.bodies {

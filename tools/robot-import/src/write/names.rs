@@ -38,9 +38,9 @@ fn chosen(name: &str) -> (String, Option<String>) {
         None => Some("the robot's name has no letter from A to Z".to_owned()),
         Some('0'..='9') => Some("no name of Rust begins with a digit".to_owned()),
         _ if is_taken(&camel) => Some(format!("the file or Rust itself uses `{camel}`")),
-        _ if camel.len() > MOST_TYPE_NAME => Some(format!(
-            "a type's name is cut after {MOST_TYPE_NAME} characters"
-        )),
+        _ if camel.len() > MOST_TYPE_NAME => {
+            Some(format!("a type's name is cut after {MOST_TYPE_NAME} characters"))
+        }
         _ if has_others => Some("other letters than A to Z are left out".to_owned()),
         _ => None,
     };
@@ -70,10 +70,7 @@ pub fn type_name(name: &str) -> String {
 pub fn renamed(name: &str) -> Option<String> {
     let (chosen, reason) = chosen(name);
     let robot = code_span(name);
-    Some(format!(
-        "The type of {robot} is called `{chosen}`: {}.",
-        reason?
-    ))
+    Some(format!("The type of {robot} is called `{chosen}`: {}.", reason?))
 }
 
 /// The name of the type in a file that was written by an import, if it is one.
@@ -101,9 +98,7 @@ pub fn given_type_name(text: &str) -> Result<String, String> {
         return Err("a type's name is letters from A to Z and digits, the first a capital".into());
     }
     if is_taken(text) {
-        return Err(format!(
-            "the file or Rust itself uses this name; `My{text}` is free"
-        ));
+        return Err(format!("the file or Rust itself uses this name; `My{text}` is free"));
     }
     if text.len() > MOST_TYPE_NAME {
         return Err(format!("it is longer than {MOST_TYPE_NAME} characters"));

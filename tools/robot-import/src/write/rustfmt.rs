@@ -5,10 +5,7 @@ use std::process::{Command, Stdio};
 
 /// A file as rustfmt formats it; as it is, if there is no rustfmt.
 pub fn formatted(source: &str) -> String {
-    run_rustfmt(source)
-        .ok()
-        .flatten()
-        .unwrap_or_else(|| source.to_owned())
+    run_rustfmt(source).ok().flatten().unwrap_or_else(|| source.to_owned())
 }
 
 fn run_rustfmt(source: &str) -> std::io::Result<Option<String>> {
@@ -29,8 +26,5 @@ fn run_rustfmt(source: &str) -> std::io::Result<Option<String>> {
         std::thread::spawn(move || stdin.map(|mut stdin| stdin.write_all(text.as_bytes())));
     let output = child.wait_with_output()?;
     let _ = writer.join();
-    Ok(output
-        .status
-        .success()
-        .then(|| String::from_utf8_lossy(&output.stdout).into_owned()))
+    Ok(output.status.success().then(|| String::from_utf8_lossy(&output.stdout).into_owned()))
 }

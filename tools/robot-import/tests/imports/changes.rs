@@ -12,10 +12,7 @@ fn imported(text: &str, name: &str) -> Imported {
     std::fs::write(&file, text).expect("a file");
     let args = Args {
         file,
-        options: Options {
-            python: "none".to_owned(),
-            ..Options::default()
-        },
+        options: Options { python: "none".to_owned(), ..Options::default() },
         ..Args::default()
     };
     import(&args, "today").unwrap_or_else(|error| panic!("{error}\n{text}"))
@@ -58,10 +55,7 @@ fn a_file_of_xacro_is_refused_with_what_to_do() {
             robot(declared, "", &format!("{LIMIT}<xacro:damping/>"), ""),
             "line 4: <xacro:damping>: <xacro:damping> is of xacro",
         ),
-        (
-            robot("", "<xacro:arm/>", LIMIT, ""),
-            "line 5: <xacro:arm>: <xacro:arm> is of xacro",
-        ),
+        (robot("", "<xacro:arm/>", LIMIT, ""), "line 5: <xacro:arm>: <xacro:arm> is of xacro"),
         (
             robot("", "", LIMIT, "<origin xyz='${l} 0 0'/>"),
             "line 3: <origin>: `xyz=\"${l} 0 0\"` is of xacro",
@@ -85,13 +79,7 @@ fn a_file_of_xacro_is_refused_with_what_to_do() {
 fn what_may_be_a_macro_is_named() {
     let looks = "<link name='c'><visual><geometry><mesh filename='$(find arm)/c.stl'/></geometry></visual></link>\
         <joint name='k' type='fixed'><parent link='b'/><child link='c'/></joint>";
-    let notes = read(&robot(
-        "",
-        &format!("<cylinder_arm length='1'/>\n{looks}"),
-        LIMIT,
-        "",
-    ))
-    .notes;
+    let notes = read(&robot("", &format!("<cylinder_arm length='1'/>\n{looks}"), LIMIT, "")).notes;
     assert_eq!(notes.len(), 2, "{notes:#?}");
     assert!(
         notes[0]
@@ -99,16 +87,8 @@ fn what_may_be_a_macro_is_named() {
         "{}",
         notes[0]
     );
-    assert!(
-        notes[1].starts_with("The <mesh> on line 6 has a text of xacro"),
-        "{}",
-        notes[1]
-    );
-    assert!(
-        notes
-            .iter()
-            .all(|note| note.contains("`xacro FILE > robot.urdf`"))
-    );
+    assert!(notes[1].starts_with("The <mesh> on line 6 has a text of xacro"), "{}", notes[1]);
+    assert!(notes.iter().all(|note| note.contains("`xacro FILE > robot.urdf`")));
 }
 
 #[test]
@@ -118,11 +98,7 @@ fn limits_that_are_left_out_are_listed() {
     );
     let imported_soft = imported(&robot("", "", &soft, ""), "r.urdf");
     let words = "The soft limits -0.9 to 1.9 of joint `j` are left out; its limits are those of its <limit>.";
-    assert!(
-        imported_soft.report.text().contains(words),
-        "{}",
-        imported_soft.report.text()
-    );
+    assert!(imported_soft.report.text().contains(words), "{}", imported_soft.report.text());
     assert!(
         imported_soft.source.contains("The soft limits -0.9 to 1.9"),
         "{}",
@@ -132,47 +108,24 @@ fn limits_that_are_left_out_are_listed() {
     let report = imported(&endless, "r.urdf").report.text();
     let words = "The limits of position -1 to 2 of joint `j` are left out: a continuous joint has none, a revolute one has.";
     assert!(report.contains(words), "{report}");
-    let without_gains = robot(
-        "",
-        "",
-        &format!("{LIMIT}<safety_controller k_velocity='1'/>"),
-        "",
-    );
+    let without_gains = robot("", "", &format!("{LIMIT}<safety_controller k_velocity='1'/>"), "");
     assert_eq!(read(&without_gains).notes, [""; 0]);
 }
 
 #[test]
 fn roundings_in_frames_of_inertias_are_listed() {
-    let turned = robot(
-        "",
-        "",
-        LIMIT,
-        "<origin xyz='1e-9 0.1 0' rpy='1.5708 0.001 0'/>",
-    );
+    let turned = robot("", "", LIMIT, "<origin xyz='1e-9 0.1 0' rpy='1.5708 0.001 0'/>");
     let found = imported(&turned, "r.urdf");
-    for words in [
-        "Inertia of link `b`: x `1e-9` is 0.",
-        "Inertia of link `b`: roll `1.5708` is π/2.",
-    ] {
-        assert!(
-            found.report.text().contains(words),
-            "{words}\n{}",
-            found.report.text()
-        );
+    for words in
+        ["Inertia of link `b`: x `1e-9` is 0.", "Inertia of link `b`: roll `1.5708` is π/2."]
+    {
+        assert!(found.report.text().contains(words), "{words}\n{}", found.report.text());
         assert!(found.source.contains(words), "{words}\n{}", found.source);
     }
-    assert!(
-        !found.source.contains("pitch"),
-        "a milliradian is stated:\n{}",
-        found.source
-    );
+    assert!(!found.source.contains("pitch"), "a milliradian is stated:\n{}", found.source);
     let model = "<mujoco><worldbody><body><joint/><inertial mass='1' pos='0.1 2e-8 0' diaginertia='1 2 2' quat='0.7071 0.7071 0 0'/></body></worldbody></mujoco>";
     let found = imported(model, "m.xml");
-    assert!(
-        found.report.text().contains("Inertia of link `body_1`: y"),
-        "{}",
-        found.report.text()
-    );
+    assert!(found.report.text().contains("Inertia of link `body_1`: y"), "{}", found.report.text());
 }
 
 #[test]
@@ -194,25 +147,17 @@ fn quaternions_are_of_version_1_1() {
     }
     for version in ["", "version='1.0'"] {
         let robot = of(version);
-        let [joint, link] = [
-            robot.joints[0].origin.rotation,
-            robot.links[1].inertial.expect("one").frame.rotation,
-        ];
+        let [joint, link] =
+            [robot.joints[0].origin.rotation, robot.links[1].inertial.expect("one").frame.rotation];
         assert_eq!([joint, link], [dynamics_core::glam::DMat3::IDENTITY; 2]);
         assert_eq!(robot.notes.len(), 2, "{:#?}", robot.notes);
         assert!(
-            robot
-                .notes
-                .iter()
-                .any(|note| note.contains("<origin> of joint `j` is left out")),
+            robot.notes.iter().any(|note| note.contains("<origin> of joint `j` is left out")),
             "{:#?}",
             robot.notes
         );
         assert!(
-            robot
-                .notes
-                .iter()
-                .any(|note| note.contains("<origin> of link `b` is left out")),
+            robot.notes.iter().any(|note| note.contains("<origin> of link `b` is left out")),
             "{:#?}",
             robot.notes
         );
@@ -243,10 +188,7 @@ fn a_file_says_which_of_its_inertias_no_body_has() {
             "The moment of inertia about (0.00, 1.00, 0.00) exceeds the sum of the two others by 33.3 % of the largest",
         ),
     ] {
-        let found = imported(
-            &robot("", "", LIMIT, "").replace("iyy='0.01'", entry),
-            "r.urdf",
-        );
+        let found = imported(&robot("", "", LIMIT, "").replace("iyy='0.01'", entry), "r.urdf");
         assert!(
             found.source.contains(&format!(
                 "// Body `b` has an impossible inertia, which compiles. {words}"
@@ -254,11 +196,7 @@ fn a_file_says_which_of_its_inertias_no_body_has() {
             "{}",
             found.source
         );
-        assert!(
-            found.report.text().contains(words),
-            "{}",
-            found.report.text()
-        );
+        assert!(found.report.text().contains(words), "{}", found.report.text());
     }
 }
 
@@ -267,9 +205,7 @@ fn excessive_torque_limits_are_reported_with_both_numbers() {
     // 2 kg at 0.1 m: gravity takes 2 N·m, and 5 rad/s² another 0.15.
     let limited = |effort: &str| {
         let limit = format!("<limit lower='-1' upper='2' effort='{effort}' velocity='3'/>");
-        imported(&robot("", "", &limit, "<origin xyz='0.1 0 0'/>"), "r.urdf")
-            .report
-            .text()
+        imported(&robot("", "", &limit, "<origin xyz='0.1 0 0'/>"), "r.urdf").report.text()
     };
     let report = limited("100");
     assert!(

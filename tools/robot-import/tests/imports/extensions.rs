@@ -20,15 +20,8 @@ fn with(text: &str, options: Options) -> Result<Imported, String> {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("r.urdf");
     fs::write(&file, text).expect("a robot");
-    let options = Options {
-        python: "none".to_owned(),
-        ..options
-    };
-    let args = Args {
-        file,
-        options,
-        ..Args::default()
-    };
+    let options = Options { python: "none".to_owned(), ..options };
+    let args = Args { file, options, ..Args::default() };
     import(&args, "today").map_err(|error| error.to_string())
 }
 
@@ -53,10 +46,7 @@ fn drive(inside: &str) -> String {
 #[test]
 fn rotors_of_drakes_transmissions_are_armature_by_the_square_of_the_gear() {
     let cases = [
-        (
-            "<drake:rotor_inertia value='3e-5'/><drake:gear_ratio value='90'/>",
-            0.243,
-        ),
+        ("<drake:rotor_inertia value='3e-5'/><drake:gear_ratio value='90'/>", 0.243),
         (
             "<drake:gear_ratio value='-90'/><drake:rotor_inertia value='3e-5'/><mechanicalReduction>7</mechanicalReduction>",
             0.243,
@@ -68,11 +58,7 @@ fn rotors_of_drakes_transmissions_are_armature_by_the_square_of_the_gear() {
         for prefix in ["", " xmlns:drake='http://drake.mit.edu'"] {
             let text = drive(inside).replacen("<robot", &format!("<robot{prefix}"), 1);
             let body = imported(&text).tree.bodies[0].clone();
-            assert!(
-                (body.armature - armature).abs() < 1e-15,
-                "{inside}: {}",
-                body.armature
-            );
+            assert!((body.armature - armature).abs() < 1e-15, "{inside}: {}", body.armature);
             // M of the case: 0.006 + 0.8 · 0.15² of the lever.
             let own = body.inertia.inertia[3] + body.inertia.mass * body.inertia.com[0].powi(2);
             assert!((own + body.armature - 0.024 - armature).abs() < 1e-12);
@@ -85,10 +71,7 @@ fn rotors_of_drakes_transmissions_are_armature_by_the_square_of_the_gear() {
     );
     let sums = drive(cases[0].0).replace("</robot>", "<transmission><joint name='pivot'/><actuator><drake:rotor_inertia value='1'/></actuator></transmission></robot>");
     assert!((imported(&sums).tree.bodies[0].armature - 1.243).abs() < 1e-12);
-    for wrong in [
-        "<drake:rotor_inertia value='-1'/>",
-        "<drake:rotor_inertia value='x'/>",
-    ] {
+    for wrong in ["<drake:rotor_inertia value='-1'/>", "<drake:rotor_inertia value='x'/>"] {
         with(&drive(wrong), Options::default()).expect_err(wrong);
     }
 }
@@ -100,10 +83,7 @@ fn a_gear_without_a_rotor_and_undocumented_numbers_are_named() {
             drive("<mechanicalReduction>90</mechanicalReduction>"),
             vec!["A gear of 90 on `pivot`", "no inertia of the motor's rotor"],
         ),
-        (
-            drive("<drake:gear_ratio value='101'/>"),
-            vec!["A gear of 101"],
-        ),
+        (drive("<drake:gear_ratio value='101'/>"), vec!["A gear of 101"]),
         (
             drive("<mechanicalReduction>90</mechanicalReduction><motorInertia>3e-5</motorInertia>"),
             vec!["`motorInertia` is left out", "A gear of 90"],
@@ -129,10 +109,7 @@ fn a_gear_without_a_rotor_and_undocumented_numbers_are_named() {
                 "<ros2_control name='drives' type='system'><joint name='pivot'><param name='kt'>0.1</param></joint><transmission name='gear'>\
                 <joint name='pivot' role='j'><mechanical_reduction>90</mechanical_reduction></joint></transmission></ros2_control>",
             ),
-            vec![
-                "A gear of 90 on `pivot`",
-                "the parameters `kt` are left out",
-            ],
+            vec!["A gear of 90 on `pivot`", "the parameters `kt` are left out"],
         ),
         (
             lever("<dynamics damping='0.1' backlash='0.01'/>", ""),
@@ -147,17 +124,12 @@ fn a_gear_without_a_rotor_and_undocumented_numbers_are_named() {
             vec!["`motor` of joint `pivot`"],
         ),
         (
-            lever("", "").replace(
-                "<link name='base'/>",
-                "<link name='base'><flexibility k='3'/></link>",
-            ),
+            lever("", "")
+                .replace("<link name='base'/>", "<link name='base'><flexibility k='3'/></link>"),
             vec!["`flexibility` of link `base`"],
         ),
         (
-            lever(
-                "",
-                "<gazebo reference='pivot'><stopKd>1.0</stopKd></gazebo>",
-            ),
+            lever("", "<gazebo reference='pivot'><stopKd>1.0</stopKd></gazebo>"),
             vec!["<gazebo> of `pivot`: `stopKd` is left out"],
         ),
         (
@@ -168,24 +140,15 @@ fn a_gear_without_a_rotor_and_undocumented_numbers_are_named() {
             vec!["`dampingFactor` is left out"],
         ),
         (
-            lever(
-                "",
-                "<gazebo reference='lever'><turnGravityOff>true</turnGravityOff></gazebo>",
-            ),
+            lever("", "<gazebo reference='lever'><turnGravityOff>true</turnGravityOff></gazebo>"),
             vec!["switches its gravity off"],
         ),
         (
-            lever(
-                "",
-                "<mujoco><compiler boundmass='0.1' balanceinertia='true'/></mujoco>",
-            ),
+            lever("", "<mujoco><compiler boundmass='0.1' balanceinertia='true'/></mujoco>"),
             vec!["`balanceinertia`, `boundmass`"],
         ),
         (
-            lever(
-                "",
-                "<drake:linear_bushing_rpy><k value='1'/></drake:linear_bushing_rpy>",
-            ),
+            lever("", "<drake:linear_bushing_rpy><k value='1'/></drake:linear_bushing_rpy>"),
             vec!["<drake:linear_bushing_rpy>"],
         ),
     ];
@@ -207,11 +170,7 @@ fn springs_and_armatures_of_joints_are_read() {
     let dynamics =
         "<dynamics damping='0.3' friction='0.1' spring_stiffness='12' spring_reference='0.4'/>";
     let gazebo = "<gazebo reference='pivot'><springStiffness> 12 </springStiffness><springReference>0.4</springReference></gazebo>";
-    for text in [
-        lever(dynamics, ""),
-        lever("", gazebo),
-        lever(dynamics, gazebo),
-    ] {
+    for text in [lever(dynamics, ""), lever("", gazebo), lever(dynamics, gazebo)] {
         assert_eq!(spring(&text), [12.0, 0.4]);
         assert_eq!(left_out(&text), "");
         let source = imported(&text).source;
@@ -224,37 +183,20 @@ fn springs_and_armatures_of_joints_are_read() {
     let other = lever("<dynamics spring_stiffness='3'/>", gazebo);
     assert_eq!(spring(&other), [12.0, 0.4]);
     assert!(left_out(&other).contains("3 about 0 in <dynamics> and of 12 about 0.4 in <gazebo>"));
-    assert_eq!(
-        spring(&lever("<dynamics spring_reference='1'/>", "")),
-        [0.0, 0.0]
-    );
+    assert_eq!(spring(&lever("<dynamics spring_reference='1'/>", "")), [0.0, 0.0]);
     let plain = imported(&lever("", "")).source;
     assert!(!plain.contains("Spring") && !plain.contains("SPRING"));
     let armature = imported(&lever("<dynamics armature='0.243'/>", ""));
-    assert_eq!(
-        (armature.tree.bodies[0].armature, armature.robot.notes.len()),
-        (0.243, 0)
-    );
-    for wrong in [
-        "armature='-1'",
-        "spring_stiffness='-1'",
-        "spring_reference='x'",
-    ] {
-        with(
-            &lever(&format!("<dynamics {wrong}/>"), ""),
-            Options::default(),
-        )
-        .expect_err(wrong);
+    assert_eq!((armature.tree.bodies[0].armature, armature.robot.notes.len()), (0.243, 0));
+    for wrong in ["armature='-1'", "spring_stiffness='-1'", "spring_reference='x'"] {
+        with(&lever(&format!("<dynamics {wrong}/>"), ""), Options::default()).expect_err(wrong);
     }
 }
 
 /// A base, a turned column, an arm with a hand of two parts, and another arm.
 fn branches() -> String {
     let link = |name: &str, mass: f64| {
-        format!(
-            "<link name='{name}'>{}</link>",
-            INERTIAL.replace("0.8", &mass.to_string())
-        )
+        format!("<link name='{name}'>{}</link>", INERTIAL.replace("0.8", &mass.to_string()))
     };
     let joint = |name: &str, parent: &str, child: &str, rpy: &str| {
         format!(
@@ -282,12 +224,8 @@ fn branches() -> String {
 }
 
 fn advice(imported: &Imported) -> String {
-    let texts: Vec<&str> = imported
-        .report
-        .advice
-        .iter()
-        .map(|advice| advice.text.as_str())
-        .collect();
+    let texts: Vec<&str> =
+        imported.report.advice.iter().map(|advice| advice.text.as_str()).collect();
     texts.join("\n")
 }
 
@@ -296,10 +234,7 @@ fn what_a_selection_drops_is_named_with_its_mass() {
     let of =
         |options: Options| with(&branches(), options).unwrap_or_else(|error| panic!("{error}"));
     let (base, without) = (Some("arm".to_owned()), vec!["hand".to_owned()]);
-    let upper = of(Options {
-        base: base.clone(),
-        ..Options::default()
-    });
+    let upper = of(Options { base: base.clone(), ..Options::default() });
     assert!(
         advice(&upper)
             .contains("Not below the base `arm`, and left out: `root`, `column`, `other`, 10 kg."),
@@ -307,25 +242,14 @@ fn what_a_selection_drops_is_named_with_its_mass() {
         advice(&upper)
     );
     // By the closed form: gravity on hand and finger at rest, at the joint of the hand.
-    assert_eq!(
-        upper
-            .tree
-            .bodies
-            .iter()
-            .map(|body| body.inertia.mass)
-            .sum::<f64>(),
-        1.0
-    );
+    assert_eq!(upper.tree.bodies.iter().map(|body| body.inertia.mass).sum::<f64>(), 1.0);
     assert!(
         advice(&upper).contains("gravity is along (0.0000, -1.0000, 0.0000) of the base"),
         "{}",
         advice(&upper)
     );
     assert!(upper.source.contains("`other`, 10 kg"));
-    let handless = of(Options {
-        without: without.clone(),
-        ..Options::default()
-    });
+    let handless = of(Options { without: without.clone(), ..Options::default() });
     assert!(
         advice(&handless).contains("Link `hand` and all that it carries are left out: 1 kg."),
         "{}",
@@ -333,21 +257,13 @@ fn what_a_selection_drops_is_named_with_its_mass() {
     );
     assert!(!advice(&handless).contains("gravity is along"));
     let both = vec!["finger".to_owned(), "hand".to_owned()];
-    let nested = advice(&of(Options {
-        without: both,
-        ..Options::default()
-    }));
+    let nested = advice(&of(Options { without: both, ..Options::default() }));
     assert!(
         nested.contains("Link `hand` and all that it carries are left out: 1 kg.")
             && !nested.contains("Link `finger`"),
         "{nested}"
     );
-    let free = of(Options {
-        base,
-        without,
-        free_base: true,
-        ..Options::default()
-    });
+    let free = of(Options { base, without, free_base: true, ..Options::default() });
     let words = advice(&free);
     assert!(
         words.contains("10 kg")
@@ -356,26 +272,12 @@ fn what_a_selection_drops_is_named_with_its_mass() {
         "{words}"
     );
     // A tip keeps the mass of what does not move.
-    let tip = of(Options {
-        tip: Some("hand".to_owned()),
-        ..Options::default()
-    });
-    assert_eq!(
-        tip.tree
-            .bodies
-            .iter()
-            .map(|body| body.inertia.mass)
-            .sum::<f64>(),
-        8.0
-    );
+    let tip = of(Options { tip: Some("hand".to_owned()), ..Options::default() });
+    assert_eq!(tip.tree.bodies.iter().map(|body| body.inertia.mass).sum::<f64>(), 8.0);
     assert!(!advice(&tip).contains("left out"), "{}", advice(&tip));
     let error = with(
         &branches(),
-        Options {
-            base: Some("arm".into()),
-            tip: Some("other".into()),
-            ..Options::default()
-        },
+        Options { base: Some("arm".into()), tip: Some("other".into()), ..Options::default() },
     );
     assert!(error.expect_err("not below").contains("not below the base"));
 }

@@ -19,13 +19,7 @@ fn read(text: &str) -> Description {
 
 fn locked(robot: &Description, locks: &[(&str, f64)]) -> (Selected, Tree) {
     let lock = locks.iter().map(|(name, at)| ((*name).to_owned(), *at));
-    of(
-        robot,
-        &Selection {
-            lock: lock.collect(),
-            ..Selection::default()
-        },
-    )
+    of(robot, &Selection { lock: lock.collect(), ..Selection::default() })
 }
 
 fn of(robot: &Description, selection: &Selection) -> (Selected, Tree) {
@@ -85,9 +79,7 @@ fn a_locked_leader_takes_its_followers_with_it() {
         )
     );
     let limits = advice(&robot, &found.0, &found.1);
-    let beyond = limits
-        .iter()
-        .find(|advice| advice.name == "m1" && advice.topic == Topic::Limits);
+    let beyond = limits.iter().find(|advice| advice.name == "m1" && advice.topic == Topic::Limits);
     assert!(beyond.is_some_and(
         |advice| advice.text == "It stands still at 1.8, beyond its limits -1.2 to 1.7."
     ));
@@ -103,10 +95,7 @@ fn a_selection_locks_followers_where_their_leaders_stand() {
     // The leader is not selected and stands at zero.
     let (selected, _) = of(&robot, &joints(&["free1"]));
     assert_eq!(role(&robot, &selected, "m1"), Role::Locked(0.25));
-    assert_eq!(
-        role(&robot, &selected, "m2"),
-        Role::Locked(0.3 * 0.25 - 0.05)
-    );
+    assert_eq!(role(&robot, &selected, "m2"), Role::Locked(0.3 * 0.25 - 0.05));
     // A follower between its leader and its follower is not selected.
     let found = of(&robot, &joints(&["lead", "m2", "free1"]));
     assert_eq!(role(&robot, &found.0, "m1"), Role::Locked(0.0));
@@ -114,14 +103,8 @@ fn a_selection_locks_followers_where_their_leaders_stand() {
     assert!(words(&robot, &found)[0].contains("although it follows `lead`, which moves"));
     // Nothing is known of a leader above the base: its follower moves, and leads.
     for tip in [None, Some("d".to_owned())] {
-        let (selected, tree) = of(
-            &robot,
-            &Selection {
-                base: Some("a".to_owned()),
-                tip,
-                ..Selection::default()
-            },
-        );
+        let (selected, tree) =
+            of(&robot, &Selection { base: Some("a".to_owned()), tip, ..Selection::default() });
         assert_eq!(role(&robot, &selected, "m1"), Role::Moves);
         let follows: Vec<_> = tree.bodies.iter().map(|body| body.follows).collect();
         assert_eq!(follows, [None, Some((0, 0.3, -0.05)), None]);
@@ -170,11 +153,7 @@ fn chain(random: &mut Random, n: usize) -> (String, Couplings) {
         let leader = match leaders.len() {
             0 => None,
             _ if random.below(3) == 0 => None,
-            some => Some((
-                leaders[random.below(some as u64)],
-                random.number(),
-                random.number(),
-            )),
+            some => Some((leaders[random.below(some as u64)], random.number(), random.number())),
         };
         let mimic = leader.map_or(String::new(), |(k, ratio, offset)| {
             format!("<mimic joint='j{k}' multiplier='{ratio}' offset='{offset}'/>")
@@ -212,37 +191,24 @@ fn random_chains_with_locks_move_by_their_definition() {
         let n = 2 + random.below(6);
         let (text, follows) = chain(&mut random, n);
         let robot = read(&text);
-        let locks: Vec<Option<f64>> = (0..n)
-            .map(|_| (random.below(4) == 0).then(|| random.number()))
-            .collect();
+        let locks: Vec<Option<f64>> =
+            (0..n).map(|_| (random.below(4) == 0).then(|| random.number())).collect();
         let named = (0..n).filter_map(|j| Some((format!("j{j}"), locks[j]?)));
-        let selection = Selection {
-            lock: named.collect(),
-            ..Selection::default()
-        };
+        let selection = Selection { lock: named.collect(), ..Selection::default() };
         let selected = selection.of(&robot).expect("a selection");
         let Ok(tree) = Tree::of(&robot, &selected, Numbers::AsGiven) else {
             // All are locked.
             continue;
         };
         let free: Vec<f64> = (0..n).map(|_| random.number()).collect();
-        let all: Vec<f64> = (0..n)
-            .map(|j| position(j, &follows, &locks, &free))
-            .collect();
+        let all: Vec<f64> = (0..n).map(|j| position(j, &follows, &locks, &free)).collect();
         let index = |name: &str| robot.joint(name).expect("a joint");
-        let own: Vec<f64> = tree
-            .bodies
-            .iter()
-            .map(|body| free[index(&body.joint)])
-            .collect();
+        let own: Vec<f64> = tree.bodies.iter().map(|body| free[index(&body.joint)]).collect();
         let q: Vec<f64> = tree
             .bodies
             .iter()
             .zip(&own)
-            .map(|(body, &q)| {
-                body.follows
-                    .map_or(q, |(k, ratio, offset)| ratio * own[k] + offset)
-            })
+            .map(|(body, &q)| body.follows.map_or(q, |(k, ratio, offset)| ratio * own[k] + offset))
             .collect();
         let uncoupled = {
             let mut robot = robot.clone();
@@ -253,10 +219,7 @@ fn random_chains_with_locks_move_by_their_definition() {
         let [here, there] = [(&tree, &q), (&uncoupled, &all)]
             .map(|(tree, q)| AnyModel::of(tree).expect("small").poses(q));
         for (k, body) in tree.bodies.iter().enumerate() {
-            let pairs = here[k]
-                .iter()
-                .flatten()
-                .zip(there[index(&body.joint)].iter().flatten());
+            let pairs = here[k].iter().flatten().zip(there[index(&body.joint)].iter().flatten());
             for (a, b) in pairs {
                 assert!((a - b).abs() < 1e-13, "{text}\n{locks:?}\n{}", body.joint);
             }
@@ -264,10 +227,7 @@ fn random_chains_with_locks_move_by_their_definition() {
         }
         for (j, role) in selected.roles.iter().enumerate() {
             if let Role::Locked(at) = *role {
-                assert!(
-                    (at - all[j]).abs() < 1e-13,
-                    "{text}\n{locks:?}\nj{j} at {at}"
-                );
+                assert!((at - all[j]).abs() < 1e-13, "{text}\n{locks:?}\nj{j} at {at}");
                 stood += 1;
             }
         }

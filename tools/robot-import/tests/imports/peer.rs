@@ -18,10 +18,7 @@ const PENDULUM: &str = "<robot name='r'><link name='a'/><link name='b'><inertial
 fn args(file: PathBuf, python: &str) -> Args {
     Args {
         file,
-        options: Options {
-            python: python.to_owned(),
-            ..Options::default()
-        },
+        options: Options { python: python.to_owned(), ..Options::default() },
         ..Args::default()
     }
 }
@@ -56,16 +53,8 @@ fn advice(imported: &Imported) -> String {
 }
 
 /// The modules that a comparison imports, and those that Python itself starts with.
-const MODULES: [&str; 8] = [
-    "json",
-    "os",
-    "numpy",
-    "pinocchio",
-    "mujoco",
-    "site",
-    "sitecustomize",
-    "usercustomize",
-];
+const MODULES: [&str; 8] =
+    ["json", "os", "numpy", "pinocchio", "mujoco", "site", "sitecustomize", "usercustomize"];
 
 #[test]
 fn no_file_of_the_current_folder_runs() {
@@ -83,18 +72,12 @@ fn no_file_of_the_current_folder_runs() {
     let rustfmt = tools.join("bin/rustfmt");
     fs::write(
         &rustfmt,
-        format!(
-            "#!/bin/sh\ntouch {}/pwned_rustfmt\ncat\n",
-            folder.path().display()
-        ),
+        format!("#!/bin/sh\ntouch {}/pwned_rustfmt\ncat\n", folder.path().display()),
     )
     .expect("a program");
     #[cfg(unix)]
-    fs::set_permissions(
-        &rustfmt,
-        std::os::unix::fs::PermissionsExt::from_mode(0o755),
-    )
-    .expect("a program");
+    fs::set_permissions(&rustfmt, std::os::unix::fs::PermissionsExt::from_mode(0o755))
+        .expect("a program");
     let toolchain = format!("[toolchain]\npath = {tools:?}\n");
     fs::write(folder.path().join("rust-toolchain.toml"), toolchain).expect("a file");
     fs::write(folder.path().join("rustfmt.toml"), "max_width = 40").expect("a file");
@@ -130,10 +113,7 @@ fn the_description_is_data_and_the_folder_is_empty() {
     assert!(written("python.stdin").contains("<robot name='r'>"));
     let arguments = written("python.args");
     assert!(arguments.starts_with("-I\n-c\n"), "{arguments}");
-    assert!(
-        !arguments.contains("<robot") && !arguments.contains("r.urdf"),
-        "{arguments}"
-    );
+    assert!(!arguments.contains("<robot") && !arguments.contains("r.urdf"), "{arguments}");
     assert_eq!(written("python.ls"), "");
     let own = written("python.pwd");
     assert!(!Path::new(own.trim()).exists(), "{own} is left behind");
@@ -147,16 +127,9 @@ fn a_peer_that_sleeps_is_ended_with_what_it_started() {
     args.options.peer_time = 1.0;
     let start = Instant::now();
     let imported = import(&args, "today").expect("without a peer");
-    assert!(
-        start.elapsed() < Duration::from_secs(10),
-        "{:?}",
-        start.elapsed()
-    );
+    assert!(start.elapsed() < Duration::from_secs(10), "{:?}", start.elapsed());
     let text = advice(&imported);
-    assert!(
-        text.contains("had not answered after 1 s and was ended"),
-        "{text}"
-    );
+    assert!(text.contains("had not answered after 1 s and was ended"), "{text}");
     let pid = fs::read_to_string(folder.path().join("python.pid")).expect("a process");
     let status = fs::read_to_string(format!("/proc/{}/status", pid.trim())).unwrap_or_default();
     assert!(!status.contains("State:\tS"), "it still sleeps: {status}");
@@ -172,24 +145,15 @@ fn a_peer_that_floods_or_answers_nonsense_is_advice() {
         ("yes", "it wrote more than 8 MB and was ended"),
         ("yes >&2 & exec cat > /dev/null", "its answer is none"),
         ("exit 0", "its answer is none"),
-        (
-            "echo '{\"name\": \"x\", \"torques\": [[1.0]]}'",
-            "another number of states",
-        ),
-        (
-            "printf 'a\\n\\033[2Jcleared\\n' >&2; exit 1",
-            ": [2Jcleared",
-        ),
+        ("echo '{\"name\": \"x\", \"torques\": [[1.0]]}'", "another number of states"),
+        ("printf 'a\\n\\033[2Jcleared\\n' >&2; exit 1", ": [2Jcleared"),
         ("kill -9 $$", "no message"),
     ];
     for (script, words) in cases {
         let (_folder, args) = fake(script);
         let imported = import(&args, "today").unwrap_or_else(|error| panic!("{script}: {error}"));
         let text = advice(&imported);
-        assert!(
-            text.contains(words) && !text.contains('\u{1b}'),
-            "{script}: {text}"
-        );
+        assert!(text.contains(words) && !text.contains('\u{1b}'), "{script}: {text}");
         assert!(imported.report.text().contains("no peer"));
     }
 }
@@ -198,16 +162,10 @@ fn a_peer_that_floods_or_answers_nonsense_is_advice() {
 #[test]
 fn a_disagreement_without_a_reason_is_refused_at_its_joint() {
     let torques = vec!["[1e3]"; 100].join(",");
-    let (_folder, mut args) = fake(&format!(
-        "cat > /dev/null; echo '{{\"name\": \"X 1\", \"torques\": [{torques}]}}'"
-    ));
-    let error = import(&args, "today")
-        .expect_err("other torques")
-        .to_string();
-    assert!(
-        error.contains("differs from X 1 by") && error.contains("joint `swing`"),
-        "{error}"
-    );
+    let (_folder, mut args) =
+        fake(&format!("cat > /dev/null; echo '{{\"name\": \"X 1\", \"torques\": [{torques}]}}'"));
+    let error = import(&args, "today").expect_err("other torques").to_string();
+    assert!(error.contains("differs from X 1 by") && error.contains("joint `swing`"), "{error}");
     args.options.python = "none".to_owned();
     import(&args, "today").expect("compared with nothing");
     args.options.python = "no-such-python".to_owned();
@@ -227,9 +185,7 @@ fn a_peer_that_disagrees_is_quoted() {
     let (_folder, args) = fake(&format!(
         "cat > /dev/null; {DROPPED}; echo '{{\"name\": \"X 1\", \"torques\": [{torques}]}}'"
     ));
-    let error = import(&args, "today")
-        .expect_err("other torques")
-        .to_string();
+    let error = import(&args, "today").expect_err("other torques").to_string();
     assert!(
         error.contains(
             "of which X 1 says: \"Error:   Inertial: inertia element ixz is not a valid double; Error:   Could not parse inertial \
@@ -249,9 +205,8 @@ fn a_peer_that_drops_a_number_with_blanks_is_advice() {
     let right = import(&args, "today").expect("compared with nothing");
     let torques = |of: &dyn Fn(f64) -> f64| {
         let samples = right.report.check.samples.iter();
-        let rows: Vec<String> = samples
-            .map(|(_, torque)| format!("[{:e}]", of(torque[0])))
-            .collect();
+        let rows: Vec<String> =
+            samples.map(|(_, torque)| format!("[{:e}]", of(torque[0]))).collect();
         format!("{{\"name\": \"X 1\", \"torques\": [{}]}}", rows.join(","))
     };
     fs::write(folder.path().join("right"), torques(&|x| x)).expect("an answer");
@@ -267,13 +222,7 @@ fn a_peer_that_drops_a_number_with_blanks_is_advice() {
         let text = PENDULUM.replace("ixz='0'", &format!("ixz='0{blank}'"));
         fs::write(&args.file, text).expect("a robot");
         let imported = import(&args, "today").unwrap_or_else(|error| panic!("{error}"));
-        assert!(
-            imported
-                .report
-                .peer
-                .as_ref()
-                .is_some_and(|peer| peer.difference < 1e-12)
-        );
+        assert!(imported.report.peer.as_ref().is_some_and(|peer| peer.difference < 1e-12));
         let words = advice(&imported);
         assert!(
             words.contains("X 1 misreads the file and says: \"Error:   Inertial: inertia element ixz is not a valid double"),
@@ -286,23 +235,12 @@ fn a_peer_that_drops_a_number_with_blanks_is_advice() {
 fn a_peer_is_given_no_name_of_a_file() {
     let path = cases().join("arm_of_many_terms.xml");
     let text = for_peer(&path, None).expect("a model");
-    for words in [
-        "file",
-        "meshdir",
-        "texturedir",
-        "passwd",
-        "/etc",
-        "..",
-        "paint",
-    ] {
+    for words in ["file", "meshdir", "texturedir", "passwd", "/etc", "..", "paint"] {
         assert!(!text.contains(words), "{words}: {text}");
     }
     // The numbers are the file's own.
-    for words in [
-        "ref=\"0.4\"",
-        "fullinertia=\"0.01 0.03 0.03 0.001 0 0.002\"",
-        "axis=\"0 0.3 1\"",
-    ] {
+    for words in ["ref=\"0.4\"", "fullinertia=\"0.01 0.03 0.03 0.001 0 0.002\"", "axis=\"0 0.3 1\""]
+    {
         assert!(text.contains(words), "{words}: {text}");
     }
     let outside = path.with_file_name("outside.xml");
@@ -310,12 +248,7 @@ fn a_peer_is_given_no_name_of_a_file() {
         "<mujoco><include file='../../Cargo.toml'/></mujoco>",
         outside.parent().expect("a folder"),
     );
-    assert!(
-        error
-            .expect_err("outside")
-            .to_string()
-            .contains("not below the folder")
-    );
+    assert!(error.expect_err("outside").to_string().contains("not below the folder"));
 }
 
 fn cases() -> PathBuf {
@@ -332,9 +265,7 @@ fn mujoco() -> Option<String> {
     let python = std::env::var("PEER_PYTHON").unwrap_or("python3".to_owned());
     let mut command = Command::new(&python);
     let tried = command.args(["-I", "-c", "import mujoco"]).output();
-    tried
-        .is_ok_and(|done| done.status.success())
-        .then_some(python)
+    tried.is_ok_and(|done| done.status.success()).then_some(python)
 }
 
 /// Files, each with words of what the import says that it leaves out; none where it carries the
@@ -353,22 +284,10 @@ const TERMS: [(&str, &[&str]); 20] = [
     ("position_kv", &["position, that of joint `j`: their gains"]),
     ("ref", &[]),
     ("ref_slide", &[]),
-    (
-        "tendon_armature",
-        &["fixed `t`: the tendon with its armature"],
-    ),
-    (
-        "tendon_damping",
-        &["fixed `t`: the tendon with its damping"],
-    ),
-    (
-        "tendon_friction",
-        &["fixed `t`: the tendon with its frictionloss"],
-    ),
-    (
-        "tendon_stiffness",
-        &["fixed `t`: the tendon with its stiffness"],
-    ),
+    ("tendon_armature", &["fixed `t`: the tendon with its armature"]),
+    ("tendon_damping", &["fixed `t`: the tendon with its damping"]),
+    ("tendon_friction", &["fixed `t`: the tendon with its frictionloss"]),
+    ("tendon_stiffness", &["fixed `t`: the tendon with its stiffness"]),
     (
         "arm_of_many_terms",
         &[
@@ -386,19 +305,11 @@ const TERMS: [(&str, &[&str]); 20] = [
     ),
     (
         "free_body_that_is_turned",
-        &[
-            "alignfree",
-            "joint `fly`: the spring",
-            "joint `joint_4`: align",
-        ],
+        &["alignfree", "joint `fly`: the spring", "joint `joint_4`: align"],
     ),
     (
         "muscles_and_flags",
-        &[
-            "muscle `m`",
-            "damper, that of joint `s`",
-            "intvelocity, that of joint `h`",
-        ],
+        &["muscle `m`", "damper, that of joint `s`", "intvelocity, that of joint `h`"],
     ),
 ];
 

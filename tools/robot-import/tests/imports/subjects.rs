@@ -6,15 +6,8 @@ fn tried(text: &str, name: &str, options: Options) -> Result<Imported, String> {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join(name);
     std::fs::write(&file, text).expect("a file");
-    let options = Options {
-        python: "none".to_owned(),
-        ..options
-    };
-    let args = Args {
-        file,
-        options,
-        ..Args::default()
-    };
+    let options = Options { python: "none".to_owned(), ..options };
+    let args = Args { file, options, ..Args::default() };
     import(&args, "today").map_err(|error| error.to_string())
 }
 
@@ -25,9 +18,7 @@ fn imported(text: &str, name: &str) -> Imported {
 /// The words on a robot: the advice on each joint or part, and the comments of the written file.
 fn said(of: &Imported) -> String {
     let advice = of.report.advice.iter();
-    let lines: Vec<String> = advice
-        .map(|one| format!("{}: {}", one.name, one.text))
-        .collect();
+    let lines: Vec<String> = advice.map(|one| format!("{}: {}", one.name, one.text)).collect();
     lines.join("\n") + &of.source
 }
 
@@ -64,10 +55,7 @@ const ZERO: &str = "<limit lower='0' upper='0' effort='0' velocity='0'/>";
 #[test]
 fn a_tree_gets_no_advice_on_loops_or_motors() {
     let free_base = |name: &str, text: &str| {
-        let options = Options {
-            free_base: true,
-            ..Options::default()
-        };
+        let options = Options { free_base: true, ..Options::default() };
         tried(text, name, options).unwrap_or_else(|error| panic!("{error}"))
     };
     let zero = chain(&[("shoulder", ZERO), ("elbow", ZERO)]);
@@ -80,10 +68,7 @@ fn a_tree_gets_no_advice_on_loops_or_motors() {
             &cart_pole("<actuator><motor joint='rail' ctrlrange='-20 20'/></actuator>"),
             "r.xml",
         ),
-        imported(
-            &cart_pole("<actuator><position joint='rail'/></actuator>"),
-            "r.xml",
-        ),
+        imported(&cart_pole("<actuator><position joint='rail'/></actuator>"), "r.xml"),
         free_base("r.urdf", &zero),
     ];
     for robot in &robots {
@@ -105,19 +90,13 @@ fn a_joint_without_a_motor_needs_no_limit_of_torque() {
     assert!(none.contains("hinge: It has no limit of torque"), "{none}");
     let follower = |joint: &str| {
         let mimic = format!("<mimic joint='{joint}' multiplier='-1'/>");
-        said(&imported(
-            &chain(&[("elbow", FULL), ("rot", &mimic)]),
-            "r.urdf",
-        ))
+        said(&imported(&chain(&[("elbow", FULL), ("rot", &mimic)]), "r.urdf"))
     };
     let said = follower("elbow");
     assert!(!said.contains(torque), "{said}");
     // One whose leader is not there moves by itself.
     let said = follower("nobody");
-    assert!(
-        said.contains("rot: It has no limit of speed and of torque"),
-        "{said}"
-    );
+    assert!(said.contains("rot: It has no limit of speed and of torque"), "{said}");
 }
 
 #[test]
@@ -131,11 +110,7 @@ fn a_belt_is_described_as_a_coupling() {
         "{text}"
     );
     assert!(!said(&robot).contains("loop"), "{}", said(&robot));
-    assert!(
-        robot.source.contains("pub const M: usize = 2;"),
-        "{}",
-        robot.source
-    );
+    assert!(robot.source.contains("pub const M: usize = 2;"), "{}", robot.source);
     let tree = imported(&chain(&[("shoulder", FULL), ("elbow", FULL)]), "r.urdf");
     assert!(!tree.report.text().contains("Coupled"));
 }
@@ -194,17 +169,11 @@ fn an_option_that_advice_names_is_taken() {
     let named = tried(&parallelogram(""), "p.xml", motors(&["left"])).expect("a motor");
     assert!(!said(&named).contains("--motors"), "{}", said(&named));
     let error = tried(&parallelogram(""), "p.xml", motors(&["lfet"])).expect_err("misspelt");
-    assert!(
-        error.ends_with("no joint of this name moves; did you mean `left`?"),
-        "{error}"
-    );
+    assert!(error.ends_with("no joint of this name moves; did you mean `left`?"), "{error}");
     // A tree is not told of the option, and told why not to use it.
     let error =
         tried(&chain(&[("elbow", FULL)]), "r.urdf", motors(&["elbow"])).expect_err("no loop");
-    assert!(
-        error.contains("`--motors`: the robot has no loop"),
-        "{error}"
-    );
+    assert!(error.contains("`--motors`: the robot has no loop"), "{error}");
 }
 
 #[test]
@@ -212,22 +181,14 @@ fn a_robot_below_the_estimates_range_gets_none() {
     let one = imported(&chain(&[("only", FULL)]), "r.urdf");
     let text = one.report.text();
     assert!(!text.contains("estimated"), "{text}");
-    assert_eq!(
-        (one.report.estimated_cycles, one.report.estimated_flash),
-        (None, None)
-    );
+    assert_eq!((one.report.estimated_cycles, one.report.estimated_flash), (None, None));
     let two_fingers = chain(&[("a", FULL)]).replace("</robot>", "")
         + &format!(
             "<link name='b'>{INERTIAL}</link><joint name='b' type='revolute'><parent link='base'/><child link='b'/>\
              <axis xyz='0 1 0'/>{FULL}</joint></robot>"
         );
-    assert_eq!(
-        imported(&two_fingers, "r.urdf").report.estimated_cycles,
-        None
-    );
-    let text = imported(&chain(&[("a", FULL), ("b", FULL)]), "r.urdf")
-        .report
-        .text();
+    assert_eq!(imported(&two_fingers, "r.urdf").report.estimated_cycles, None);
+    let text = imported(&chain(&[("a", FULL), ("b", FULL)]), "r.urdf").report.text();
     assert!(text.contains("(estimated)"), "{text}");
 }
 
@@ -242,18 +203,12 @@ fn a_misspelt_tip_has_a_suggestion() {
         ("wrist_1", "wrist_1_link"),
         ("bsae", "base"),
     ] {
-        let options = Options {
-            tip: Some(given.to_owned()),
-            ..Options::default()
-        };
+        let options = Options { tip: Some(given.to_owned()), ..Options::default() };
         let error = tried(&arm, "r.urdf", options).expect_err("misspelt");
         let words = format!("there is no link `{given}`; did you mean `{meant}`?");
         assert_eq!(error, words);
     }
-    let options = Options {
-        tip: Some("hand".to_owned()),
-        ..Options::default()
-    };
+    let options = Options { tip: Some("hand".to_owned()), ..Options::default() };
     let error = tried(&arm, "r.urdf", options).expect_err("no such link");
     assert_eq!(error, "there is no link `hand`");
 }
@@ -267,20 +222,10 @@ fn numbers_of_one_body_or_joint_are_named_with_it() {
         said(&imported(&parts.join(from), "r.urdf"))
     };
     let words = at(1, FULL, &FULL.replace("'2'", "'170'"));
-    assert!(
-        words.contains("elbow: A position limit of 170 rad is 27.1 turns"),
-        "{words}"
-    );
+    assert!(words.contains("elbow: A position limit of 170 rad is 27.1 turns"), "{words}");
     // About the joint: 1.2 kg on 0.1 m are 0.012 kg·m².
-    let words = at(
-        1,
-        "iyy='0.005' iyz='0' izz='0.005'",
-        "iyy='0.017' iyz='0' izz='0.017'",
-    );
-    assert!(
-        words.contains("elbow_link: Its inertia of 0.0170 kg·m² is more than"),
-        "{words}"
-    );
+    let words = at(1, "iyy='0.005' iyz='0' izz='0.005'", "iyy='0.017' iyz='0' izz='0.017'");
+    assert!(words.contains("elbow_link: Its inertia of 0.0170 kg·m² is more than"), "{words}");
     // kg·mm² of a part within 2 m of radius of gyration is named by the library, beyond by the
     // importer.
     let words = at(
@@ -288,10 +233,7 @@ fn numbers_of_one_body_or_joint_are_named_with_it() {
         "ixx='0.001' ixy='0' ixz='0' iyy='0.005' iyz='0' izz='0.005'",
         "ixx='1000' ixy='0' ixz='0' iyy='5000' iyz='0' izz='5000'",
     );
-    assert!(
-        words.contains("wrist_link: 1.2 kg with a radius of gyration of 64.5 m"),
-        "{words}"
-    );
+    assert!(words.contains("wrist_link: 1.2 kg with a radius of gyration of 64.5 m"), "{words}");
 }
 
 #[test]
@@ -299,9 +241,7 @@ fn a_negative_moment_of_a_file_is_computed_with() {
     let arm = chain(&[("a", FULL), ("b", FULL)]).replacen("iyy='0.005'", "iyy='-0.004'", 1);
     let robot = imported(&arm, "r.urdf");
     assert!(
-        robot
-            .source
-            .contains(".inertia_as_published([0.001, 0.0, 0.0, -0.004, 0.0, 0.005])"),
+        robot.source.contains(".inertia_as_published([0.001, 0.0, 0.0, -0.004, 0.0, 0.005])"),
         "{}",
         robot.source
     );

@@ -43,23 +43,12 @@ fn roundings_of_quarter_turns_are_exact() {
         let entries = joint.exact.rotation.to_cols_array();
         let exact = entries.iter().all(|x| [-1.0, 0.0, 1.0].contains(x));
         assert_eq!(exact, quarter, "{attributes}: {entries:?}");
-        assert_eq!(
-            joint.snapped.len(),
-            reports,
-            "{attributes}: {:?}",
-            joint.snapped
-        );
+        assert_eq!(joint.snapped.len(), reports, "{attributes}: {:?}", joint.snapped);
         let apart = joint.exact.rotation - joint.origin.rotation;
         let most = if reports > 0 { 1e-4 } else { 1e-15 };
-        assert!(
-            apart.to_cols_array().iter().all(|x| x.abs() < most),
-            "{attributes}: {apart}"
-        );
+        assert!(apart.to_cols_array().iter().all(|x| x.abs() < most), "{attributes}: {apart}");
         for report in &joint.snapped {
-            assert!(
-                report.difference != 0.0 && report.difference.abs() < 1e-4,
-                "{report:?}"
-            );
+            assert!(report.difference != 0.0 && report.difference.abs() < 1e-4, "{report:?}");
         }
     }
 }

@@ -23,21 +23,12 @@ fn cycles_of_included_files_are_refused() {
     file("self.xml", "<mujoco>\n<include file='self.xml'/></mujoco>");
     file("a.xml", "<mujoco>\n\n<include file='b.xml'/></mujoco>");
     file("b.xml", "<mujoco><include file='a.xml'/></mujoco>");
-    file(
-        "twice.xml",
-        "<mujoco><include file='empty.xml'/>\n<include file='empty.xml'/></mujoco>",
-    );
+    file("twice.xml", "<mujoco><include file='empty.xml'/>\n<include file='empty.xml'/></mujoco>");
     file("empty.xml", "<mujoco/>");
-    file(
-        "broken.xml",
-        "<mujoco>\n\n<include file='part.xml'/></mujoco>",
-    );
+    file("broken.xml", "<mujoco>\n\n<include file='part.xml'/></mujoco>");
     file("part.xml", "<mujoco>\n<body></mujoco>");
     for i in 0..40 {
-        file(
-            &format!("{i}.xml"),
-            &format!("<mujoco><include file='{}.xml'/></mujoco>", i + 1),
-        );
+        file(&format!("{i}.xml"), &format!("<mujoco><include file='{}.xml'/></mujoco>", i + 1));
     }
     let cases = [
         ("self.xml", 2, "included twice"),
@@ -67,10 +58,7 @@ fn huge_models_are_refused_in_time() {
     let geoms = format!("<body><joint/>{}</body>", GEOM.repeat(90_000));
     let elements = format!("<body><joint/>{}</body>", GEOM.repeat(150_000));
     let too_large = |result: Result<Description, ImportError>, name: &str| match result {
-        Err(ImportError {
-            problem: Problem::TooLarge { what, .. },
-            place,
-        }) => {
+        Err(ImportError { problem: Problem::TooLarge { what, .. }, place }) => {
             assert_eq!(what, name);
             place.line
         }
@@ -88,10 +76,7 @@ fn huge_models_are_refused_in_time() {
     assert!((mass / (90_000.0 * sphere) - 1.0).abs() < 1e-9, "{mass} kg");
     too_large(model("", &elements), "elements");
     let duration = started.elapsed();
-    assert!(
-        duration < Duration::from_secs(16),
-        "8 models in {duration:?}, at most 2 s each"
-    );
+    assert!(duration < Duration::from_secs(16), "8 models in {duration:?}, at most 2 s each");
 }
 
 #[test]
@@ -103,24 +88,10 @@ fn bodies_and_joints_without_names_have_those_of_their_order() {
     );
     let robot = model("", &bodies).expect("a robot");
     let links: Vec<&str> = robot.links.iter().map(|link| link.name.as_str()).collect();
-    let expected = [
-        "world",
-        "body_1_2/joint_0",
-        "body_1_2",
-        "named",
-        "body_3",
-        "body_1",
-    ];
+    let expected = ["world", "body_1_2/joint_0", "body_1_2", "named", "body_3", "body_1"];
     assert_eq!(links, expected);
-    let joints: Vec<&str> = robot
-        .joints
-        .iter()
-        .map(|joint| joint.name.as_str())
-        .collect();
-    assert_eq!(
-        joints,
-        ["joint_0", "joint_1", "joint_2_2", "joint_3", "joint_2"]
-    );
+    let joints: Vec<&str> = robot.joints.iter().map(|joint| joint.name.as_str()).collect();
+    assert_eq!(joints, ["joint_0", "joint_1", "joint_2_2", "joint_3", "joint_2"]);
 }
 
 /// Each fixture, cut anywhere or with a byte replaced, is a robot or an error.
@@ -147,8 +118,5 @@ fn damaged_models_never_panic() {
             refused += usize::from(parse(&damaged, &folder).is_err());
         }
     }
-    assert!(
-        refused > tried / 2 && refused < tried,
-        "{refused} of {tried}"
-    );
+    assert!(refused > tried / 2 && refused < tried, "{refused} of {tried}");
 }

@@ -38,10 +38,7 @@ impl Walked {
         let mut links = vec![Pose::IDENTITY; robot.links.len()];
         // Parents are before their children in this format.
         for joint in &robot.joints {
-            let q = state
-                .joints
-                .get(&joint.name)
-                .map(|placed| placed.q.as_slice());
+            let q = state.joints.get(&joint.name).map(|placed| placed.q.as_slice());
             let motion = motion(joint, q.unwrap_or_default());
             links[joint.child] = links[joint.parent].then(&joint.origin).then(&motion);
         }
@@ -58,11 +55,7 @@ impl Walked {
         let [xx, xy, xz, yy, yz, zz] = inertial.inertia;
         let tensor = DMat3::from_cols_array(&[xx, xy, xz, xy, yy, yz, xz, yz, zz]);
         let [x, y, z] = (frame.rotation * tensor * frame.rotation.transpose()).to_cols_array_2d();
-        Some((
-            inertial.mass,
-            frame.position.to_array(),
-            [x[0], x[1], x[2], y[1], y[2], z[2]],
-        ))
+        Some((inertial.mass, frame.position.to_array(), [x[0], x[1], x[2], y[1], y[2], z[2]]))
     }
 
     /// Kind, anchor and axis in the world.
@@ -114,19 +107,14 @@ fn motion(joint: &Joint, q: &[f64]) -> Pose {
         _ => DMat3::IDENTITY,
     };
     match (joint.kind, q) {
-        (Kind::Revolute | Kind::Continuous, [q]) => Pose {
-            position: DVec3::ZERO,
-            rotation: DMat3::from_axis_angle(axis, *q),
-        },
+        (Kind::Revolute | Kind::Continuous, [q]) => {
+            Pose { position: DVec3::ZERO, rotation: DMat3::from_axis_angle(axis, *q) }
+        }
         (Kind::Prismatic, [q]) => Pose::translation(axis * *q),
-        (Kind::Spherical, q) => Pose {
-            position: DVec3::ZERO,
-            rotation: turn(q),
-        },
-        (Kind::Free, [x, y, z, quaternion @ ..]) => Pose {
-            position: DVec3::new(*x, *y, *z),
-            rotation: turn(quaternion),
-        },
+        (Kind::Spherical, q) => Pose { position: DVec3::ZERO, rotation: turn(q) },
+        (Kind::Free, [x, y, z, quaternion @ ..]) => {
+            Pose { position: DVec3::new(*x, *y, *z), rotation: turn(quaternion) }
+        }
         _ => Pose::IDENTITY,
     }
 }

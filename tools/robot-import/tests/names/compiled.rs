@@ -57,9 +57,8 @@ fn libraries(name: &str, folder: &str) -> Vec<PathBuf> {
         made_of.contains(folder).then_some(age)
     };
     let paths = libraries.flatten().map(|entry| entry.path());
-    let mut found: Vec<(SystemTime, PathBuf)> = paths
-        .filter_map(|path| Some((of_folder(&path)?, path)))
-        .collect();
+    let mut found: Vec<(SystemTime, PathBuf)> =
+        paths.filter_map(|path| Some((of_folder(&path)?, path))).collect();
     assert!(!found.is_empty(), "no library of {name} beside the test");
     found.sort();
     found.into_iter().rev().map(|(_, path)| path).collect()
@@ -86,11 +85,7 @@ fn externs() -> &'static Externs {
         let folder = Folder::new();
         let root = folder.write("probe.rs", PROBE);
         let out = format!("metadata={}", folder.0.join("probe").display());
-        let fits = |set: &Externs| {
-            call("rustc", set, &root, &["--emit", &out])
-                .status
-                .success()
-        };
+        let fits = |set: &Externs| call("rustc", set, &root, &["--emit", &out]).status.success();
         let cores = libraries("dynamics_core", "dynamics-core");
         let controls = libraries("motion_control", "motion-control");
         let drivers = libraries("joint_drivers", "drivers");
@@ -110,8 +105,7 @@ fn externs() -> &'static Externs {
                 })
             })
         });
-        sets.find(fits)
-            .expect("libraries that were built with each other")
+        sets.find(fits).expect("libraries that were built with each other")
     })
 }
 
@@ -128,13 +122,9 @@ fn call(program: &str, externs: &Externs, root: &Path, arguments: &[&str]) -> Ou
     let mut command = Command::new(&program);
     command.args(["--edition", "2024", "--crate-type", "lib", "-D", "warnings"]);
     let folder = dependencies();
-    command
-        .arg("-L")
-        .arg(format!("dependency={}", folder.display()));
+    command.arg("-L").arg(format!("dependency={}", folder.display()));
     for (name, file) in externs {
-        command
-            .arg("--extern")
-            .arg(format!("{name}={}", file.display()));
+        command.arg("--extern").arg(format!("{name}={}", file.display()));
     }
     let output = command
         // Cargo sets it for the crate that it compiles.
@@ -142,9 +132,7 @@ fn call(program: &str, externs: &Externs, root: &Path, arguments: &[&str]) -> Ou
         .args(arguments)
         .arg(root)
         .current_dir(root.parent().expect("a folder"));
-    output
-        .output()
-        .unwrap_or_else(|error| panic!("{program}: {error}"))
+    output.output().unwrap_or_else(|error| panic!("{program}: {error}"))
 }
 
 /// The message of a program that failed; none if it did not.
@@ -234,14 +222,8 @@ impl Batch {
                 let doc = doc.split("</details>").next().unwrap_or_default();
                 // The headings of a file's head, with their links to themselves, and its list of
                 // changes.
-                let own = [
-                    "<a class=\"doc-anchor\"",
-                    "<h2 id=\"source\">",
-                    "<h2 id=\"changed\">",
-                ];
-                let doc = own
-                    .iter()
-                    .fold(doc.to_owned(), |doc, tag| doc.replacen(tag, "", 2));
+                let own = ["<a class=\"doc-anchor\"", "<h2 id=\"source\">", "<h2 id=\"changed\">"];
+                let doc = own.iter().fold(doc.to_owned(), |doc, tag| doc.replacen(tag, "", 2));
                 let found = [
                     "<pre",
                     "<a ",
@@ -274,22 +256,12 @@ pub fn c_headers(headers: &[String]) -> Result<usize, String> {
         folder.write(&format!("h{k}.h"), header);
         let _ = writeln!(text, "#include \"h{k}.h\"");
     }
-    let calls = [
-        ("cc", "-std=c11", "all.c"),
-        ("c++", "-std=c++17", "all.cpp"),
-    ];
+    let calls = [("cc", "-std=c11", "all.c"), ("c++", "-std=c++17", "all.cpp")];
     let mut compilers = 0;
     for (program, standard, name) in calls {
         let source = folder.write(name, &text);
         let mut command = Command::new(program);
-        command.args([
-            standard,
-            "-fsyntax-only",
-            "-pedantic",
-            "-Wall",
-            "-Wextra",
-            "-Werror",
-        ]);
+        command.args([standard, "-fsyntax-only", "-pedantic", "-Wall", "-Wextra", "-Werror"]);
         match command.arg(&source).output() {
             Ok(output) => failure(&output).map_or(Ok(()), Err)?,
             Err(_) => {

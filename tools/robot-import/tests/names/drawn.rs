@@ -76,10 +76,7 @@ fn draw(count: usize) -> Vec<(Names, RobotFile)> {
             None => refused += 1,
         }
     }
-    assert!(
-        refused * 4 < count,
-        "{refused} of {count} have two of one name"
-    );
+    assert!(refused * 4 < count, "{refused} of {count} have two of one name");
     drawn
 }
 
@@ -101,17 +98,10 @@ fn compiles(drawn: &[(Names, RobotFile)]) {
             _ => batch.file(&robot.text),
         }
         let files = files(&library).expect("a legal name");
-        let header = files
-            .into_iter()
-            .find(|(path, _)| path.starts_with("include/"));
+        let header = files.into_iter().find(|(path, _)| path.starts_with("include/"));
         headers.extend(header.map(|(_, text)| text));
     }
-    let names = || {
-        drawn
-            .iter()
-            .enumerate()
-            .map(|(k, names)| format!("m{k}: {:?}\n", names.0))
-    };
+    let names = || drawn.iter().enumerate().map(|(k, names)| format!("m{k}: {:?}\n", names.0));
     let all = |error: String| panic!("{}\n{error}", names().collect::<String>());
     batch.check().unwrap_or_else(all);
     assert_eq!(batch.doctests(), [""; 0]);
@@ -139,11 +129,7 @@ fn a_string_of_a_written_file_is_the_name() {
     for (names, file) in draw(40) {
         let literal = format!("Model::new({:?}", names.robot);
         assert!(file.text.contains(&literal), "{literal} in {}", file.text);
-        assert!(
-            file.joints
-                .iter()
-                .all(|joint| { file.text.contains(&format!("{joint:?}")) })
-        );
+        assert!(file.joints.iter().all(|joint| { file.text.contains(&format!("{joint:?}")) }));
     }
 }
 
@@ -154,9 +140,7 @@ fn a_chosen_type_is_one_that_the_user_may_give() {
     for name in words.chain(drawn) {
         assert_eq!(given_type_name(&type_name(&name)), Ok(type_name(&name)));
     }
-    for name in [
-        "", "Self", "Robot", "N", "SCENE", "Option", "robot", "1", "My_Arm", "É",
-    ] {
+    for name in ["", "Self", "Robot", "N", "SCENE", "Option", "robot", "1", "My_Arm", "É"] {
         assert!(given_type_name(name).is_err(), "{name}");
     }
     let error = given_type_name("Robot").expect_err("the file uses it");
@@ -174,19 +158,13 @@ fn no_text_in_documentation_is_markdown() {
             forms.map(|text| format!("//! - {text}\n//!\n//! {text}\n//!\n//! x {text}\n//!\n"));
         let mut batch = Batch::new();
         batch.file(&(lines.collect::<String>() + "//! # Source\n"));
-        batch
-            .check()
-            .and_then(|()| batch.document())
-            .map(|()| batch.doctests())
+        batch.check().and_then(|()| batch.document()).map(|()| batch.doctests())
     };
     let none = Ok(Vec::new());
     assert_eq!(of(&|text| doc_name(text)), none);
     assert_eq!(of(&|text| code_span(text)), none);
     assert_eq!(of(&|text| doc_sentence(text)), none);
-    assert_eq!(
-        of(&|text| doc_sentence(&format!("Link `{text}` of `{text}`: {text}"))),
-        none
-    );
+    assert_eq!(of(&|text| doc_sentence(&format!("Link `{text}` of `{text}`: {text}"))), none);
     assert!(of(&|text| visible(text)).is_err());
 }
 
@@ -201,24 +179,15 @@ fn no_word_of_a_written_file_is_its_type() {
     let arm = plain("Arm6");
     let texts = [arm.urdf(), arm.mjcf()].map(|text| arm.robot_file(&text).expect("an arm").text);
     let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
-    let mut words: Vec<&str> = texts
-        .iter()
-        .flat_map(|text| text.split(|c| !is_part(c)))
-        .collect();
+    let mut words: Vec<&str> = texts.iter().flat_map(|text| text.split(|c| !is_part(c))).collect();
     words.sort_unstable();
     words.dedup();
     assert!(words.contains(&"JointLimits") && words.contains(&"LOOPS"));
     let mut batch = Batch::new();
     for (k, word) in words.iter().enumerate() {
         let names = plain(word);
-        let text = if k % 2 == 0 {
-            names.urdf()
-        } else {
-            names.mjcf()
-        };
+        let text = if k % 2 == 0 { names.urdf() } else { names.mjcf() };
         batch.file(&names.robot_file(&text).expect("an arm").text);
     }
-    batch
-        .check()
-        .unwrap_or_else(|error| panic!("{words:?}\n{error}"));
+    batch.check().unwrap_or_else(|error| panic!("{words:?}\n{error}"));
 }

@@ -20,10 +20,7 @@ fn imported() -> Vec<Imported> {
     let of = |file: &std::path::PathBuf| {
         let args = Args {
             file: file.clone(),
-            options: Options {
-                python: "no-python".to_owned(),
-                ..Options::default()
-            },
+            options: Options { python: "no-python".to_owned(), ..Options::default() },
             ..Args::default()
         };
         import(&args, "2026-11-23").unwrap_or_else(|error| panic!("{}: {error}", file.display()))
@@ -39,11 +36,8 @@ fn files_of_hostile_names_compile_and_run_nothing() {
         names += &format!("m{k}: {:?}\n", imported.name);
         let library = project(&format!("p{k}x"), imported.robot_file(), true);
         let files = files(&library).expect("a legal name").into_iter();
-        headers.extend(
-            files
-                .filter(|(path, _)| path.starts_with("include/"))
-                .map(|(_, text)| text),
-        );
+        headers
+            .extend(files.filter(|(path, _)| path.starts_with("include/")).map(|(_, text)| text));
         let text = imported.report.text();
         assert!(text.lines().all(|line| visible(line) == line), "{text:?}");
     }
@@ -86,18 +80,14 @@ fn each_check_of_names_refuses_what_was_once_written() {
     };
     let error = of("x", "Robot").check().expect_err("two of one name");
     assert!(error.contains("E0255"), "{error}");
-    let error = of("x\u{202e}", "Arm")
-        .check()
-        .expect_err("another direction of text");
+    let error = of("x\u{202e}", "Arm").check().expect_err("another direction of text");
     assert!(error.contains("text_direction_codepoint"), "{error}");
     assert_eq!(of("     let x = 1;", "Arm").doctests().len(), 1);
     let error = of("[Missing]", "Arm").document().expect_err("a link");
     assert!(error.contains("unresolved link"), "{error}");
     let error = of("[x](http://x.y)", "Arm").document().expect_err("a link");
     assert!(error.contains("<a "), "{error}");
-    let error = of("```text\n//! x", "Arm")
-        .document()
-        .expect_err("a block of code");
+    let error = of("```text\n//! x", "Arm").document().expect_err("a block of code");
     assert!(error.contains("<pre"), "{error}");
     let header = |text: &str| c_headers(&[format!("#ifndef H\n#define H\n{text}\n#endif\n")]);
     match header("enum joint { A_B_0, A_B_1 };") {

@@ -58,12 +58,7 @@ impl Names {
         [
             format!("<robot name=\"{}\">\n", attribute(&self.robot)),
             [&base, &a, &b, &fixed].map(link).concat(),
-            joint(
-                &j,
-                "revolute",
-                [&base, &a],
-                "<dynamics damping=\"1\" friction=\"2\"/>",
-            ),
+            joint(&j, "revolute", [&base, &a], "<dynamics damping=\"1\" friction=\"2\"/>"),
             joint(&k, "prismatic", [&a, &b], &follows),
             joint(&weld, "fixed", [&a, &fixed], ""),
             "</robot>".to_owned(),

@@ -141,20 +141,14 @@ fn projects_of_names_that_once_failed_pass_cargo_check() {
         members.push(format!("{name:?}"));
     }
     let members = members.join(", ");
-    folder.write(
-        "Cargo.toml",
-        &format!("[workspace]\nresolver = \"3\"\nmembers = [{members}]\n"),
-    );
+    folder.write("Cargo.toml", &format!("[workspace]\nresolver = \"3\"\nmembers = [{members}]\n"));
     let workspace = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     fs::copy(workspace.join("Cargo.lock"), folder.0.join("Cargo.lock")).expect("a lock file");
     let cargo = env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned());
     let output = Command::new(cargo)
         .args(["check", "--quiet", "--all-targets"])
         .current_dir(&folder.0)
-        .env(
-            "CARGO_TARGET_DIR",
-            Path::new(env!("CARGO_TARGET_TMPDIR")).join("names"),
-        )
+        .env("CARGO_TARGET_DIR", Path::new(env!("CARGO_TARGET_TMPDIR")).join("names"))
         .env("RUSTFLAGS", "-D warnings")
         .env_remove("CARGO_ENCODED_RUSTFLAGS")
         .output()

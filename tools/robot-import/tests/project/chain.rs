@@ -23,12 +23,7 @@ pub const BODIES: [&str; N] = [
 ];
 
 const fn limits(lower: f64, upper: f64, torque: f64) -> JointLimits<f64> {
-    JointLimits {
-        lower,
-        upper,
-        velocity: 4.0,
-        torque,
-    }
+    JointLimits { lower, upper, velocity: 4.0, torque }
 }
 
 /// The masses of a branch, from its root to its tip, kg.
@@ -56,10 +51,7 @@ const fn body(i: usize) -> Body {
         .limits(match i {
             3 | 10 | 24 => JointLimits::NONE,
             2 => limits(-0.6, 0.4, 60.0),
-            17 => JointLimits {
-                velocity: 0.05,
-                ..limits(0.0, 0.04, 60.0)
-            },
+            17 => JointLimits { velocity: 0.05, ..limits(0.0, 0.04, 60.0) },
             _ if k == 0 => limits(0.5, 2.5, 60.0),
             _ => limits(-1.5, 2.0, 60.0),
         })
@@ -79,9 +71,6 @@ impl Robot<30, 30, 30> for Chain {
 /// Viscous friction, N·m·s/rad or N·s/m.
 pub const VISCOUS: Viscous<f32, N> = Viscous([0.2; N]);
 /// Dry friction, N·m or N.
-pub const COULOMB: Coulomb<f32, N> = Coulomb {
-    torque: [0.3; N],
-    width: Width::f32(0.05),
-};
+pub const COULOMB: Coulomb<f32, N> = Coulomb { torque: [0.3; N], width: Width::f32(0.05) };
 /// Inertia of the rotors at the joints, kg·m² or kg.
 pub const ARMATURE: Armature<f32, N> = Armature([0.05; N]);

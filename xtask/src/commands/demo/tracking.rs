@@ -29,10 +29,7 @@ pub fn run(
     for (scene, elf) in runs {
         let (recording, _) = record(tools, *scene, elf, None)?;
         recording.complete()?;
-        plot::write(
-            &recording,
-            &workspace.output(&format!("{}.svg", scene.name()))?,
-        )?;
+        plot::write(&recording, &workspace.output(&format!("{}.svg", scene.name()))?)?;
         all.push(recording);
     }
     if json {
@@ -41,11 +38,7 @@ pub fn run(
         return Ok(ExitCode::SUCCESS);
     }
     for one in &all {
-        output::print(&format!(
-            "scene {}: tracking error\n\n{}",
-            one.scene,
-            table(one).text()
-        ))?;
+        output::print(&format!("scene {}: tracking error\n\n{}", one.scene, table(one).text()))?;
     }
     output::print(&format!("\nCosts are missing: {why}.\n"))?;
     Ok(ExitCode::SUCCESS)

@@ -38,14 +38,8 @@ pub fn absent_effects_cost_nothing(context: &Context) -> Result<String> {
             friction.is_ok(),
             "friction changes no instruction: the comparison sees nothing"
         );
-        let folded = if full == idle {
-            ", folded into one function"
-        } else {
-            ""
-        };
-        outcomes.push(format!(
-            "{form}: {instructions} instructions the same{folded}"
-        ));
+        let folded = if full == idle { ", folded into one function" } else { "" };
+        outcomes.push(format!("{form}: {instructions} instructions the same{folded}"));
     }
     let known = |inputs| row(&rows, "engine", inputs);
     let (full, friction) = (known("full_known")?, known("friction_known")?);
@@ -81,9 +75,7 @@ fn dropped(context: &Context, elves: [&PathBuf; 2]) -> Result<String> {
     if let Some(name) = names.find(|name| name.contains("exp_neg") || name.contains("ugre")) {
         bail!("without LuGre there is `{name}`");
     }
-    Ok(format!(
-        "LuGre dropped: {less} B of flash and {fewer} B of RAM less"
-    ))
+    Ok(format!("LuGre dropped: {less} B of flash and {fewer} B of RAM less"))
 }
 
 fn row<'a>(rows: &'a [Row], form: &str, inputs: &str) -> Result<&'a Row> {
@@ -109,9 +101,6 @@ fn added(context: &Context, full: &Row, friction: &Row) -> Result<String> {
 /// The bytes of a scene's effects, as it says itself.
 fn effects_bytes(context: &Context, name: &str, elf: &Path) -> Result<u64> {
     let lines = context.tools.qemu.lines(&Run::logging(name, elf, None))?;
-    let mut said = lines
-        .iter()
-        .filter_map(|line| line.strip_prefix("effects ")?.parse().ok());
-    said.next_back()
-        .ok_or_else(|| check!("`{name}` did not say how large its effects are"))
+    let mut said = lines.iter().filter_map(|line| line.strip_prefix("effects ")?.parse().ok());
+    said.next_back().ok_or_else(|| check!("`{name}` did not say how large its effects are"))
 }

@@ -54,16 +54,11 @@ pub fn bits(context: &Context) -> Result<String> {
 
 /// Fails unless the lines are of enough hard cases.
 fn of_hard_cases(lines: &[String]) -> Result<String> {
-    let hard = lines
-        .iter()
-        .filter_map(|line| line.strip_prefix("bits hard "));
+    let hard = lines.iter().filter_map(|line| line.strip_prefix("bits hard "));
     let mut cases: Vec<_> = hard.map(|case| case.split(' ').next()).collect();
     cases.dedup();
     let (digests, count) = (lines.len(), cases.len());
-    refuse_if!(
-        count < HARD_CASES,
-        "`bits` ran {count} of at least {HARD_CASES} hard cases"
-    );
+    refuse_if!(count < HARD_CASES, "`bits` ran {count} of at least {HARD_CASES} hard cases");
     Ok(format!("{digests} digests, {count} hard cases among them"))
 }
 
@@ -87,10 +82,7 @@ fn within_limits(runs: &[String]) -> Result<String> {
         faults += injected;
     }
     let count = runs.len();
-    refuse_if!(
-        count != FAULT_RUNS,
-        "`fault_runs` made {count} runs, not {FAULT_RUNS}"
-    );
+    refuse_if!(count != FAULT_RUNS, "`fault_runs` made {count} runs, not {FAULT_RUNS}");
     Ok(format!("{count} runs with {faults} faults"))
 }
 
@@ -100,9 +92,7 @@ pub fn no_f64(context: &Context) -> Result<String> {
         reached += f32_only(&measured.elf, is_tick)?;
         instructions += Image::read(&measured.elf)?.m4f_instructions()?;
     }
-    Ok(format!(
-        "{reached} functions reached, {instructions} instructions"
-    ))
+    Ok(format!("{reached} functions reached, {instructions} instructions"))
 }
 
 pub fn constant(context: &Context) -> Result<String> {
@@ -151,11 +141,7 @@ fn steady(kinds: &[Kind], mut samples: &[Sample]) -> Result<Vec<String>> {
         kinds.is_empty() || !samples.is_empty(),
         "the cycle meter saw more calls than were made"
     );
-    refuse_if!(
-        unsteady,
-        "the instructions depend on the data: {}",
-        costs.join(", ")
-    );
+    refuse_if!(unsteady, "the instructions depend on the data: {}", costs.join(", "));
     Ok(costs)
 }
 
@@ -216,11 +202,7 @@ mod tests {
     #[test]
     fn work_that_varies_is_named() {
         let samples = [5, 5, 7, 8].map(|instructions| Sample::of(0, [instructions, 10, 0]));
-        let kind = |name: &str, constant| Kind {
-            name: name.into(),
-            states: 2,
-            constant,
-        };
+        let kind = |name: &str, constant| Kind { name: name.into(), states: 2, constant };
         let kinds = [kind("law", true), kind("gate", true)];
         let message = steady(&kinds, &samples).expect_err("varies").to_string();
         assert!(message.contains("law 5, gate 7 to 8"), "{message}");

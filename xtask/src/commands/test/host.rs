@@ -20,10 +20,7 @@ fn everything() -> String {
 pub fn clippy(context: &Context) -> Result<String> {
     // It reads the part of the firmware that runs anywhere, too, since others depend on it.
     let words = "--all-targets -- -D warnings";
-    context.cargo(&[format!(
-        "clippy {} {WITHOUT_FIRMWARE} {words}",
-        everything()
-    )])
+    context.cargo(&[format!("clippy {} {WITHOUT_FIRMWARE} {words}", everything())])
 }
 
 /// The files of tests beside a `main.rs` that does not name them, which cargo would not compile.
@@ -55,10 +52,7 @@ fn tests_of(packages: &Together, full: bool) -> String {
 
 pub fn tests(context: &Context) -> Result<String> {
     let unnamed = unnamed(&context.workspace.root)?;
-    refuse_if!(
-        !unnamed.is_empty(),
-        "no `mod` in the `main.rs` beside them: {unnamed:?}"
-    );
+    refuse_if!(!unnamed.is_empty(), "no `mod` in the `main.rs` beside them: {unnamed:?}");
     let [all, xtask] = lines(context.full);
     // All failures in one run, which takes long.
     let printed = context.cargo(&[format!("{all} --no-fail-fast"), xtask])?;
@@ -93,12 +87,8 @@ pub fn doc(context: &Context) -> Result<String> {
 
 /// The tests that passed, from `test result: ok. 12 passed; …`.
 fn count(output: &str) -> u32 {
-    let results = output
-        .lines()
-        .filter_map(|line| line.strip_prefix("test result: ok. "));
-    results
-        .filter_map(|line| line.split(' ').next()?.parse::<u32>().ok())
-        .sum()
+    let results = output.lines().filter_map(|line| line.strip_prefix("test result: ok. "));
+    results.filter_map(|line| line.split(' ').next()?.parse::<u32>().ok()).sum()
 }
 
 #[cfg(test)]

@@ -95,11 +95,7 @@ impl Context {
 
     /// The scenes under test: all of them in a full run, the default one else.
     fn scenes(&self) -> &'static [Scene] {
-        if self.full {
-            Scene::all()
-        } else {
-            &Scene::all()[..1]
-        }
+        if self.full { Scene::all() } else { &Scene::all()[..1] }
     }
 
     /// One run of each scene under test, done once.
@@ -211,10 +207,7 @@ pub fn run(options: Options, args: &Args) -> Result<ExitCode> {
     }
     let start = Instant::now();
     let context = Context {
-        workspace: Workspace {
-            full: args.full,
-            ..Workspace::find()?
-        },
+        workspace: Workspace { full: args.full, ..Workspace::find()? },
         tools: setup::for_test(options)?,
         options: options.without_questions(),
         full: args.full,
@@ -266,8 +259,6 @@ fn passes((name, _, _, title, task): Step<Task>, context: &Context) -> Result<Op
         Err(error) => ("FAIL", format!("\n{error}\n"), Some(false)),
     };
     let seconds = start.elapsed().as_secs_f64();
-    output::line(&format!(
-        "{mark} {seconds:6.1} s  {name:16} {title}{detail}"
-    ))?;
+    output::line(&format!("{mark} {seconds:6.1} s  {name:16} {title}{detail}"))?;
     Ok(passed)
 }

@@ -32,11 +32,7 @@ pub fn package(context: &Context) -> Result<String> {
 fn copies_are_equal(root: &Path, library: &Path) -> Result<()> {
     for name in COPIES {
         let is_other = read(&root.join(name))? != read(&library.join(name))?;
-        refuse_if!(
-            is_other,
-            "{} is not a copy of {name}",
-            library.join(name).display()
-        );
+        refuse_if!(is_other, "{} is not a copy of {name}", library.join(name).display());
     }
     Ok(())
 }

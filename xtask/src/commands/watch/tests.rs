@@ -56,10 +56,7 @@ fn a_tick_a_record_or_a_masked_stretch_that_takes_longer_fails() {
         (kept, kept, short, Some("")),
     ] {
         let error = verdict(heard, alone, full).err().map(|e| e.to_string());
-        let said = error
-            .as_deref()
-            .zip(why)
-            .map(|(said, why)| said.contains(why));
+        let said = error.as_deref().zip(why).map(|(said, why)| said.contains(why));
         assert_eq!(said, why.map(|_| true), "{error:?}");
         assert_eq!(error.is_some(), why.is_some(), "{error:?}");
     }

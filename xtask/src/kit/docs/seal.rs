@@ -14,9 +14,7 @@ pub fn sealed(text: &str) -> String {
 /// A text without its sum.
 pub fn unsealed(text: &str) -> &str {
     let text = text.trim();
-    text.rsplit_once(BEFORE)
-        .map_or(text, |(text, _)| text)
-        .trim()
+    text.rsplit_once(BEFORE).map_or(text, |(text, _)| text).trim()
 }
 
 /// Whether a text ends with its sum.
@@ -28,9 +26,5 @@ pub fn is_sealed(text: &str) -> bool {
 /// The first half of a SHA-256.
 fn sum(text: &str) -> String {
     let digest = Sha256::digest(text);
-    digest
-        .iter()
-        .take(8)
-        .map(|byte| format!("{byte:02x}"))
-        .collect()
+    digest.iter().take(8).map(|byte| format!("{byte:02x}")).collect()
 }

@@ -45,10 +45,7 @@ fn words_of_another_compiler_are_those_that_are_written() {
     ] {
         assert_eq!(verdict(head, written, row), expected, "{written:?}");
     }
-    assert_eq!(
-        verdict(head, "| b | 1 | 2 |\n| a | 1 | 2 |", two),
-        "refused"
-    );
+    assert_eq!(verdict(head, "| b | 1 | 2 |\n| a | 1 | 2 |", two), "refused");
     let bar = |verdict: &str| format!("| rnea | 1,000 | 900 | {verdict} |");
     let bars = verdict("| bar | at most | now | |", &bar("met"), &bar("MISSED"));
     assert_eq!(bars, "refused");
@@ -91,20 +88,13 @@ fn a_picture_of_other_figures_is_refused() {
     // Another compiler's figures move, but not the words and what is drawn.
     assert!(accepted(&moved, false));
     assert!(!accepted(&svg.replace("RNEA", "ABA"), false));
-    assert!(!accepted(
-        &svg.replace("<circle", "<circle/><circle"),
-        false
-    ));
+    assert!(!accepted(&svg.replace("<circle", "<circle/><circle"), false));
     assert!(compare_picture(&workspace, "new.svg", "", svg, true).is_err());
 }
 
 #[test]
 fn a_part_is_written_between_its_markers() {
-    const PART: Page<'_> = Page {
-        file: "README.md",
-        name: "demo",
-        command: "cargo xtask demo",
-    };
+    const PART: Page<'_> = Page { file: "README.md", name: "demo", command: "cargo xtask demo" };
     let folder = tempfile::tempdir().expect("a folder");
     let workspace = Workspace::at(folder.path());
     let empty = "<!-- demo:begin -->\n<!-- demo:end -->\n";
@@ -124,56 +114,20 @@ const BY_TESTS: [(&str, &str, &str); 11] = [
         "contact",
         "host-tests/simulations/tests/contact_reaction/mod.rs",
     ),
-    (
-        "docs/guide/src/faults.md",
-        "faults",
-        "host-tests/simulations/tests/fault_injection.rs",
-    ),
-    (
-        "docs/guide/src/faults.md",
-        "transitions",
-        "docs/guide/tests/pages.rs",
-    ),
-    (
-        "docs/guide/src/guiding.md",
-        "drag",
-        "host-tests/simulations/tests/hand_guiding/mod.rs",
-    ),
-    (
-        "docs/guide/src/guiding.md",
-        "release",
-        "host-tests/simulations/tests/hand_guiding/mod.rs",
-    ),
-    (
-        "docs/guide/src/identification.md",
-        "conditions",
-        "tools/identification/tests/ur5e/main.rs",
-    ),
-    (
-        "docs/guide/src/identification.md",
-        "results",
-        "tools/identification/tests/ur5e/main.rs",
-    ),
-    (
-        "docs/guide/src/porting.md",
-        "dependencies",
-        "docs/guide/tests/pages.rs",
-    ),
-    (
-        "docs/guide/src/taught-paths.md",
-        "noise",
-        "host-tests/simulations/tests/taught_path/mod.rs",
-    ),
+    ("docs/guide/src/faults.md", "faults", "host-tests/simulations/tests/fault_injection.rs"),
+    ("docs/guide/src/faults.md", "transitions", "docs/guide/tests/pages.rs"),
+    ("docs/guide/src/guiding.md", "drag", "host-tests/simulations/tests/hand_guiding/mod.rs"),
+    ("docs/guide/src/guiding.md", "release", "host-tests/simulations/tests/hand_guiding/mod.rs"),
+    ("docs/guide/src/identification.md", "conditions", "tools/identification/tests/ur5e/main.rs"),
+    ("docs/guide/src/identification.md", "results", "tools/identification/tests/ur5e/main.rs"),
+    ("docs/guide/src/porting.md", "dependencies", "docs/guide/tests/pages.rs"),
+    ("docs/guide/src/taught-paths.md", "noise", "host-tests/simulations/tests/taught_path/mod.rs"),
     (
         "docs/guide/src/taught-paths.md",
         "playback",
         "host-tests/simulations/tests/taught_path/mod.rs",
     ),
-    (
-        "docs/guide/src/taught-paths.md",
-        "toppra",
-        "host-tests/simulations/tests/taught_path/mod.rs",
-    ),
+    ("docs/guide/src/taught-paths.md", "toppra", "host-tests/simulations/tests/taught_path/mod.rs"),
 ];
 
 /// The pages of the repository that have parts which are written by commands or tests.
@@ -195,9 +149,7 @@ fn blocks(page: &str) -> Vec<(&str, &str)> {
     let begins = page.match_indices(":begin -->").map(|(end, begin)| {
         let start = page[..end].rfind("<!-- ").expect("a marker") + "<!-- ".len();
         let (name, rest) = (&page[start..end], &page[end + begin.len()..]);
-        let (block, _) = rest
-            .split_once(&format!("<!-- {name}:end -->"))
-            .expect("its end");
+        let (block, _) = rest.split_once(&format!("<!-- {name}:end -->")).expect("its end");
         (name, block)
     });
     let blocks: Vec<_> = begins.collect();
@@ -246,11 +198,7 @@ fn a_sum_is_of_the_whole_text() {
     let text = sealed("| 759 |\n\n| 538 |");
     assert!(is_sealed(&text) && unsealed(&text) == "| 759 |\n\n| 538 |");
     assert_eq!(sealed(unsealed(&text)), text);
-    for other in [
-        "| 758 |\n\n| 538 |",
-        "| 759 |\n\n| 538 |\n| 1 |",
-        "| 759 || 538 |",
-    ] {
+    for other in ["| 758 |\n\n| 538 |", "| 759 |\n\n| 538 |\n| 1 |", "| 759 || 538 |"] {
         assert!(!is_sealed(&text.replace(unsealed(&text), other)));
     }
     assert!(!is_sealed("| 759 |"));

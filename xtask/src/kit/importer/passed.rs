@@ -39,11 +39,7 @@ impl<const KIND: u8> clap::FromArgMatches for Passed<KIND> {
                 return vec![String::from(name); usize::from(matches.get_flag(name))];
             }
             let values = matches.get_many::<String>(name).into_iter().flatten();
-            let option = if name == "-" {
-                String::new()
-            } else {
-                format!("{name}=")
-            };
+            let option = if name == "-" { String::new() } else { format!("{name}=") };
             values.map(|value| format!("{option}{value}")).collect()
         };
         Ok(Self(Self::listed().flat_map(given).collect()))

@@ -36,10 +36,7 @@ impl Decoder for Plain {
             return Err(DecodeError::Malformed);
         }
         let error = text.strip_prefix('!');
-        Ok(Line {
-            is_error: error.is_some(),
-            text: error.unwrap_or(&text).to_owned(),
-        })
+        Ok(Line { is_error: error.is_some(), text: error.unwrap_or(&text).to_owned() })
     }
 }
 
@@ -50,11 +47,8 @@ const PATIENCE: Duration = Duration::from_secs(3);
 fn outcome(lines: &str) -> Result<Vec<u8>, String> {
     let script = script(lines);
     let start = Instant::now();
-    let watch = Watch {
-        name: "fake",
-        patience: PATIENCE,
-        decoder: Some(Box::new(Plain::default())),
-    };
+    let watch =
+        Watch { name: "fake", patience: PATIENCE, decoder: Some(Box::new(Plain::default())) };
     let mut command = Command::new("sh");
     command
         .arg(script.path().join("qemu"))
@@ -81,10 +75,7 @@ fn whatever_else_a_run_does_is_reported() {
             r"printf 'hello\0'; echo 'no such machine' >&2; exit 3",
             &["it failed", "3", "QEMU said: no such machine"][..],
         ),
-        (
-            r"printf '!a record was lost\0'; exit 1",
-            &["a record was lost"],
-        ),
+        (r"printf '!a record was lost\0'; exit 1", &["a record was lost"]),
         ("kill -SEGV $$", &["it failed", "signal"]),
         // A silent exit.
         ("exit 0", &["ended without `done`", "\"\""]),
@@ -95,24 +86,12 @@ fn whatever_else_a_run_does_is_reported() {
             &["the firmware panicked: panic: out of bounds"],
         ),
         // Malformed frames, and a flood of them.
-        (
-            r"printf '?bad\0'; exec sleep 100",
-            &["not the defmt log", "?bad"],
-        ),
-        (
-            r"printf 'done\0half a frame'",
-            &["not the defmt log", "half a"],
-        ),
+        (r"printf '?bad\0'; exec sleep 100", &["not the defmt log", "?bad"]),
+        (r"printf 'done\0half a frame'", &["not the defmt log", "half a"]),
         ("exec yes junk", &["not the defmt log", "junk"]),
         // No progress.
-        (
-            r"printf 'hello\0'; exec sleep 100",
-            &["no progress for 3s, killed", "\"hello\""],
-        ),
-        (
-            "while :; do printf junk; sleep 0.02; done",
-            &["no progress for 3s"],
-        ),
+        (r"printf 'hello\0'; exec sleep 100", &["no progress for 3s, killed", "\"hello\""]),
+        ("while :; do printf junk; sleep 0.02; done", &["no progress for 3s"]),
         (
             r"printf 'done\0'; exec >&- 2>&-; exec sleep 100",
             &["closed its output and went on for 3s, killed"],
@@ -164,11 +143,7 @@ fn a_qemu_that_loads_the_meter_or_names_its_version_takes_it() {
         let script = refusing(version, lines);
         let qemu = qemu(&script);
         let accepted = qemu.interface(Path::new("meter.so"));
-        assert_eq!(
-            accepted.map_err(|e| e.to_string()),
-            Ok(interface),
-            "{version}"
-        );
+        assert_eq!(accepted.map_err(|e| e.to_string()), Ok(interface), "{version}");
         assert!(interface.is_none() || !qemu.is_known());
     }
 }
@@ -178,10 +153,7 @@ fn a_qemu_that_takes_no_version_is_refused() {
     let stubborn =
         format!("echo '{REFUSES} 1, but this QEMU supports only up to version 0' >&2; exit 1");
     let no_plugins = "echo 'qemu-system-arm: -plugin: invalid option' >&2; exit 1".to_owned();
-    for (lines, why) in [
-        (stubborn, "up to version 0"),
-        (no_plugins, "invalid option"),
-    ] {
+    for (lines, why) in [(stubborn, "up to version 0"), (no_plugins, "invalid option")] {
         let script = refusing("12.0.0", &lines);
         let refused = qemu(&script).interface(Path::new("meter.so"));
         let refused = refused.expect_err("refused").to_string();

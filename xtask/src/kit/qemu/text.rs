@@ -23,12 +23,7 @@ impl Qemu {
     ) -> Result<String> {
         let mut command = Command::new(&self.program);
         command.args(machine).args(FIXED.split(' '));
-        command.args([
-            "-serial",
-            "none",
-            "-semihosting-config",
-            "enable=on,target=native",
-        ]);
+        command.args(["-serial", "none", "-semihosting-config", "enable=on,target=native"]);
         command.arg("-kernel").arg(elf);
         let (mut child, _group) = shell::spawn(shell::heard_by(&mut command, Stdio::piped))?;
         let stdout = child.stdout.take().map(bytes_of);
@@ -43,10 +38,7 @@ impl Qemu {
                 let what = format!("it failed ({status}): {printed}\n{complaints}");
                 Err(Error::qemu(name, what))
             }
-            None => Err(Error::qemu(
-                name,
-                format!("it did not end within {limit:?}: {printed}"),
-            )),
+            None => Err(Error::qemu(name, format!("it did not end within {limit:?}: {printed}"))),
         }
     }
 }

@@ -47,10 +47,7 @@ pub struct Watch<'a> {
 }
 
 /// Kills the program whichever way we leave.
-struct Guard(
-    Child,
-    #[expect(dead_code, reason = "held until it is dropped")] Group,
-);
+struct Guard(Child, #[expect(dead_code, reason = "held until it is dropped")] Group);
 
 impl Drop for Guard {
     fn drop(&mut self) {

@@ -25,11 +25,8 @@ pub enum Budget {
 }
 
 /// Units by their names, each of which `m` makes a thousandth of.
-const UNITS: [(&str, Kind); 3] = [
-    ("N·m", Kind::Inverse),
-    ("Nm", Kind::Inverse),
-    ("rad", Kind::Simulation),
-];
+const UNITS: [(&str, Kind); 3] =
+    [("N·m", Kind::Inverse), ("Nm", Kind::Inverse), ("rad", Kind::Simulation)];
 
 impl FromStr for Allowed {
     type Err = String;
@@ -37,9 +34,7 @@ impl FromStr for Allowed {
     fn from_str(text: &str) -> std::result::Result<Self, String> {
         let text = text.trim();
         let units = "an error is a torque in Nm or mNm (0.05Nm), for a simulation an angle in rad or mrad (2mrad)";
-        let known = UNITS
-            .iter()
-            .find_map(|(unit, kind)| Some((text.strip_suffix(unit)?, *kind)));
+        let known = UNITS.iter().find_map(|(unit, kind)| Some((text.strip_suffix(unit)?, *kind)));
         let (number, kind) = known.ok_or_else(|| format!("{text} has no unit: {units}"))?;
         let (number, scale) = match number.strip_suffix('m') {
             Some(number) => (number, 1e-3),
@@ -126,10 +121,7 @@ impl Budget {
 /// The configurations of a group that the library ships, with their fronts.
 pub fn shipped(points: &[Point], group: (&str, Kind, &str)) -> Vec<Point> {
     let own = of_group(points, group).into_iter();
-    let mut own: Vec<Point> = own
-        .filter(|point| code::rust(point).is_ok())
-        .cloned()
-        .collect();
+    let mut own: Vec<Point> = own.filter(|point| code::rust(point).is_ok()).cloned().collect();
     front::mark(&mut own);
     own
 }

@@ -96,20 +96,14 @@ fn torques(point: &Point) -> Result<String> {
         ("f32", scalar),
     ];
     let code = filled(template, &values);
-    let dynamics = DYNAMICS
-        .split_whitespace()
-        .map(|path| ("dynamics_core", path));
-    let control = CONTROL
-        .split_whitespace()
-        .map(|path| ("motion_control", path));
+    let dynamics = DYNAMICS.split_whitespace().map(|path| ("dynamics_core", path));
+    let control = CONTROL.split_whitespace().map(|path| ("motion_control", path));
     let uses = dynamics.chain(control).filter(|(_, path)| {
         let name = path.rsplit("::").next().unwrap_or_default();
         let mut words = code.split(|letter: char| !letter.is_alphanumeric() && letter != '_');
         words.any(|word| word == name)
     });
-    let uses: String = uses
-        .map(|(library, path)| format!("use {library}::{path};\n"))
-        .collect();
+    let uses: String = uses.map(|(library, path)| format!("use {library}::{path};\n")).collect();
     // The user knows in which module of the program the importer's file is.
     let own = point.own.as_ref();
     let own = own.map(|[arm, _]| format!("use crate::robot::{arm};\n"));
@@ -124,10 +118,7 @@ fn simulation(point: &Point) -> Result<String> {
     let name = integrator.split('<').next().unwrap_or_default();
     let step: f64 = point.on("step").parse().unwrap_or_default();
     let values = [
-        (
-            "integrator: RungeKutta",
-            &*format!("integrator: {integrator}"),
-        ),
+        ("integrator: RungeKutta", &*format!("integrator: {integrator}")),
         (", RungeKutta", &format!(", {name}")),
         ("1000.0e-6", &format!("{step:?}e-6")),
         ("true", compensated),
@@ -182,11 +173,7 @@ mod tests {
         for point in points.iter().filter(shipped) {
             let code = rust(point).unwrap_or_else(|e| panic!("{} {}: {e}", point.robot, point.key));
             let mut blanks = "FORM ROBOT GENERICS JOINTS TICK BETWEEN NAME KERNEL <>".split(' ');
-            assert!(
-                !blanks.any(|blank| code.contains(blank)),
-                "{}:\n{code}",
-                point.key
-            );
+            assert!(!blanks.any(|blank| code.contains(blank)), "{}:\n{code}", point.key);
         }
     }
 
@@ -203,9 +190,7 @@ mod tests {
         let mut own = point("form=core", 1.0, 1, 1.0);
         let axes = "model=pruned1000 trig=table3x4 between=held form=core arith=f32 rate=1";
         let axes = axes.split(' ').filter_map(|axis| axis.split_once('='));
-        own.configuration = axes
-            .map(|(axis, value)| (axis.into(), value.into()))
-            .collect();
+        own.configuration = axes.map(|(axis, value)| (axis.into(), value.into())).collect();
         assert!(rust(&own).is_err(), "the repository has no such robot");
         own.own = Some(["MyArm".into(), "5".into()]);
         let code = rust(&own).expect("there is code");

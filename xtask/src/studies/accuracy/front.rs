@@ -25,18 +25,16 @@ fn beaten(point: &Point, all: &[Point], cost: usize) -> bool {
     let no_worse = |one: &Point, than: &Point, slack: f64| {
         one.costs()[cost] <= slack * than.costs()[cost] && one.error() <= slack * than.error()
     };
-    all.iter()
-        .filter(|other| other.group() == point.group() && other.key != point.key)
-        .any(
-            |other| match other.changes().count().cmp(&point.changes().count()) {
-                Ordering::Less => no_worse(other, point, SAME),
-                Ordering::Equal => {
-                    let alike = no_worse(point, other, 1.0);
-                    no_worse(other, point, 1.0) && (!alike || other.key < point.key)
-                }
-                Ordering::Greater => no_worse(other, point, 1.0) && !no_worse(point, other, SAME),
-            },
-        )
+    all.iter().filter(|other| other.group() == point.group() && other.key != point.key).any(
+        |other| match other.changes().count().cmp(&point.changes().count()) {
+            Ordering::Less => no_worse(other, point, SAME),
+            Ordering::Equal => {
+                let alike = no_worse(point, other, 1.0);
+                no_worse(other, point, 1.0) && (!alike || other.key < point.key)
+            }
+            Ordering::Greater => no_worse(other, point, 1.0) && !no_worse(point, other, SAME),
+        },
+    )
 }
 
 /// The front of a group by a cost, from the cheapest on.
@@ -64,9 +62,8 @@ pub mod tests {
             ..Point::default()
         };
         let changes = point.changes();
-        point.configuration = changes
-            .map(|(axis, value)| (axis.to_owned(), value.to_owned()))
-            .collect();
+        point.configuration =
+            changes.map(|(axis, value)| (axis.to_owned(), value.to_owned())).collect();
         point
     }
 
@@ -103,10 +100,7 @@ pub mod tests {
 
     #[test]
     fn robots_are_not_compared_with_each_other() {
-        let mut points = [
-            point("default", 1.0, 10, 10.0),
-            point("default", 2.0, 20, 20.0),
-        ];
+        let mut points = [point("default", 1.0, 10, 10.0), point("default", 2.0, 20, 20.0)];
         points[1].robot = "leg".into();
         mark(&mut points);
         assert!(points[0].front && points[1].front);

@@ -46,20 +46,14 @@ impl Host {
     pub fn read(lines: &str) -> Result<Self> {
         let read = |text: &str| {
             let point = serde_json::from_str(text)?;
-            Ok(Line {
-                point,
-                ..serde_json::from_str(text)?
-            })
+            Ok(Line { point, ..serde_json::from_str(text)? })
         };
         let line = |text| {
             read(text).map_err(|e: serde_json::Error| {
                 check!("the host's line {text:?} cannot be understood: {e}")
             })
         };
-        Ok(Self {
-            lines: lines.lines().map(line).collect::<Result<_>>()?,
-            proven: Vec::new(),
-        })
+        Ok(Self { lines: lines.lines().map(line).collect::<Result<_>>()?, proven: Vec::new() })
     }
 
     /// The lines of a kind about a robot.
@@ -105,11 +99,7 @@ impl Line {
         point.instructions = row.instructions.max * calls;
         point.cycles = row.cycles.max * calls;
         point.cycles_mean = row.cycles_mean * calls as f64;
-        for error in [
-            &mut point.error_max,
-            &mut point.error_rms,
-            &mut point.error_p99,
-        ] {
+        for error in [&mut point.error_max, &mut point.error_rms, &mut point.error_p99] {
             *error = error.map(|error| error.max(KNOWN * self.full_scale));
         }
         point.relative_max = point.relative_max.map(|share| share.max(KNOWN));
@@ -130,11 +120,7 @@ mod tests {
     use crate::kit::rows::Row;
 
     fn row(algorithm: &str, inputs: &str) -> Row {
-        let spread = Spread {
-            min: 10,
-            median: 10,
-            max: 20,
-        };
+        let spread = Spread { min: 10, median: 10, max: 20 };
         Row {
             instructions: spread,
             cycles: spread,
@@ -152,11 +138,7 @@ mod tests {
         let lines = LINES.replacen(r#""full_scale""#, r#""anywhere":0.25,"full_scale""#, 1);
         let other = lines.replace("default", "other");
         let [host, other] = [&lines, &other].map(|lines| Host::read(lines.trim()).expect("good"));
-        let found = [
-            host.anywhere("arm"),
-            host.anywhere("leg"),
-            other.anywhere("arm"),
-        ];
+        let found = [host.anywhere("arm"), host.anywhere("leg"), other.anywhere("arm")];
         assert_eq!(found, [Some(0.25), None, None]);
     }
 

@@ -104,14 +104,7 @@ impl Plan {
         };
         proven::attach(&host.proven, &mut points);
         let rustc = tools.toolchain.rustc_version()?;
-        Ok(Measured {
-            points,
-            single,
-            shares,
-            generated,
-            host,
-            rustc,
-        })
+        Ok(Measured { points, single, shares, generated, host, rustc })
     }
 
     /// Measures these robots on the target.
@@ -152,14 +145,7 @@ impl Plan {
         };
         let mut build = these.build(workspace);
         let features = format!("host-reports/{ACCURACY}");
-        build.args([
-            "--package",
-            "host-reports",
-            "--bin",
-            bin,
-            "--features",
-            &features,
-        ]);
+        build.args(["--package", "host-reports", "--bin", bin, "--features", &features]);
         shell::capture(build.env(PRINTED, printed))?;
         let mut command = these.built(workspace, bin);
         command.args(self.computed().map(|(robot, _)| robot.name()));

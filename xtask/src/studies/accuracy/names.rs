@@ -5,13 +5,7 @@ use crate::kit::table::thousands;
 
 /// An axis, a value on it, the Rust that the library has for the value (what it does not ship has
 /// none), the name in print, and a sentence. The default's values have the first three only.
-type Row = (
-    &'static str,
-    &'static str,
-    Option<&'static str>,
-    &'static str,
-    &'static str,
-);
+type Row = (&'static str, &'static str, Option<&'static str>, &'static str, &'static str);
 
 #[rustfmt::skip]
 const ROWS: &[Row] = &[
@@ -119,9 +113,7 @@ pub fn lines(point: &Point) -> String {
 /// A line for each name in print.
 pub fn glossary() -> String {
     let named = ROWS.iter().filter(|row| !row.3.is_empty());
-    let lines: Vec<String> = named
-        .map(|row| format!("- **{}**: {}", row.3, row.4))
-        .collect();
+    let lines: Vec<String> = named.map(|row| format!("- **{}**: {}", row.3, row.4)).collect();
     lines.join("\n")
 }
 
@@ -171,21 +163,13 @@ mod tests {
     #[test]
     fn no_value_has_two_rows() {
         for (i, row) in ROWS.iter().enumerate() {
-            assert!(
-                ROWS[..i]
-                    .iter()
-                    .all(|other| (other.0, other.1) != (row.0, row.1)),
-                "{row:?}"
-            );
+            assert!(ROWS[..i].iter().all(|other| (other.0, other.1) != (row.0, row.1)), "{row:?}");
             assert_eq!(row.3.is_empty(), row.4.is_empty(), "{row:?}");
         }
     }
 
     #[test]
     fn errors_have_three_digits() {
-        assert_eq!(
-            [0.01234, 14.1, 2.8e-14, 0.0].map(digits),
-            ["0.0123", "14.1", "2.8e-14", "0"]
-        );
+        assert_eq!([0.01234, 14.1, 2.8e-14, 0.0].map(digits), ["0.0123", "14.1", "2.8e-14", "0"]);
     }
 }

@@ -46,17 +46,12 @@ pub fn run(
             (points, errors) = proven::chosen(proven, points)?;
         }
         super::show(budget, &points, json)?;
-        output::note(&format!(
-            "\n`crate::robot` is the file of `cargo xtask import`. {errors}"
-        ));
+        output::note(&format!("\n`crate::robot` is the file of `cargo xtask import`. {errors}"));
     } else if json {
         docs::print_json(&points)?;
     } else {
         let name = &robot.name;
-        output::print(&format!(
-            "{name}; {MODEL}.\n{REFERENCE}.\n\n{}",
-            page::every(&points)
-        ))?;
+        output::print(&format!("{name}; {MODEL}.\n{REFERENCE}.\n\n{}", page::every(&points)))?;
     }
     Ok(ExitCode::SUCCESS)
 }
@@ -89,9 +84,7 @@ fn costs(workspace: &Workspace, tools: &Tools, included: &Path) -> Result<Vec<Bi
     let elves = build_own(workspace, tools.toolchain, included, &features, &[BIN])?;
     let meter = firmware::build_meter(workspace)?;
     spinner.say(format!("running {BIN} in QEMU"));
-    let rows = elves
-        .iter()
-        .map(|elf| rows::run_for_time(tools, &meter, BIN, elf, ""));
+    let rows = elves.iter().map(|elf| rows::run_for_time(tools, &meter, BIN, elf, ""));
     let rows = rows.collect::<Result<Vec<_>>>()?.into_iter().flatten();
     Ok(rows.map(|row| (BIN, row)).collect())
 }

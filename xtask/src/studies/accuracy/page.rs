@@ -20,11 +20,7 @@ pub const COMMAND: &str = "cargo xtask accuracy";
 
 /// A part of a page that the command writes.
 const fn part(file: &'static str, name: &'static str) -> Page<'static> {
-    Page {
-        file,
-        name,
-        command: COMMAND,
-    }
+    Page { file, name, command: COMMAND }
 }
 
 /// Single changes, which CI compares with a quick run.
@@ -218,10 +214,7 @@ fn torques(points: &[Point], host: &Host, robot: Robot) -> String {
         );
     }
     if let Some(proven) = Proven::of(&host.proven, robot.name()) {
-        text += &format!(
-            "{} The path of the measured errors lies in the box.\n\n",
-            proven.note()
-        );
+        text += &format!("{} The path of the measured errors lies in the box.\n\n", proven.note());
     }
     for (cost, which) in ["worst tick", "mean over ticks"].into_iter().enumerate() {
         let mut shown = steps(&rigid, cost);
@@ -241,12 +234,7 @@ fn torques(points: &[Point], host: &Host, robot: Robot) -> String {
     let speeds = lines(Kind::Speed, |line| digits(line.speed));
     text += &section(head, &speeds, "joints as fast as, rad/s", SPEEDS);
     let others = lines(Kind::Yardstick, |line| line.what.clone());
-    text + &section(
-        "Where accuracy stops mattering",
-        &others,
-        "what is off",
-        ERRORS,
-    )
+    text + &section("Where accuracy stops mattering", &others, "what is off", ERRORS)
 }
 
 fn section(head: &str, rows: &[(String, &Point)], first: &str, columns: &str) -> String {

@@ -58,9 +58,7 @@ fn axes(
     if x.ticks.len() < 3 {
         let numbers =
             (-1..9).flat_map(|power| [1.0, 2.0, 5.0].map(|digit| digit * 10_f64.powi(power)));
-        x.ticks = numbers
-            .filter(|x0| (x.ends[0]..x.ends[1]).contains(x0))
-            .collect();
+        x.ticks = numbers.filter(|x0| (x.ends[0]..x.ends[1]).contains(x0)).collect();
     }
     [x, Axis::decades(names[1], [low[1], high[1] * above], 72)]
 }
@@ -86,13 +84,9 @@ pub fn front(robot: Robot, points: &[&Point], host: &Host) -> Result<String> {
     shown.retain(cheap);
     let is_step = |point: &&&Point| steps(&shown, 0).iter().any(|step| step.key == point.key);
     let in_table = |point: &&&Point| is_single(point, BRIEF_ROWS);
-    let on = shown
-        .iter()
-        .filter(|point| is_step(point) || in_table(point));
+    let on = shown.iter().filter(|point| is_step(point) || in_table(point));
     let is_off = |point: &&&Point| !point.fronts[0] || !cheap(point);
-    let off = points
-        .iter()
-        .filter(|point| in_table(point) && is_off(point));
+    let off = points.iter().filter(|point| in_table(point) && is_off(point));
     svg((860, 720), |root| {
         label(root, &head, (28, 22), TITLE, HPos::Left)?;
         let entries = [
@@ -111,9 +105,7 @@ pub fn front(robot: Robot, points: &[&Point], host: &Host) -> Result<String> {
         let proven = |point: &&Point| Some((point.cycles as f64, point.proven?));
         let proven: Vec<(f64, f64)> = shown.iter().filter_map(proven).collect();
         // Names are pushed below their points.
-        let below = shown
-            .last()
-            .map(|last| (last.cycles as f64, last.error() / 4.0));
+        let below = shown.last().map(|last| (last.cycles as f64, last.error() / 4.0));
         let ends = ends.map(|point| point.place());
         let ends = ends.chain(proven.clone()).chain(below);
         let both = axes(names, ends, [1.9, 1.4, 9.0]);
@@ -159,12 +151,8 @@ pub fn front(robot: Robot, points: &[&Point], host: &Host) -> Result<String> {
                 said.push((x, x + room, y - above));
             } else if is_off {
                 let left = x + 2 - room;
-                let choices = [0, 13, -13, 22, -22, 31, -31].map(|off| {
-                    [
-                        (x + if off == 0 { 10 } else { 4 }, y + off),
-                        (left, y + off),
-                    ]
-                });
+                let choices = [0, 13, -13, 22, -22, 31, -31]
+                    .map(|off| [(x + if off == 0 { 10 } else { 4 }, y + off), (left, y + off)]);
                 // Over a line if there is no other place.
                 let is_free = |beside_lines: bool, (left, height): (i32, i32)| {
                     let (right, near) = (left + room, |y: &i32| (height - y).abs());
@@ -185,11 +173,7 @@ pub fn front(robot: Robot, points: &[&Point], host: &Host) -> Result<String> {
                     .into_iter()
                     .flat_map(|lines| choices.clone().filter(move |one| is_free(lines, *one)));
                 let (at, height) = free.next().unwrap_or((left, y + 13));
-                let (at, side) = if at < x {
-                    (x - 8, HPos::Right)
-                } else {
-                    (at, HPos::Left)
-                };
+                let (at, side) = if at < x { (x - 8, HPos::Right) } else { (at, HPos::Left) };
                 label(root, &words, (at, height), TEXT, side)?;
                 let from = if at < x { left } else { at };
                 drop(free);
@@ -227,11 +211,7 @@ pub fn simulations(points: &[Point]) -> Result<String> {
             own.retain(|point| point.error().is_finite() && point.on("arith") == "f32");
             own.sort_by_key(|point| point.cycles);
             let names = ["cycles for a simulated second", "largest error, rad"];
-            let both = axes(
-                names,
-                own.iter().map(|point| point.place()),
-                [1.4, 1.4, 2.0],
-            );
+            let both = axes(names, own.iter().map(|point| point.place()), [1.4, 1.4, 2.0]);
             let states = [("plain", None), ("compensated", Some(1))];
             let of = |&(integrator, _, colour, width): &_, (state, thin): (&str, Option<u32>)| {
                 let kind = [integrator, state];
@@ -241,16 +221,10 @@ pub fn simulations(points: &[Point]) -> Result<String> {
                     points: own.iter().filter(of).map(|point| point.place()).collect(),
                     colour,
                     width: thin.unwrap_or(width),
-                    dots: if thin.is_some() {
-                        2
-                    } else {
-                        width as i32 / 2 + 3
-                    },
+                    dots: if thin.is_some() { 2 } else { width as i32 / 2 + 3 },
                 }
             };
-            let each = INTEGRATORS
-                .iter()
-                .flat_map(|method| states.map(|state| of(method, state)));
+            let each = INTEGRATORS.iter().flat_map(|method| states.map(|state| of(method, state)));
             label(area, title, (28, 14), HEAD, HPos::Left)?;
             let plot = lines(area, 46, both.each_ref(), &each.collect::<Vec<_>>())?;
             if both[0].ends[1] > REAL_TIME {

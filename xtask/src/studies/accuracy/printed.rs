@@ -49,9 +49,7 @@ pub fn write(workspace: &Workspace) -> Result<PathBuf> {
 /// A module with the code as a way to compute.
 fn wrapped(point: &Point, way: &str, code: &str, joints: &str) -> String {
     let axes = point.changes();
-    let axes: String = axes
-        .map(|(axis, value)| format!("{axis}: {value:?}, "))
-        .collect();
+    let axes: String = axes.map(|(axis, value)| format!("{axis}: {value:?}, ")).collect();
     let template = match code::ticks(point) {
         true => include_str!("templates/ticking_way.txt"),
         false => include_str!("templates/way.txt"),
@@ -60,13 +58,8 @@ fn wrapped(point: &Point, way: &str, code: &str, joints: &str) -> String {
         "interpolated" => point.on("rate"),
         _ => "0",
     };
-    let values = [
-        ("WAY", way),
-        ("AXES", &axes),
-        ("AHEAD_BY", ahead),
-        ("JOINTS", joints),
-        ("CODE", code),
-    ];
+    let values =
+        [("WAY", way), ("AXES", &axes), ("AHEAD_BY", ahead), ("JOINTS", joints), ("CODE", code)];
     code::filled(template, &values)
 }
 
@@ -75,13 +68,7 @@ fn wrapped(point: &Point, way: &str, code: &str, joints: &str) -> String {
 pub fn check(all: &[Point], single: &[Point]) -> Result<usize> {
     let mut different = Vec::new();
     let name = |point: &Point| format!("{} {}", point.robot, point.key);
-    let figures = |point: &Point| {
-        [
-            point.instructions as f64,
-            point.costs()[0],
-            point.costs()[1],
-        ]
-    };
+    let figures = |point: &Point| [point.instructions as f64, point.costs()[0], point.costs()[1]];
     for generated in all {
         let what = name(generated);
         let chosen = single.iter().find(|point| name(point) == what);

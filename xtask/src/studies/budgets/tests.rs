@@ -4,10 +4,7 @@ use crate::kit::workspace::Workspace;
 
 /// A scene's budget of these costs.
 fn budget(rustc: &str, cost: u64) -> Budget {
-    Budget {
-        rustc: rustc.into(),
-        figures: [cost; FIGURES.len()],
-    }
+    Budget { rustc: rustc.into(), figures: [cost; FIGURES.len()] }
 }
 
 #[test]
@@ -33,13 +30,8 @@ fn a_scene_is_held_to_its_budget_and_bar() {
     let over = compared("", 1001).expect_err("over").to_string();
     assert!(over.contains("tick_cycles 1001 > 1000"), "{over}");
     assert!(compared(&bar(1000, ""), 1000).is_ok());
-    let missed = compared(&bar(999, ""), 1000)
-        .expect_err("missed")
-        .to_string();
-    assert!(
-        missed.contains("bar: arm tick: cycles 1,000 > 999"),
-        "{missed}"
-    );
+    let missed = compared(&bar(999, ""), 1000).expect_err("missed").to_string();
+    assert!(missed.contains("bar: arm tick: cycles 1,000 > 999"), "{missed}");
     assert!(compared(&bar(999, "\"cycles\""), 1000).is_ok());
     assert!(compared(&bar(1000, "\"cycles\""), 1000).is_err());
     assert!(hold_scene(&Budgets::default(), "arm", &budget("rustc 1", 1)).is_err());

@@ -151,9 +151,7 @@ pub fn markdown(boards: &[Board]) -> String {
         ("flash, B", &|board| thousands(board.flash)),
         ("variables, B", &|board| thousands(board.ram)),
         ("stack of start-up, bound", &|board| bound(board.start)),
-        ("of a tick in its interrupt, bound", &|board| {
-            bound(board.tick)
-        }),
+        ("of a tick in its interrupt, bound", &|board| bound(board.tick)),
         ("RAM with stack, B", &|board| bound(board.total())),
     ];
     Table::of(boards, &columns).markdown()
@@ -181,11 +179,9 @@ mod tests {
         for (flash, start) in [(32_768, 3096), (32_768, 0)] {
             assert!(within_bars(&board(flash, Some(start)), &bars).is_ok());
         }
-        for (flash, start, figure) in [
-            (32_769, Some(0), "flash_bytes"),
-            (0, Some(3097), "ram_bytes"),
-            (0, None, "ram_bytes"),
-        ] {
+        for (flash, start, figure) in
+            [(32_769, Some(0), "flash_bytes"), (0, Some(3097), "ram_bytes"), (0, None, "ram_bytes")]
+        {
             let error = within_bars(&board(flash, start), &bars).expect_err(figure);
             assert!(error.to_string().contains(figure), "{error}");
         }

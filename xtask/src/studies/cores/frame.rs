@@ -38,9 +38,7 @@ fn expanded(first: u16, second: u16) -> Option<u64> {
     match bits >> 8 {
         0 => Some(bits),
         1..=3 => None,
-        _ => Some(u64::from(
-            (0x80 | bits as u32 & 0x7f).rotate_right(bits as u32 >> 7),
-        )),
+        _ => Some(u64::from((0x80 | bits as u32 & 0x7f).rotate_right(bits as u32 >> 7))),
     }
 }
 

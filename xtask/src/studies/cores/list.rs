@@ -74,15 +74,10 @@ impl Core {
 
 /// The missing targets of Rust, and the packages of Debian with the missing emulators.
 pub fn needed() -> (Vec<&'static str>, Vec<&'static str>) {
-    let targets = CORES
-        .iter()
-        .filter(|core| !toolchain::native_has(core.target));
+    let targets = CORES.iter().filter(|core| !toolchain::native_has(core.target));
     let emulators = CORES.iter().map(Core::qemu);
     let packages = emulators.filter(|(program, _)| shell::which(program).is_none());
-    (
-        targets.map(|core| core.target).collect(),
-        packages.map(|(_, package)| package).collect(),
-    )
+    (targets.map(|core| core.target).collect(), packages.map(|(_, package)| package).collect())
 }
 
 /// The flag of the compiler that shortens paths of the registry, which the messages of panics name:

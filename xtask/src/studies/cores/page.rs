@@ -7,11 +7,8 @@ use crate::kit::docs::Page;
 use crate::kit::error::{Result, bail, check};
 use crate::kit::table::{Column, Table, thousands};
 
-pub const PAGE: Page<'_> = Page {
-    file: "docs/boards.md",
-    name: "cores",
-    command: "cargo xtask cores --write-docs",
-};
+pub const PAGE: Page<'_> =
+    Page { file: "docs/boards.md", name: "cores", command: "cargo xtask cores --write-docs" };
 
 /// A core's results, and what it is.
 type Line<'a> = (&'a Row, &'a Core);
@@ -21,12 +18,7 @@ impl Report {
         let mut text = String::from(
             "The torques of every tick have the same bits on every core and on the host:\n\n",
         );
-        for Torques {
-            scene,
-            ticks,
-            digest,
-        } in &self.torques
-        {
+        for Torques { scene, ticks, digest } in &self.torques {
             let ticks = thousands(*ticks as u64);
             text += &format!("- `{scene}`, {ticks} ticks: digest `{digest}`\n");
         }
@@ -35,8 +27,7 @@ impl Report {
             .iter()
             .map(|row| {
                 let core = CORES.iter().find(|core| core.name == row.core);
-                core.map(|core| (row, core))
-                    .ok_or_else(|| check!("there is no core {}", row.core))
+                core.map(|core| (row, core)).ok_or_else(|| check!("there is no core {}", row.core))
             })
             .collect::<Result<_>>()?;
         let scenes: Vec<&str> = self.torques.iter().map(|torques| &*torques.scene).collect();
@@ -51,15 +42,9 @@ impl Report {
             ("QEMU machine", &|(_, core)| format!("`{}`", core.machine)),
             ("target", &|(_, core)| format!("`{}`", core.target)),
             ("flags", &|(_, core)| core.shown_flags()),
-            (
-                &format!("stack written, `{small}`, B"),
-                &of(0, |scene| Some(scene.stack)),
-            ),
+            (&format!("stack written, `{small}`, B"), &of(0, |scene| Some(scene.stack))),
             ("stack, bound", &of(0, |scene| scene.bound)),
-            (
-                &format!("stack written, `{large}`, B"),
-                &of(1, |scene| Some(scene.stack)),
-            ),
+            (&format!("stack written, `{large}`, B"), &of(1, |scene| Some(scene.stack))),
             ("stack, bound", &of(1, |scene| scene.bound)),
         ];
         text += &format!("\n{}", Table::of(&both, &columns).markdown());
@@ -84,11 +69,7 @@ pub fn rows_of(page: &str, names: &[&str], missing: &[&str]) -> String {
     let squeezed = |line: &str| {
         let words: Vec<&str> = line.split_whitespace().collect();
         let is_rule = line.starts_with("| ---");
-        let text = if is_rule {
-            "| --- |".into()
-        } else {
-            words.join(" ")
-        };
+        let text = if is_rule { "| --- |".into() } else { words.join(" ") };
         text + "\n"
     };
     page.lines()

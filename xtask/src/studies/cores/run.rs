@@ -73,10 +73,7 @@ impl Said {
                 _ => return Err(bad()),
             }
         }
-        refuse_if!(
-            !is_done || said.torques.is_empty(),
-            "`{PACKAGE}` did not end: {text:?}"
-        );
+        refuse_if!(!is_done || said.torques.is_empty(), "`{PACKAGE}` did not end: {text:?}");
         Ok(said)
     }
 }
@@ -85,9 +82,7 @@ impl Said {
 pub fn on_host(workspace: &Workspace) -> Result<Vec<Torques>> {
     let mut command = workspace.cargo("run");
     command.args(["--quiet", "--manifest-path", BOARDS, "--package", PACKAGE]);
-    command
-        .arg("--target-dir")
-        .arg(workspace.target.join(PACKAGE));
+    command.arg("--target-dir").arg(workspace.target.join(PACKAGE));
     Ok(Said::read(&shell::capture(&mut command)?)?.torques)
 }
 
@@ -141,16 +136,9 @@ pub fn measure(workspace: &Workspace, core: &Core) -> Result<Row> {
             core.name,
             torques.scene
         );
-        scenes.push(Replayed {
-            torques,
-            stack,
-            bound,
-        });
+        scenes.push(Replayed { torques, stack, bound });
     }
-    Ok(Row {
-        core: core.name,
-        scenes,
-    })
+    Ok(Row { core: core.name, scenes })
 }
 
 #[cfg(test)]
@@ -161,10 +149,7 @@ mod tests {
     fn a_bin_that_ends_without_done_is_refused() {
         let text = "digest small 2 00ff\nstack small 200\ntick small 4096\ndone\n";
         let said = Said::read(text).expect("a protocol");
-        assert_eq!(
-            (said.torques[0].ticks, &*said.torques[0].digest),
-            (2, "00ff")
-        );
+        assert_eq!((said.torques[0].ticks, &*said.torques[0].digest), (2, "00ff"));
         assert_eq!((said.stacks, said.ticks_at), (vec![200], vec![4096]));
         for bad in [
             "",

@@ -40,10 +40,7 @@ fn stack_of(
     address: u64,
     known: &mut BTreeMap<usize, State>,
 ) -> Result<u64> {
-    let index = image
-        .functions
-        .iter()
-        .position(|function| function.contains(address));
+    let index = image.functions.iter().position(|function| function.contains(address));
     let index = index.ok_or_else(|| check!("{address:#x} is in no function"))?;
     let function = &image.functions[index];
     let name = &function.names[0];
@@ -58,10 +55,7 @@ fn stack_of(
     known.insert(index, State::Open);
     let (frame, targets) = flow(function).map_err(|e| check!("`{name}`: {e}"))?;
     let mut deepest = 0;
-    for target in targets
-        .into_iter()
-        .filter(|target| !function.contains(*target))
-    {
+    for target in targets.into_iter().filter(|target| !function.contains(*target)) {
         let callee = stack_of(image, unwanted, target, known);
         deepest = deepest.max(callee.map_err(|e| check!("`{name}` → {e}"))?);
     }
@@ -124,11 +118,7 @@ mod tests {
         let indirect: &[u16] = &[0x4798, 0x4770]; // blx r3
         let dynamic: &[u16] = &[0xebad, 0x0d00, 0x4770]; // sub.w sp, sp, r0
         let of = |name, code| {
-            image(&[
-                ("tick", 0x1000, CALLER),
-                ("shallow", 0x1020, SHALLOW),
-                (name, 0x1040, code),
-            ])
+            image(&[("tick", 0x1000, CALLER), ("shallow", 0x1020, SHALLOW), (name, 0x1040, code)])
         };
         for (name, code, what) in [
             ("deep", recursive, "calls itself"),
@@ -146,11 +136,6 @@ mod tests {
             assert!(stack(&image, 0x1000).is_err(), "{name}");
         }
         let error = stack(&image(&[("tick", 0x1000, CALLER)]), 0x1000);
-        assert!(
-            error
-                .expect_err("a gap")
-                .to_string()
-                .contains("0x1020 is in no function")
-        );
+        assert!(error.expect_err("a gap").to_string().contains("0x1020 is in no function"));
     }
 }

@@ -72,9 +72,7 @@ fn differences(page: &str, fresh: &str, robot: Option<&str>, rustc: &str) -> Vec
         }
     }
     let is_of = |key: &str| robot.is_none_or(|robot| key.split(' ').next() == Some(robot));
-    let gone = there
-        .keys()
-        .filter(|key| is_of(key) && !now.contains_key(*key));
+    let gone = there.keys().filter(|key| is_of(key) && !now.contains_key(*key));
     wrong.extend(gone.map(|key| format!("{key}: is no longer measured")));
     wrong
 }
@@ -163,10 +161,7 @@ mod tests {
             parts[at + 3] = " 1 ";
             let changed = page.replacen(row, &parts.join("|"), 1);
             let now = recorded[key][at];
-            assert_eq!(
-                found(&changed, &page),
-                [format!("{key}: {what} {now}, on the page 1")]
-            );
+            assert_eq!(found(&changed, &page), [format!("{key}: {what} {now}, on the page 1")]);
         }
     }
 
@@ -207,24 +202,13 @@ mod tests {
         let (arm, both) = (of(&[("arm", 9)]), of(&[("arm", 9), ("arm2", 9)]));
         assert_eq!(outcome(&both, &arm, false), "1 rows");
         let said = outcome(&both, &arm, true);
-        assert!(
-            said.ends_with("  arm2 rnea core full: is no longer measured"),
-            "{said}"
-        );
+        assert!(said.ends_with("  arm2 rnea core full: is no longer measured"), "{said}");
         let said = outcome(&arm, &both, true);
-        assert!(
-            said.ends_with("  arm2 rnea core full: the page does not have it"),
-            "{said}"
-        );
-        let other = Report {
-            rows: vec![Row::sample(["arm", "aba", "core", "full"], 9)],
-            ..of(&[])
-        };
+        assert!(said.ends_with("  arm2 rnea core full: the page does not have it"), "{said}");
+        let other =
+            Report { rows: vec![Row::sample(["arm", "aba", "core", "full"], 9)], ..of(&[]) };
         let said = outcome(&both, &other, false);
-        assert!(
-            said.contains("arm rnea core full: is no longer measured"),
-            "{said}"
-        );
+        assert!(said.contains("arm rnea core full: is no longer measured"), "{said}");
         assert!(!said.contains("arm2"), "{said}");
     }
 
@@ -257,18 +241,10 @@ mod tests {
         assert_eq!(compared(&bar(1000, ""), 1.05, 1050), "1 rows");
         assert_eq!(compared(&bar(999, "\"cycles\""), 1.05, 1050), "1 rows");
         for (bar, small, words) in [
-            (
-                bar(999, ""),
-                1050,
-                "bar: arm rnea core full: cycles 1,000 > 999",
-            ),
+            (bar(999, ""), 1050, "bar: arm rnea core full: cycles 1,000 > 999"),
             (bar(1000, "\"cycles\""), 1050, "met now"),
             (bar(1000, ""), 1051, "1.051× > 1.050×"),
-            (
-                "\"no such row\" = { cycles = 1 }".into(),
-                1050,
-                "no such row: there is no such row",
-            ),
+            ("\"no such row\" = { cycles = 1 }".into(), 1050, "no such row: there is no such row"),
         ] {
             let said = compared(&bar, 1.05, small);
             assert!(said.contains(words), "{words}: {said}");

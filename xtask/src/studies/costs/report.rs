@@ -49,11 +49,7 @@ impl Report {
     /// itself at 3.
     fn compared(&self) -> Vec<Compared> {
         let mut all = Vec::new();
-        for (key, figures) in self
-            .bars
-            .keys()
-            .filter_map(|key| Some((key, self.figures(key)?)))
-        {
+        for (key, figures) in self.bars.keys().filter_map(|key| Some((key, self.figures(key)?))) {
             let figures = figures.into_iter();
             let compared = |(figure, value)| Compared::of(&self.bars, key, figure, value);
             all.extend(figures.filter_map(compared));
@@ -61,12 +57,7 @@ impl Report {
         for (small, row) in self.pairs() {
             let key = format!("opt-level s / 3, {}", row.key());
             for ((figure, value), (_, of)) in small.figures().into_iter().zip(row.figures()) {
-                all.extend(Compared::of(
-                    &self.bars,
-                    &key,
-                    figure,
-                    value as f64 / of as f64,
-                ));
+                all.extend(Compared::of(&self.bars, &key, figure, value as f64 / of as f64));
             }
         }
         all
@@ -95,11 +86,7 @@ impl Report {
             let figures = self.row(key)?.figures();
             Some(figures.map(|(name, value)| (name, value as f64)))
         };
-        let two: fn(f64, f64) -> f64 = if is_ratio(key) {
-            |a, b| a / b
-        } else {
-            |a, b| a - b
-        };
+        let two: fn(f64, f64) -> f64 = if is_ratio(key) { |a, b| a / b } else { |a, b| a - b };
         let Some((key, base)) = key.split_once(OVER).or_else(|| key.split_once(PER)) else {
             return of(key);
         };
@@ -113,9 +100,7 @@ impl Report {
     /// The rows at opt-level s, and beside them those at 3.
     fn pairs(&self) -> Vec<(&Row, &Row)> {
         let small = self.small.iter();
-        small
-            .filter_map(|small| Some((small, self.row(&small.key())?)))
-            .collect()
+        small.filter_map(|small| Some((small, self.row(&small.key())?))).collect()
     }
 
     /// By M and its factors, and by articulated bodies.
@@ -135,9 +120,7 @@ impl Report {
         Table::of(
             &pairs.collect::<Vec<_>>(),
             &[
-                ("robot, form", &|(row, ..)| {
-                    format!("{} {}", row.robot, row.form)
-                }),
+                ("robot, form", &|(row, ..)| format!("{} {}", row.robot, row.form)),
                 ("joints", &|(row, ..)| row.joints.to_string()),
                 ("forward: cycles", &|(_, forward, _)| thousands(*forward)),
                 ("aba: cycles", &|(.., aba)| thousands(*aba)),
@@ -145,12 +128,7 @@ impl Report {
                     format!("{:.2}", *aba as f64 / *forward as f64)
                 }),
                 ("shorter", &|(_, forward, aba)| {
-                    if aba < forward {
-                        "aba"
-                    } else {
-                        "forward_dynamics"
-                    }
-                    .into()
+                    if aba < forward { "aba" } else { "forward_dynamics" }.into()
                 }),
             ],
         )
@@ -166,14 +144,10 @@ impl Report {
                 ("sin/cos", &|(row, _)| trig(row)),
                 ("cycles at s", &|(small, _)| thousands(small.cycles.max)),
                 ("at 3", &|(_, row)| thousands(row.cycles.max)),
-                ("s / 3", &|(small, row)| {
-                    ratio(small.cycles.max, row.cycles.max)
-                }),
+                ("s / 3", &|(small, row)| ratio(small.cycles.max, row.cycles.max)),
                 ("code at s", &|(small, _)| thousands(small.code_bytes)),
                 ("at 3", &|(_, row)| thousands(row.code_bytes)),
-                ("s / 3", &|(small, row)| {
-                    ratio(small.code_bytes, row.code_bytes)
-                }),
+                ("s / 3", &|(small, row)| ratio(small.code_bytes, row.code_bytes)),
             ],
         )
     }
@@ -205,9 +179,7 @@ fn table(rows: &[Row]) -> Table {
             ("cycles min", &|row| thousands(row.cycles.min)),
             ("median", &|row| thousands(row.cycles.median)),
             ("max", &|row| thousands(row.cycles.max)),
-            ("µs", &|row| {
-                format!("{:.2}", row.cycles.max as f64 / CLOCK_MHZ)
-            }),
+            ("µs", &|row| format!("{:.2}", row.cycles.max as f64 / CLOCK_MHZ)),
             ("flops", &|row| thousands(row.flops)),
             ("of floor", &|row| floor_share(row).unwrap_or_default()),
             ("code", &|row| thousands(row.code_bytes)),
@@ -237,10 +209,7 @@ mod tests {
             small: Vec::new(),
             bars: Bars::from([
                 (key.into(), Bar::of([("cycles", most)])),
-                (
-                    "leg rnea, m4f, engine / casadi".into(),
-                    Bar::of([("cycles", 0.1)]),
-                ),
+                ("leg rnea, m4f, engine / casadi".into(), Bar::of([("cycles", 0.1)])),
             ]),
             rustc: String::new(),
         };

@@ -27,11 +27,7 @@ pub fn factors(readme: &str) -> BTreeMap<String, f64> {
         let times = row.get(1)?.strip_suffix(" ×")?.parse().ok()?;
         Some((plain(row[0]), times))
     };
-    readme
-        .lines()
-        .filter_map(cells)
-        .filter_map(factor)
-        .collect()
+    readme.lines().filter_map(cells).filter_map(factor).collect()
 }
 
 fn plain(name: &str) -> String {

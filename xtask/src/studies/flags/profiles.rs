@@ -85,9 +85,7 @@ pub fn measure(workspace: &Workspace, tools: &Tools) -> Result<Vec<Profile>> {
         let target = workspace.target.join("profiles");
         let mut cargo = tools.toolchain.cargo(workspace, "build");
         cargo.args(["--bin", PROJECT, "--target-dir"]).arg(&target);
-        cargo
-            .args(arguments.split_whitespace())
-            .current_dir(&folder);
+        cargo.args(arguments.split_whitespace()).current_dir(&folder);
         cargo.envs((!has_flags).then_some(("RUSTFLAGS", "")));
         shell::capture(&mut cargo)?;
         let profile = ["debug", "release"][usize::from(arguments.contains("--release"))];
@@ -144,9 +142,7 @@ pub fn markdown(profiles: &[Profile], rustc: &str) -> String {
         ("profile, opt-level", &|one| one.name.into()),
         ("longest tick, cycles", &|one| thousands(one.tick)),
         ("of 1 ms at 168 MHz", &|one| format!("{:.1} %", share(one))),
-        ("inverse dynamics, cycles", &|one| {
-            thousands(one.inverse_dynamics)
-        }),
+        ("inverse dynamics, cycles", &|one| thousands(one.inverse_dynamics)),
         ("code, bytes", &|one| thousands(one.code_bytes)),
     ];
     format!(

@@ -29,11 +29,7 @@ pub fn svg(suite: &Suite) -> Result<String> {
         title: format!("{count} hard cases: the worst error of each against its bound"),
         note: "At the left edge: no error at all, or below a hundredth of the bound. At the right \
                edge: a million times the bound, or more, or no number.",
-        legend: &[
-            ("f32", BLUE),
-            ("f64", ORANGE),
-            ("a naive way, computed for comparison", RED),
-        ],
+        legend: &[("f32", BLUE), ("f64", ORANGE), ("a naive way, computed for comparison", RED)],
         x,
         names: 292,
         mark: Some((1.0, "bound")),

@@ -52,11 +52,7 @@ pub fn text(suite: &Suite) -> String {
 
 fn paragraph(case: &Case) -> String {
     let mut letters = case.parameters.chars();
-    let first: String = letters
-        .next()
-        .into_iter()
-        .flat_map(char::to_uppercase)
-        .collect();
+    let first: String = letters.next().into_iter().flat_map(char::to_uppercase).collect();
     let oracle = match case.oracle.starts_with(USUAL_ORACLE) {
         true => String::new(),
         false => format!(" Oracle: {}.", case.oracle),
@@ -202,9 +198,7 @@ fn table(lines: &[Line]) -> String {
     let mut rest = lines;
     while let [first, after @ ..] = rest {
         let run = |common: &str| {
-            let with = rest
-                .iter()
-                .take_while(|line| line.without(common).is_some());
+            let with = rest.iter().take_while(|line| line.without(common).is_some());
             with.count()
         };
         let parts = first.parts().into_iter();

@@ -16,13 +16,9 @@ pub fn compared(ratios: &Bars, rows: &[Row]) -> Vec<Compared> {
     for (robot, algorithm) in pairs(rows, M4F) {
         let key = format!("{robot} {algorithm}, m4f, engine / casadi");
         let of = |peer: &str| {
-            rows.iter()
-                .find(|row| is_of(row, M4F, robot, algorithm, "f32") && row.peer == peer)
+            rows.iter().find(|row| is_of(row, M4F, robot, algorithm, "f32") && row.peer == peer)
         };
-        let best = BUILDS
-            .iter()
-            .filter_map(|build| of(build))
-            .min_by_key(|row| row.cycles);
+        let best = BUILDS.iter().filter_map(|build| of(build)).min_by_key(|row| row.cycles);
         let Some((engine, best)) = of("engine").zip(best) else {
             continue;
         };
@@ -104,18 +100,13 @@ mod tests {
                 "ur5e rnea, m4f, engine / casadi".into(),
                 Bar::of([("cycles", 0.47), ("code_bytes", 0.47)]),
             ),
-            (
-                "ur5e rnea, host f32, engine / casadi".into(),
-                Bar::of([("ns", 0.8)]),
-            ),
+            ("ur5e rnea, host f32, engine / casadi".into(), Bar::of([("ns", 0.8)])),
         ]);
         let compared = compared(&ratios, &rows);
         let measured: Vec<f64> = compared.iter().map(|compared| compared.measured).collect();
         assert_eq!(measured, [0.5, 0.5, 0.5]);
-        let unmet: Vec<bool> = compared
-            .iter()
-            .map(|compared| compared.complaint().is_some())
-            .collect();
+        let unmet: Vec<bool> =
+            compared.iter().map(|compared| compared.complaint().is_some()).collect();
         assert_eq!(unmet, [true, true, false]);
     }
 }

@@ -99,11 +99,7 @@ impl<'a> Workshop<'a> {
             [format!("-L{dir}"), format!("-Wl,-rpath,{dir}")]
         });
         let include = format!("-isystem{}", casadi.join("include").display());
-        let mut args: Vec<&str> = libraries
-            .as_flattened()
-            .iter()
-            .map(String::as_str)
-            .collect();
+        let mut args: Vec<&str> = libraries.as_flattened().iter().map(String::as_str).collect();
         args.extend(["-O1", &include, "-lpinocchio_default", "-lcasadi"]);
         let generator = self.cpp("generate", "clang++", &args, "generate.cpp")?;
         let functions = robots.iter().flat_map(|robot| {
@@ -144,12 +140,7 @@ impl<'a> Workshop<'a> {
         ];
         let defined = defined.each_ref().map(String::as_str);
         let output = format!("{name}_{compiler}.so");
-        self.make(
-            &output,
-            compiler,
-            &[&words(HOST), &defined, &["-lm"]],
-            &[&source, &code],
-        )
+        self.make(&output, compiler, &[&words(HOST), &defined, &["-lm"]], &[&source, &code])
     }
 
     fn cpp(&self, name: &str, compiler: &str, args: &[&str], source: &str) -> Result<PathBuf> {
@@ -160,12 +151,7 @@ impl<'a> Workshop<'a> {
         let sources = sources.map(|name| self.sources.join(name));
         // Warnings are of others' headers.
         let all: [&[&str]; 4] = [&["-std=c++17", "-w"], &words(BOOST), &dirs, args];
-        self.make(
-            name,
-            compiler,
-            &all,
-            &sources.each_ref().map(PathBuf::as_path),
-        )
+        self.make(name, compiler, &all, &sources.each_ref().map(PathBuf::as_path))
     }
 
     /// The prefix of the headers and libraries of Pinocchio's packages.

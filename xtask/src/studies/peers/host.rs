@@ -77,18 +77,9 @@ fn trees(shop: &Workshop<'_>, robots: &[Robot]) -> Result<Vec<Value>> {
         let library = shop.pinocchio("pinocchio_peer", compiler)?;
         for wanted in wanted(robots) {
             let (_, algorithm, precision) = wanted;
-            let (peer, prefix) = (
-                format!("pinocchio {compiler}"),
-                format!("pinocchio_{precision}_"),
-            );
-            all.push(foreign(
-                wanted,
-                &peer,
-                &library,
-                &prefix,
-                algorithm,
-                Some(&text),
-            ));
+            let (peer, prefix) =
+                (format!("pinocchio {compiler}"), format!("pinocchio_{precision}_"));
+            all.push(foreign(wanted, &peer, &library, &prefix, algorithm, Some(&text)));
         }
     }
     Ok(all)

@@ -64,10 +64,7 @@ pub fn of_runs(all: Vec<Row>) -> Vec<Row> {
         let times = row.ns.into_iter();
         match rows.iter_mut().find(|other| other.is_of(&row, &row.peer)) {
             Some(other) => other.runs.extend(times),
-            None => rows.push(Row {
-                runs: times.collect(),
-                ..row
-            }),
+            None => rows.push(Row { runs: times.collect(), ..row }),
         }
     }
     let ratios = rows.iter().map(|row| {
@@ -130,8 +127,7 @@ impl Report {
             include_str!("page.md"),
             date = self.date,
             model = MODEL,
-            target = section("Cortex-M4F", ON_TARGET, &|algorithm| self
-                .on_target(algorithm)),
+            target = section("Cortex-M4F", ON_TARGET, &|algorithm| self.on_target(algorithm)),
             host = section("Host", ON_HOST, &|algorithm| self.on_host(algorithm)),
             builds = self.build_times().markdown(),
             inverse = self.in_a_row("loops inverse").markdown(),
@@ -154,13 +150,9 @@ impl Report {
     /// Times, and their ratios to Pinocchio's by its better compiler.
     fn in_a_row(&self, algorithm: &str) -> Table {
         let to_best = |row: &Row| {
-            let rows = self
-                .of(HOST, algorithm)
-                .filter(|other| other.robot == row.robot);
+            let rows = self.of(HOST, algorithm).filter(|other| other.robot == row.robot);
             let theirs = rows.filter(|other| other.peer.starts_with("pinocchio"));
-            theirs
-                .filter_map(|other| ratio(row, other))
-                .max_by(f64::total_cmp)
+            theirs.filter_map(|other| ratio(row, other)).max_by(f64::total_cmp)
         };
         Table::of(
             self.of(HOST, algorithm),
@@ -193,10 +185,7 @@ impl Report {
     fn on_host(&self, algorithm: &str) -> Table {
         let mut lines: Vec<&Row> = Vec::new();
         for row in self.of(HOST, algorithm) {
-            if !lines
-                .iter()
-                .any(|line| (&line.robot, &line.peer) == (&row.robot, &row.peer))
-            {
+            if !lines.iter().any(|line| (&line.robot, &line.peer) == (&row.robot, &row.peer)) {
                 lines.push(row);
             }
         }
@@ -211,17 +200,12 @@ impl Report {
         let time =
             |line: &Row, precision| text(in_precision(line, precision).and_then(|row| row.ns), 1);
         let ratio = |line: &Row, ours: usize, precision| {
-            text(
-                in_precision(line, precision).and_then(|row| row.ratios[ours]),
-                3,
-            )
+            text(in_precision(line, precision).and_then(|row| row.ratios[ours]), 3)
         };
         Table::of(
             lines,
             &[
-                ("robot, code", &|line| {
-                    format!("{}, {}", line.robot, line.peer)
-                }),
+                ("robot, code", &|line| format!("{}, {}", line.robot, line.peer)),
                 ("f64", &|line| time(line, "f64")),
                 ("f32", &|line| time(line, "f32")),
                 ("engine / this, f64", &|line| ratio(line, 0, "f64")),
@@ -233,9 +217,7 @@ impl Report {
     }
 
     fn of<'a>(&'a self, target: &'a str, algorithm: &'a str) -> impl Iterator<Item = &'a Row> {
-        self.rows
-            .iter()
-            .filter(move |row| (row.target, &*row.algorithm) == (target, algorithm))
+        self.rows.iter().filter(move |row| (row.target, &*row.algorithm) == (target, algorithm))
     }
 }
 
@@ -245,18 +227,12 @@ mod tests {
 
     #[test]
     fn a_ratio_is_the_median_of_those_of_the_runs() {
-        let row = |peer: &str, ns| Row {
-            peer: peer.into(),
-            ns: Some(ns),
-            ..Row::default()
-        };
+        let row = |peer: &str, ns| Row { peer: peer.into(), ns: Some(ns), ..Row::default() };
         // A slow machine in the second run, a disturbed engine in the third.
         let runs = [[10.0, 100.0], [20.0, 200.0], [90.0, 100.0]];
         let all = runs.map(|[ours, theirs]| [row("engine", ours), row("casadi gcc", theirs)]);
         let rows = of_runs(all.into_iter().flatten().collect());
-        let [engine, casadi] = &rows[..] else {
-            panic!("two functions")
-        };
+        let [engine, casadi] = &rows[..] else { panic!("two functions") };
         assert_eq!((engine.ns, casadi.ns), (Some(20.0), Some(100.0)));
         assert_eq!(engine.ratios, [Some(1.0), None]);
         assert_eq!(casadi.ratios, [Some(0.1), None]);

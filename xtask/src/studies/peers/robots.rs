@@ -102,11 +102,7 @@ impl Robot {
 
     /// The precisions on the host.
     pub fn precisions(&self) -> &'static [&'static str] {
-        if self.has_many_joints() {
-            &PRECISIONS[1..]
-        } else {
-            &PRECISIONS
-        }
+        if self.has_many_joints() { &PRECISIONS[1..] } else { &PRECISIONS }
     }
 
     /// Whether its joints are many.
@@ -136,14 +132,8 @@ impl Robot {
         let mut text = format!("{} {}\n", self.name, self.bodies.len());
         for body in &self.bodies {
             let Placement { rotation, position } = &body.placement;
-            let numbers = [
-                &body.axis[..],
-                rotation,
-                position,
-                &[body.mass],
-                &body.com,
-                &body.inertia_com,
-            ];
+            let numbers =
+                [&body.axis[..], rotation, position, &[body.mass], &body.com, &body.inertia_com];
             let (name, numbers) = (&body.name, spaced(&numbers.concat()));
             let _ = writeln!(text, "{name} {} {} {numbers}", body.parent, body.joint);
         }
@@ -159,9 +149,5 @@ impl Body {
 
 /// Shortest decimals that read back to the same f64.
 fn spaced(numbers: &[f64]) -> String {
-    numbers
-        .iter()
-        .map(f64::to_string)
-        .collect::<Vec<_>>()
-        .join(" ")
+    numbers.iter().map(f64::to_string).collect::<Vec<_>>().join(" ")
 }

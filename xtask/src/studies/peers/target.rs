@@ -78,17 +78,13 @@ fn firmware(
     (objects, table): (Vec<PathBuf>, PathBuf),
 ) -> Result<(Vec<Row>, f64)> {
     let spinner = Spinner::start("compiling a firmware of the peers");
-    let objects = objects
-        .iter()
-        .map(|object| format!("-Clink-arg={}", object.display()));
+    let objects = objects.iter().map(|object| format!("-Clink-arg={}", object.display()));
     let mut command = tools.toolchain.cargo(workspace, "rustc");
     let of = "--release --features peers --bin peers --package";
     command.args(words(of)).args([LAB, "--"]).args(objects);
     // The shell says at last what its children took: wall time would depend on what else runs here.
     let mut timed = Command::new("sh");
-    timed
-        .args(["-c", r#""$@" && times"#, "sh"])
-        .env("PEERS_TABLE", &table);
+    timed.args(["-c", r#""$@" && times"#, "sh"]).env("PEERS_TABLE", &table);
     timed.arg(command.get_program()).args(command.get_args());
     for (name, value) in command.get_envs() {
         match value {
@@ -128,9 +124,7 @@ fn compile(
         let name = format!("{}_{algorithm}_cs_f32", robot.name);
         let source = shop.code.join(format!("{name}.c"));
         let mut peers = String::new();
-        let builds = BUILDS
-            .iter()
-            .flat_map(|build| OVERLAP.map(|overlap| (build, overlap)));
+        let builds = BUILDS.iter().flat_map(|build| OVERLAP.map(|overlap| (build, overlap)));
         for (&[build, _, compiler, flags], (keyword, mark)) in builds {
             let suffix = format!("{build}{mark}");
             let symbol = format!("{name}_{suffix}");
@@ -147,10 +141,7 @@ fn compile(
             "osim" => format!(", {}", bodies - 1),
             _ => String::new(),
         };
-        let of = format!(
-            "{}, {bodies}, {positions}, {velocities}{tip}",
-            robot.type_name()
-        );
+        let of = format!("{}, {bodies}, {positions}, {velocities}{tip}", robot.type_name());
         calls += &format!("    {algorithm}::<{of}>(&[{peers}]);\n");
     }
     let text = format!("unsafe extern \"C\" {{\n{externs}}}\nfn run() {{\n{calls}}}\n");
@@ -170,9 +161,7 @@ fn peer(form: &str) -> &str {
 /// better.
 fn rows(measured: Vec<MeasuredRow>, lines: &[String]) -> Result<Vec<Row>> {
     let errors = lines.iter().filter_map(|line| line.strip_prefix("error "));
-    let errors: Vec<f64> = errors
-        .map(|error| error.parse().unwrap_or(f64::NAN))
-        .collect();
+    let errors: Vec<f64> = errors.map(|error| error.parse().unwrap_or(f64::NAN)).collect();
     if errors.len() != measured.len() {
         bail!("the firmware did not check all that it measured");
     }

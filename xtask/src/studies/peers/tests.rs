@@ -16,9 +16,7 @@ fn promised() -> Bars {
 
 /// Holds the table of bars against what is promised.
 fn check(page: &str, promised: &Bars) -> Result<(), String> {
-    let (_, part) = page
-        .split_once("\n## Against the bars\n")
-        .ok_or("no bars")?;
+    let (_, part) = page.split_once("\n## Against the bars\n").ok_or("no bars")?;
     let part = part.split("\n## ").next().unwrap_or_default();
     let compared = |cells: &Vec<&str>| {
         let (key, figure) = cells[0].rsplit_once(": ")?;

@@ -19,11 +19,8 @@ const PROGRAMS: [(&str, &str); 6] = [
 ];
 
 /// The places of Eigen's headers on known systems.
-const EIGEN: [&str; 3] = [
-    "/usr/include/eigen3",
-    "/usr/local/include/eigen3",
-    "/opt/homebrew/include/eigen3",
-];
+const EIGEN: [&str; 3] =
+    ["/usr/include/eigen3", "/usr/local/include/eigen3", "/opt/homebrew/include/eigen3"];
 
 fn eigen() -> Option<PathBuf> {
     let mut folders = EIGEN.iter().map(PathBuf::from);
@@ -91,14 +88,5 @@ pub fn set_up(workspace: &Workspace, options: Options) -> Result<(Tools, Peers)>
     let script = "import sysconfig; print(sysconfig.get_path('purelib'))";
     let packages = shell::capture(Command::new(&python).args(["-c", script]))?;
     let packages = packages.trim().into();
-    Ok((
-        tools,
-        Peers {
-            dir,
-            python,
-            packages,
-            requirements,
-            eigen,
-        },
-    ))
+    Ok((tools, Peers { dir, python, packages, requirements, eigen }))
 }

@@ -60,11 +60,8 @@ pub fn page(lines: &[Line], rustc: &str) -> String {
             refused += &format!("- `{}`: {}\n", line.name, reason.trim());
             continue;
         };
-        let number = |value: &Value| {
-            value
-                .as_f64()
-                .map_or("–".to_owned(), |x| format!("{x:.1e}"))
-        };
+        let number =
+            |value: &Value| value.as_f64().map_or("–".to_owned(), |x| format!("{x:.1e}"));
         let figure = |form: &str, of: fn(&Row) -> u64| {
             let row = line.rows.iter().find(|row| row.form == form);
             row.map_or("–".to_owned(), |row| thousands(of(row)))
@@ -106,9 +103,7 @@ fn estimate(lines: &[Line]) -> String {
     });
     let errors: Vec<f64> = errors.collect();
     let squares: f64 = errors.iter().map(|error| error * error).sum();
-    let most = errors
-        .iter()
-        .fold(0.0, |most: f64, error| most.max(error.abs()));
+    let most = errors.iter().fold(0.0, |most: f64, error| most.max(error.abs()));
     let rms = (squares / errors.len().max(1) as f64).sqrt();
     format!("{:.0} % (RMS), {:.0} % at most", 100.0 * rms, 100.0 * most)
 }
@@ -117,14 +112,10 @@ fn estimate(lines: &[Line]) -> String {
 fn topics(advice: &Value) -> String {
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
     for one in advice.as_array().into_iter().flatten() {
-        *counts
-            .entry(one["topic"].as_str().unwrap_or_default())
-            .or_default() += 1;
+        *counts.entry(one["topic"].as_str().unwrap_or_default()).or_default() += 1;
     }
-    let words: Vec<String> = counts
-        .iter()
-        .map(|(topic, count)| format!("{count} {topic}"))
-        .collect();
+    let words: Vec<String> =
+        counts.iter().map(|(topic, count)| format!("{count} {topic}")).collect();
     match words.is_empty() {
         true => "–".to_owned(),
         false => words.join(", "),

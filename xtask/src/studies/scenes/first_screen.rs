@@ -12,11 +12,7 @@ use crate::studies::scenes::report::{Ablation, Report};
 pub const PEERS: &str = "docs/peers.md";
 
 const fn part(name: &'static str) -> Page<'static> {
-    Page {
-        file: "README.md",
-        name,
-        command: "cargo xtask demo --write-docs",
-    }
+    Page { file: "README.md", name, command: "cargo xtask demo --write-docs" }
 }
 
 pub const WHY: Page<'_> = part("why");
@@ -50,9 +46,7 @@ fn why(peers: &str, readme: &str, scenes: &str) -> Result<String> {
     });
     let (longest, share) = (longest?, share?);
     let exact = cell(tick, "feed-forward", 3)?[1];
-    let ratio = exact
-        .split_once('(')
-        .and_then(|(_, ratio)| ratio.strip_suffix(')'));
+    let ratio = exact.split_once('(').and_then(|(_, ratio)| ratio.strip_suffix(')'));
     let ratio = ratio.ok_or_else(|| check!("{} has no share of PD's error", TICK.file))?;
     Ok(format!(
         "- Inverse dynamics takes **{inverse} of the cycles of the best C** that CasADi generates \
@@ -80,20 +74,12 @@ fn cell<'a>(page: &'a str, name: &str, count: usize) -> Result<Vec<&'a str>> {
 /// parts have them.
 fn wishes(readme: &str) -> Result<String> {
     let lacks = |what: &str| check!("README.md has no {what}");
-    let (all, pruned) = (
-        cell(readme, "default", 5)?,
-        cell(readme, "pruned at 0.1 %", 5)?,
-    );
+    let (all, pruned) = (cell(readme, "default", 5)?, cell(readme, "pruned at 0.1 %", 5)?);
     let effects = WORTH.written(readme)?;
     let worth = |name: &str| {
         let row = cell(effects, name, 3)?;
-        let (times, cycles) = (
-            row[1].trim_end_matches(" ×"),
-            row[2].trim_start_matches('−'),
-        );
-        Ok(format!(
-            "{times} times as large without {name}, which costs {cycles} cycles"
-        ))
+        let (times, cycles) = (row[1].trim_end_matches(" ×"), row[2].trim_start_matches('−'));
+        Ok(format!("{times} times as large without {name}, which costs {cycles} cycles"))
     };
     let [gravity, coriolis]: [Result<String>; 2] = ["Gravity", "Coriolis"].map(worth);
     let is_count = |line: &&str| line.split(' ').nth(1) == Some("cases");
@@ -117,9 +103,7 @@ fn wishes(readme: &str) -> Result<String> {
 /// only if they are named.
 fn range(page: &str, bar: &str) -> Result<String> {
     let is_free = |text: &str| text.contains("_free ");
-    let figures = page
-        .lines()
-        .filter(|line| line.contains(bar) && is_free(line) == is_free(bar));
+    let figures = page.lines().filter(|line| line.contains(bar) && is_free(line) == is_free(bar));
     let figures = figures.filter_map(|line| line.split('|').nth(3)?.trim().strip_suffix('×'));
     let figures: Vec<f64> = figures.filter_map(|figure| figure.parse().ok()).collect();
     let ends = [f64::min, f64::max].map(|pick| figures.iter().copied().reduce(pick));
@@ -137,9 +121,7 @@ pub fn worth(report: &Report) -> String {
     effects.sort_by(|a, b| b.without.rms_rad.total_cmp(&a.without.rms_rad));
     let columns: [Column<'_, Ablation>; 3] = [
         ("left out of the feed-forward", &|one| one.effect.clone()),
-        ("tracking error", &|one| {
-            format!("{:.0} ×", one.without.rms_rad / full)
-        }),
+        ("tracking error", &|one| format!("{:.0} ×", one.without.rms_rad / full)),
         ("cycles of the tick", &|one| signed(-one.cycles, "−")),
     ];
     let longest = thousands(report.tick["total"].cycles.max);
@@ -182,10 +164,7 @@ mod tests {
 
     /// The pages with the figure of a row's cell replaced.
     fn changed(page: &str, row: &str, figure: &str) -> String {
-        let line = page
-            .lines()
-            .find(|line| line.starts_with(row))
-            .expect("the row");
+        let line = page.lines().find(|line| line.starts_with(row)).expect("the row");
         page.replace(line, &line.replacen(figure, "9999", 1))
     }
 

@@ -96,12 +96,7 @@ fn references(recording: &Recording, area: &Area<'_>) -> Outcome {
     columns(recording, area, (44, 0), &y, |joint| {
         let points = run.samples.iter();
         let points = points.map(|s| (seconds(recording, s.tick), s.reference[joint]));
-        vec![Line {
-            points: points.collect(),
-            colour: INK,
-            width: 2,
-            dots: 0,
-        }]
+        vec![Line { points: points.collect(), colour: INK, width: 2, dots: 0 }]
     })
 }
 
@@ -137,11 +132,7 @@ fn errors(recording: &Recording, plant: &str, what: &str, below: u32, area: &Are
     let entries = laws.iter().zip(chart::COLOURS).map(|(law, colour)| {
         let run = recording.trajectory(plant, law);
         let rms = short(run.map_or(f64::NAN, |run| 1e3 * run.total));
-        (
-            format!("{}: {rms} mrad RMS", label(law)),
-            colour,
-            width(law),
-        )
+        (format!("{}: {rms} mrad RMS", label(law)), colour, width(law))
     });
     let left = ROOM[0] as i32;
     let head = format!("error where {what}");
@@ -157,12 +148,7 @@ fn errors(recording: &Recording, plant: &str, what: &str, below: u32, area: &Are
         let line = |(run, colour, width): (&crate::kit::protocol::Trajectory, _, _)| {
             let points = run.samples.chunks(OF_A_POINT);
             let points = points.map(|s| (seconds(recording, s[0].tick), worst(s, joint)));
-            Line {
-                points: points.collect(),
-                colour,
-                width,
-                dots: 0,
-            }
+            Line { points: points.collect(), colour, width, dots: 0 }
         };
         runs.map(line).collect()
     })

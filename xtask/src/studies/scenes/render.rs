@@ -35,10 +35,7 @@ impl Report {
             );
         }
         let (speed, gate) = (self.peak_speed, self.gate());
-        text + &format!(
-            "The reference reaches {speed:.2} rad/s\n{gate}Plot: {}\n",
-            plot.display()
-        )
+        text + &format!("The reference reaches {speed:.2} rad/s\n{gate}Plot: {}\n", plot.display())
     }
 
     /// For the page, with the brackets of the cycles by the parts of a tick.
@@ -74,9 +71,7 @@ impl Report {
             let saved = [worth.cycles, worth.flash_bytes, worth.ram_bytes as i64];
             (&*worth.effect, saved, &worth.without)
         });
-        let rows: Vec<_> = std::iter::once(("(none dropped)", [0; 3], full))
-            .chain(rows)
-            .collect();
+        let rows: Vec<_> = std::iter::once(("(none dropped)", [0; 3], full)).chain(rows).collect();
         Table::of(
             &rows,
             &[
@@ -86,9 +81,7 @@ impl Report {
                 ("RAM B", &|(_, [.., ram], _)| signed(*ram, "-")),
                 ("error RMS, mrad", &|(.., errors)| milli(errors.rms_rad)),
                 ("max", &|(.., errors)| milli(errors.max_rad)),
-                ("RMS ×", &|(.., errors)| {
-                    format!("{:.1}", errors.rms_rad / full.rms_rad)
-                }),
+                ("RMS ×", &|(.., errors)| format!("{:.1}", errors.rms_rad / full.rms_rad)),
                 ("safety gate", &|(.., errors)| gate(&errors.status)),
             ],
         )
@@ -105,10 +98,9 @@ impl Report {
             [(_, first), rest @ ..] if rest.iter().all(|(_, status)| status == first) => {
                 format!("Safety gate in every run: {first}\n")
             }
-            each => each
-                .iter()
-                .map(|(run, status)| format!("Safety gate. {run}: {status}\n"))
-                .collect(),
+            each => {
+                each.iter().map(|(run, status)| format!("Safety gate. {run}: {status}\n")).collect()
+            }
         }
     }
 
@@ -173,15 +165,11 @@ fn errors_table(tracking: &Tracking) -> Table {
     let joints = tracking.pd.per_joint.len();
     let joints: Vec<String> = (1..=joints).map(|joint| format!("joint {joint}")).collect();
     let names = joints.iter().map(String::as_str);
-    let head = std::iter::once("mrad")
-        .chain(names)
-        .chain(["all", "of PD", "tick cycles"]);
+    let head = std::iter::once("mrad").chain(names).chain(["all", "of PD", "tick cycles"]);
     let mut table = Table::new(&head.collect::<Vec<_>>());
     type Pick = (fn(&Errors) -> f64, fn(&JointError) -> f64);
-    let kinds: [(&str, Pick); 2] = [
-        ("RMS", (|e| e.rms_rad, |j| j.rms_rad)),
-        ("max", (|e| e.max_rad, |j| j.max_rad)),
-    ];
+    let kinds: [(&str, Pick); 2] =
+        [("RMS", (|e| e.rms_rad, |j| j.rms_rad)), ("max", (|e| e.max_rad, |j| j.max_rad))];
     for (kind, (all, each)) in kinds {
         for (law, errors) in tracking.laws() {
             let mut cells = vec![format!("{} {kind}", label(law))];
@@ -209,10 +197,7 @@ const WORTH: &str = "What each effect is worth: saved in the longest tick, in th
 pub fn gate(status: &str) -> String {
     let said = words(status);
     let usual = ["the full law", "no fault", "no limit reached"];
-    let changed: Vec<&str> = said
-        .split(", ")
-        .filter(|part| !usual.contains(part))
-        .collect();
+    let changed: Vec<&str> = said.split(", ").filter(|part| !usual.contains(part)).collect();
     match changed.as_slice() {
         [] => "silent".into(),
         changed => changed.join(", "),

@@ -99,10 +99,7 @@ pub struct JointError {
 impl Tracking {
     /// The laws by their names, feed-forward first, PD last.
     pub fn laws(&self) -> Vec<(&str, &Errors)> {
-        let beside = self
-            .beside
-            .iter()
-            .map(|(law, errors)| (law.as_str(), errors));
+        let beside = self.beside.iter().map(|(law, errors)| (law.as_str(), errors));
         let first = std::iter::once((FEEDFORWARD, &self.feedforward));
         first.chain(beside).chain([(PD, &self.pd)]).collect()
     }
@@ -178,9 +175,7 @@ fn errors(run: &Trajectory, cost: &Cost) -> Errors {
     Errors {
         rms_rad: run.total,
         max_rad: run.largest(),
-        per_joint: joints
-            .map(|(&rms_rad, &max_rad)| JointError { rms_rad, max_rad })
-            .collect(),
+        per_joint: joints.map(|(&rms_rad, &max_rad)| JointError { rms_rad, max_rad }).collect(),
         status: run.status.clone(),
         tick_cycles: cost.cycles.max,
     }

@@ -54,21 +54,14 @@ const POSTURES: [[f32; 6]; 10] = [
 /// Friction of servos of other gears: what the motor turns with grows with the reduction, what
 /// depends on its speed with the square. The gears' own share of the load stays.
 fn geared(ratio: [f32; 6]) -> Compensation {
-    let coulomb = Coulomb {
-        torque: ratio.map(|r| COULOMB * r),
-        ..COMPENSATION.2
-    };
+    let coulomb = Coulomb { torque: ratio.map(|r| COULOMB * r), ..COMPENSATION.2 };
     let viscous = Viscous(ratio.map(|r| VISCOUS * r * r));
     (Gravity::EARTH, viscous, coulomb, COMPENSATION.3)
 }
 
 /// Hand guiding without walls and locks.
 fn guiding() -> HandGuiding<f32, 6> {
-    let none = LimitedSpring {
-        stiffness: [0.0; 6],
-        damping: [0.0; 6],
-        torque: [0.0; 6],
-    };
+    let none = LimitedSpring { stiffness: [0.0; 6], damping: [0.0; 6], torque: [0.0; 6] };
     let config = HandGuidingConfig {
         error: ERROR,
         share: SHARE,
@@ -85,11 +78,7 @@ fn guiding() -> HandGuiding<f32, 6> {
 /// The commands of the servos at this estimate, in N·m at rest: of the scene, and of a
 /// leader that is guided.
 fn commands(estimate: &Estimate<f32, 6>) -> Value {
-    let at = State {
-        q: estimate.q,
-        qd: estimate.qd,
-        qdd: [0.0; 6],
-    };
+    let at = State { q: estimate.q, qd: estimate.qd, qdd: [0.0; 6] };
     let scene = with_back_emf(Engine::<So101>::rnea(&at, &COMPENSATION), &at.qd);
     let ratio = LEADER_GEARS.map(|gear| gear / SCENE_GEAR);
     let gravity = Engine::<So101>::rnea(&at, &Gravity::EARTH);
@@ -113,28 +102,20 @@ fn measured(counts: &[i32; 6]) -> [f32; 6] {
 
 fn at_rest(posture: &[f32; 6]) -> Value {
     let counts = counts(posture);
-    let estimate = Estimate {
-        q: measured(&counts),
-        qd: [0.0; 6],
-    };
+    let estimate = Estimate { q: measured(&counts), qd: [0.0; 6] };
     json!({ "counts": counts, "commands": commands(&estimate) })
 }
 
 /// The scene's path at a hand's pace, as the plug-in's observer sees it.
 fn along_the_path() -> Vec<Value> {
     let reference = TaughtPath::reference().expect("within the limits");
-    let mut observer = Observer::<f32, 6>::new(ObserverConfig {
-        bandwidth: BANDWIDTH,
-        tick: TICK,
-    });
+    let mut observer = Observer::<f32, 6>::new(ObserverConfig { bandwidth: BANDWIDTH, tick: TICK });
     let ticks = (reference.ticks() as f32 * SLOWER * TaughtPath::TICK / TICK) as u32;
     let row = |tick: u32| {
         let position = tick as f32 * TICK / (SLOWER * TaughtPath::TICK);
         let [from, to] = [0, 1].map(|next| reference.at(position as u32 + next).q);
         let share = position.fract();
-        let counts = counts(&core::array::from_fn(|j| {
-            from[j] + share * (to[j] - from[j])
-        }));
+        let counts = counts(&core::array::from_fn(|j| from[j] + share * (to[j] - from[j])));
         let estimate = observer.update(&measured(&counts), &[0.0; 6]);
         json!({ "counts": counts, "commands": commands(&estimate) })
     };

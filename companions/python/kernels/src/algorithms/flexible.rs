@@ -20,11 +20,7 @@ fn bent<R: Real>(
         true => filled(row, input + k, modes.count),
         false => [R::ZERO; MOST_MODES],
     };
-    State {
-        q: part(0),
-        qd: part(1),
-        qdd: part(2),
-    }
+    State { q: part(0), qd: part(1), qdd: part(2) }
 }
 
 /// Calls a function of the scene with the elasticity of the links.

@@ -23,9 +23,7 @@ mod firmware {
     /// 168 MHz from the 8 MHz of the ST-LINK: five wait states of the flash at 3.3 V, with its
     /// accelerator.
     fn clocks() -> Config {
-        Config::hse(8.MHz())
-            .bypass_hse_oscillator()
-            .sysclk(168.MHz())
+        Config::hse(8.MHz()).bypass_hse_oscillator().sysclk(168.MHz())
     }
 
     #[entry]

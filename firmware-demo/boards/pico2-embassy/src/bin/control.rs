@@ -6,15 +6,21 @@
 #[path = "../../../ur5e.rs"]
 mod board;
 #[cfg(target_arch = "arm")]
+// Formatted as users' files are.
+#[rustfmt::skip]
 #[path = "../../../../../tools/robot-import/template/board/pico2/src/devices.rs"]
 mod devices;
 #[cfg(target_arch = "arm")]
+// Formatted as users' files are.
+#[rustfmt::skip]
 #[path = "../../../../../tools/robot-import/template/board/pico2/src/firmware.rs"]
 mod firmware;
 #[cfg(target_arch = "arm")]
 #[path = "../../../silent.rs"]
 mod log;
 #[cfg(target_arch = "arm")]
+// Formatted as users' files are.
+#[rustfmt::skip]
 #[path = "../../../../../tools/robot-import/template/board/pico2/src/pins.rs"]
 mod pins;
 

@@ -38,10 +38,7 @@ mod servos {
             return;
         };
         // Each joint is within 2 rad of its middle, and turns by 6 rad/s at most.
-        let range = JointRange::Within {
-            lower: -2.0,
-            upper: 2.0,
-        };
+        let range = JointRange::Within { lower: -2.0, upper: 2.0 };
         let Ok(middle) = middle.with_range(range, 6.0 / 500.0) else {
             return;
         };

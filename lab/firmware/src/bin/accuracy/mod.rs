@@ -51,14 +51,7 @@ fn measure<A, T>(
         target::fail("a key is too long");
     }
     let (inputs, form, trig, joints) = (&*inputs, "any", true, 0);
-    let row = Row {
-        robot,
-        algorithm,
-        form,
-        inputs,
-        trig,
-        joints,
-    };
+    let row = Row { robot, algorithm, form, inputs, trig, joints };
     row.measure(address, asks, run);
 }
 
@@ -71,9 +64,7 @@ impl<const N: usize> Visitor<N> for Priced<N> {
         let mut way = W::start(&states[0]);
         let inputs = states.each_ref().map(W::input);
         let names = [self.robot, self.algorithm];
-        measure(names, W::KEY, W::address(), &inputs, |input| {
-            way.tick(input)
-        });
+        measure(names, W::KEY, W::address(), &inputs, |input| way.tick(input));
     }
 }
 
@@ -118,10 +109,5 @@ pub fn states<T: Compared<B, N, W>, const B: usize, const N: usize, const W: usi
     let first = way.ticks() / 4 + 1;
     let course = core::array::from_fn(|k| way.at(first + k as u32));
     let (robot, algorithm) = (T::MODEL.name, "inverse");
-    Priced {
-        robot,
-        algorithm,
-        spread,
-        course,
-    }
+    Priced { robot, algorithm, spread, course }
 }

@@ -51,10 +51,7 @@ struct Priced<F, const N: usize> {
 
 impl<F: Form<N>, const N: usize> Priced<F, N> {
     fn new() -> Self {
-        Self {
-            asks: asks::<F::Arm, N, N, STATES>(),
-            form: PhantomData,
-        }
+        Self { asks: asks::<F::Arm, N, N, STATES>(), form: PhantomData }
     }
 }
 
@@ -62,13 +59,7 @@ impl<F: Form<N>, const N: usize> Visitor<N> for Priced<F, N> {
     fn scene<E: Effect<f32, N, N>>(&mut self, name: &'static str, effects: E) {
         let robot = F::Arm::MODEL.name;
         let bytes = size_of::<E>();
-        defmt::println!(
-            "holds {=str} {=str} {=str} {=usize}",
-            robot,
-            F::NAME,
-            name,
-            bytes
-        );
+        defmt::println!("holds {=str} {=str} {=str} {=usize}", robot, F::NAME, name, bytes);
         let row = Row::of::<F::Arm, N, N>("rnea", F::NAME, name, true);
         let rnea = F::rnea::<E>();
         row.measure(rnea as usize, &self.asks, |ask| rnea(&ask.state, &effects));

@@ -30,13 +30,9 @@ pub fn payload<T: Robot<B, N, N>, const B: usize, const N: usize>(asks: &[Ask<N>
         .map(|ask| Core::<T>::regressor_columns(&ask.state, &RIGID_BODY, const { B - 1 }));
     let row = |inputs| Row::of::<T, B, N>("payload_update", "core", inputs, false);
     let run = all_joints::<N>;
-    row("all_joints").measure(run as *const () as usize, &columns, |y| {
-        run(&mut estimator, y)
-    });
+    row("all_joints").measure(run as *const () as usize, &columns, |y| run(&mut estimator, y));
     let run = three_joints::<N>;
-    row("3_joints").measure(run as *const () as usize, &columns, |y| {
-        run(&mut estimator, y)
-    });
+    row("3_joints").measure(run as *const () as usize, &columns, |y| run(&mut estimator, y));
 }
 
 #[inline(never)]
@@ -84,12 +80,9 @@ pub fn parameters(asks: &[Ask<6>; STATES]) {
     let bodies = SELECTED.bodies();
     let row = |inputs, trig| Row::of::<So101, 6, 6>("parameter_update", "core", inputs, trig);
     let run = with_row;
-    row("with_row", true).measure(run as *const () as usize, asks, |ask| {
-        run(&mut estimator, &bodies, &ask.state)
-    });
-    let rows = asks
-        .each_ref()
-        .map(|ask| parameter_row(&bodies, &ask.state));
+    row("with_row", true)
+        .measure(run as *const () as usize, asks, |ask| run(&mut estimator, &bodies, &ask.state));
+    let rows = asks.each_ref().map(|ask| parameter_row(&bodies, &ask.state));
     let run = update;
     row("row_given", false).measure(run as *const () as usize, &rows, |y| run(&mut estimator, y));
 }
@@ -107,9 +100,7 @@ fn with_row(
     bodies: &[bool; 6],
     state: &State<f32, 6, 6>,
 ) -> bool {
-    estimator
-        .update(0, &parameter_row(bodies, state), 0.1)
-        .is_ok()
+    estimator.update(0, &parameter_row(bodies, state), 0.1).is_ok()
 }
 
 #[inline(never)]

@@ -65,10 +65,7 @@ fn of_engine<'a, T: Robot<B, N, N>, const B: usize, const N: usize, const TIP: u
 
 pub fn both<T: Robot<B, N, N>, const B: usize, const N: usize, const TIP: usize>() -> ! {
     let asks = &asks::<T, B, N, STATES>();
-    run::<T, B, N, TIP>(
-        asks,
-        &[of_core::<T, B, N, TIP>(), of_engine::<T, B, N, TIP>()],
-    );
+    run::<T, B, N, TIP>(asks, &[of_core::<T, B, N, TIP>(), of_engine::<T, B, N, TIP>()]);
     momentum::both::<T, B, N>(asks);
     loaded::engine::<T, B, N>(asks);
     estimators::payload::<T, B, N>(asks);
@@ -110,34 +107,28 @@ fn run<'a, T: Robot<B, N, N>, const B: usize, const N: usize, const TIP: usize>(
     for form in forms {
         let (inside, precomputed) = (form.crba, form.crba_before);
         row(form, "crba", true).measure(inside as usize, asks, |ask| inside(&ask.state.q, scene));
-        row(form, "crba", false).measure(precomputed as usize, asks, |ask| {
-            precomputed(&ask.trig, scene)
-        });
+        row(form, "crba", false)
+            .measure(precomputed as usize, asks, |ask| precomputed(&ask.trig, scene));
     }
     for form in forms {
         let run = form.factor_solve;
         let matrices = asks.each_ref().map(|ask| Core::<T>::crba(&ask.trig, scene));
         row(form, "factor_solve", false).measure(run as usize, &matrices, |m| run(m, &[1.0; N]));
     }
-    let forward = forms
-        .iter()
-        .map(|form| (form, "forward_dynamics", form.forward, form.forward_before));
-    let aba = forms
-        .iter()
-        .map(|form| (form, "aba", form.aba, form.aba_before));
+    let forward =
+        forms.iter().map(|form| (form, "forward_dynamics", form.forward, form.forward_before));
+    let aba = forms.iter().map(|form| (form, "aba", form.aba, form.aba_before));
     for (form, algorithm, inside, precomputed) in forward.chain(aba) {
-        row(form, algorithm, true).measure(inside as usize, asks, |ask| {
-            inside(&ask.state, &ask.state.qdd, scene)
-        });
+        row(form, algorithm, true)
+            .measure(inside as usize, asks, |ask| inside(&ask.state, &ask.state.qdd, scene));
         row(form, algorithm, false).measure(precomputed as usize, asks, |ask| {
             precomputed(ask.trig.with(&ask.state), &ask.state.qdd, scene)
         });
     }
     for form in forms {
         let (inside, precomputed) = (form.jacobian, form.jacobian_before);
-        row(form, "jacobian", true).measure(inside as usize, asks, |ask| {
-            inside(&ask.state.q, OnBody, LocalWorldAligned)
-        });
+        row(form, "jacobian", true)
+            .measure(inside as usize, asks, |ask| inside(&ask.state.q, OnBody, LocalWorldAligned));
         row(form, "jacobian", false).measure(precomputed as usize, asks, |ask| {
             precomputed(&ask.trig, OnBody, LocalWorldAligned)
         });

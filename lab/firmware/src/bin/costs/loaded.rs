@@ -32,13 +32,9 @@ fn rows<T: Robot<B, N, N>, const B: usize, const N: usize>(
     let run: Inside<'_, _, N> = Engine::<T>::rnea;
     row("rnea", true).measure(run as usize, asks, |ask| run(&ask.state, scene));
     let run: Precomputed<'_, _, N> = Engine::<T>::rnea;
-    row("rnea", false).measure(run as usize, asks, |ask| {
-        run(ask.trig.with(&ask.state), scene)
-    });
+    row("rnea", false).measure(run as usize, asks, |ask| run(ask.trig.with(&ask.state), scene));
     let run: Crba<_, N> = Engine::<T>::crba;
     row("crba", true).measure(run as usize, asks, |ask| run(&ask.state.q, scene));
     let run: Aba<'_, _, N> = Engine::<T>::aba;
-    row("aba", true).measure(run as usize, asks, |ask| {
-        run(&ask.state, &ask.state.qdd, scene)
-    });
+    row("aba", true).measure(run as usize, asks, |ask| run(&ask.state, &ask.state.qdd, scene));
 }

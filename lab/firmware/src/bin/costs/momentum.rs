@@ -17,31 +17,19 @@ type Inside<'a, const N: usize> = fn(&'a State<f32, N, N>, &()) -> MomentumAndCo
 type Precomputed<'a, const N: usize> =
     fn(StateWithTrig<'a, f32, N, N>, &()) -> MomentumAndCoriolis<f32, N>;
 /// Inverse dynamics and the observer have the same scene.
-type Scene<const N: usize> = (
-    (Gravity, Inertia, Coriolis),
-    (Viscous<f32, N>, Coulomb<f32, N>),
-    LoadFriction<f32, N>,
-);
+type Scene<const N: usize> =
+    ((Gravity, Inertia, Coriolis), (Viscous<f32, N>, Coulomb<f32, N>), LoadFriction<f32, N>);
 
 pub fn both<T: Robot<B, N, N>, const B: usize, const N: usize>(asks: &[Ask<N>; STATES]) {
     let forms: [(&str, Inside<'_, N>, Precomputed<'_, N>); 2] = [
-        (
-            "core",
-            Core::<T>::momentum_and_coriolis,
-            Core::<T>::momentum_and_coriolis,
-        ),
-        (
-            "engine",
-            Engine::<T>::momentum_and_coriolis,
-            Engine::<T>::momentum_and_coriolis,
-        ),
+        ("core", Core::<T>::momentum_and_coriolis, Core::<T>::momentum_and_coriolis),
+        ("engine", Engine::<T>::momentum_and_coriolis, Engine::<T>::momentum_and_coriolis),
     ];
     for (form, inside, precomputed) in forms {
         let row = |trig| Row::of::<T, B, N>("momentum", form, "full", trig);
         row(true).measure(inside as usize, asks, |ask| inside(&ask.state, &()));
-        row(false).measure(precomputed as usize, asks, |ask| {
-            precomputed(ask.trig.with(&ask.state), &())
-        });
+        row(false)
+            .measure(precomputed as usize, asks, |ask| precomputed(ask.trig.with(&ask.state), &()));
     }
     observer::<T, B, N>(asks);
 }
@@ -52,37 +40,24 @@ fn observer<T: Robot<B, N, N>, const B: usize, const N: usize>(asks: &[Ask<N>; S
     let row = |algorithm, inputs, trig| Row::of::<T, B, N>(algorithm, "engine", inputs, trig);
     let (torque, width) = ([2.0; N], Width::new(0.05));
     let friction = (Viscous([0.5; N]), Coulomb { torque, width });
-    let gears = LoadFriction {
-        driving: [0.2; N],
-        backdriving: [0.15; N],
-        width,
-    };
+    let gears = LoadFriction { driving: [0.2; N], backdriving: [0.15; N], width };
     let scene = &(RIGID_BODY, friction, gears);
     let run: inverse::Inside<'_, _, N> = Engine::<T>::rnea;
-    row("rnea", "friction", true).measure(run as *const () as usize, asks, |ask| {
-        run(&ask.state, scene)
-    });
+    row("rnea", "friction", true)
+        .measure(run as *const () as usize, asks, |ask| run(&ask.state, scene));
 
-    let config = ObserverConfig {
-        bandwidth: 50.0,
-        tick: 1e-3,
-    };
+    let config = ObserverConfig { bandwidth: 50.0, tick: 1e-3 };
     let Ok(mut observer) = MomentumObserver::try_new(config) else {
         return;
     };
     let run = residual::<T, B, N>;
-    row("residual", "friction", true).measure(run as *const () as usize, asks, |ask| {
-        run(&mut observer, &ask.state, scene)
-    });
+    row("residual", "friction", true)
+        .measure(run as *const () as usize, asks, |ask| run(&mut observer, &ask.state, scene));
 
     let columns = asks
         .each_ref()
         .map(|ask| Core::<T>::jacobian(&ask.trig, const { B - 1 }, frame::LocalWorldAligned));
-    let sizes = TipWrenchConfig {
-        noise: [0.5; N],
-        force: 100.0,
-        couple: 10.0,
-    };
+    let sizes = TipWrenchConfig { noise: [0.5; N], force: 100.0, couple: 10.0 };
     let Ok(wrench) = TipWrench::try_new(sizes) else {
         return;
     };

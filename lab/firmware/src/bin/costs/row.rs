@@ -37,24 +37,14 @@ impl<'a> Row<'a> {
         inputs: &'a str,
         trig: bool,
     ) -> Self {
-        Self {
-            robot: T::MODEL.name,
-            algorithm,
-            form,
-            inputs,
-            trig,
-            joints: N,
-        }
+        Self { robot: T::MODEL.name, algorithm, form, inputs, trig, joints: N }
     }
 
     /// Logs the row, then runs the function of this address once for each ask in region 0. Taking
     /// the address also keeps the compiler from shaping the function to its calls.
     #[inline(always)]
     pub fn measure<'b, A, T>(self, address: usize, asks: &'b [A], mut run: impl FnMut(&'b A) -> T) {
-        let stack = asks
-            .iter()
-            .map(|ask| stack_of(|| run(black_box(ask))))
-            .max();
+        let stack = asks.iter().map(|ask| stack_of(|| run(black_box(ask)))).max();
         defmt::println!(
             "config {=str} {=str} {=str} {=str} {=u8} {=usize} {=usize} {=usize} {=usize}",
             self.robot,
@@ -76,10 +66,7 @@ impl<'a> Row<'a> {
 }
 
 /// Numbers within a bound, from a fixed seed.
-#[allow(
-    dead_code,
-    reason = "not every bin that measures rows draws its states"
-)]
+#[allow(dead_code, reason = "not every bin that measures rows draws its states")]
 pub fn numbers() -> impl FnMut(f32) -> f32 {
     let mut seed = 1_u32;
     move |bound| {

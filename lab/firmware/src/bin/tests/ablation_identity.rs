@@ -25,10 +25,8 @@ impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Nothing {
 }
 
 const VISCOUS: Viscous<f32, 6> = Viscous([12.0, 12.0, 8.0, 2.0, 2.0, 1.5]);
-const COULOMB: Coulomb<f32, 6> = Coulomb {
-    torque: [8.0, 8.0, 6.0, 1.5, 1.5, 1.2],
-    width: Width::f32(0.05),
-};
+const COULOMB: Coulomb<f32, 6> =
+    Coulomb { torque: [8.0, 8.0, 6.0, 1.5, 1.5, 1.2], width: Width::f32(0.05) };
 const ROTORS: Armature<f32, 6> = Armature([0.9, 0.9, 0.9, 0.25, 0.25, 0.25]);
 
 type Rnea<'a, E> = fn(&'a State<f32, 6, 6>, &E) -> [f32; 6];
@@ -42,9 +40,8 @@ fn main() -> ! {
     // As a scene has them: their numbers known while compiling, of types that nothing else here
     // has.
     row("engine", "full_known").measure(full as *const () as usize, &asks, |ask| full(&ask.state));
-    row("engine", "friction_known").measure(friction as *const () as usize, &asks, |ask| {
-        friction(&ask.state)
-    });
+    row("engine", "friction_known")
+        .measure(friction as *const () as usize, &asks, |ask| friction(&ask.state));
     done()
 }
 
@@ -60,10 +57,8 @@ fn friction(state: &State<f32, 6, 6>) -> [f32; 6] {
 
 /// Measures inverse dynamics in both forms, effects at an address.
 fn both<E: Effect<f32, 6, 6>>(inputs: &'static str, asks: &[Ask<6>; STATES], effects: &E) {
-    let forms: [(&str, Rnea<'_, E>); 2] = [
-        ("core", Core::<Ur5e>::rnea),
-        ("engine", Engine::<Ur5e>::rnea),
-    ];
+    let forms: [(&str, Rnea<'_, E>); 2] =
+        [("core", Core::<Ur5e>::rnea), ("engine", Engine::<Ur5e>::rnea)];
     for (form, rnea) in forms {
         row(form, inputs).measure(rnea as usize, asks, |ask| rnea(&ask.state, effects));
     }

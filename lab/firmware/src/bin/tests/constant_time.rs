@@ -73,11 +73,7 @@ impl Noise {
     }
 
     fn state(&mut self) -> State<f32, N, N> {
-        State {
-            q: self.numbers(6.3),
-            qd: self.numbers(3.0),
-            qdd: self.numbers(10.0),
-        }
+        State { q: self.numbers(6.3), qd: self.numbers(3.0), qdd: self.numbers(10.0) }
     }
 
     /// A number that the gate takes: finite.
@@ -89,30 +85,18 @@ impl Noise {
 
 const EFFECTS: (Viscous<f32, N>, Coulomb<f32, N>, Armature<f32, N>) = (
     Viscous([12.0, 12.0, 8.0, 2.0, 2.0, 1.5]),
-    Coulomb {
-        torque: [8.0, 8.0, 6.0, 1.5, 1.5, 1.2],
-        width: Width::f32(0.05),
-    },
+    Coulomb { torque: [8.0, 8.0, 6.0, 1.5, 1.5, 1.2], width: Width::f32(0.05) },
     Armature([0.9, 0.9, 0.9, 0.25, 0.25, 0.25]),
 );
 
 #[entry]
 fn main() -> ! {
     let noise = &mut Noise(0x5eed_1234);
-    each(noise, "core", Noise::state, |state| {
-        Core::<Ur5e>::rnea(state, &RIGID_BODY)
-    });
-    each(noise, "engine", Noise::state, |state| {
-        Engine::<Ur5e>::rnea(state, &RIGID_BODY)
-    });
-    each(noise, "effects", Noise::state, |state| {
-        Engine::<Ur5e>::rnea(state, &EFFECTS)
-    });
+    each(noise, "core", Noise::state, |state| Core::<Ur5e>::rnea(state, &RIGID_BODY));
+    each(noise, "engine", Noise::state, |state| Engine::<Ur5e>::rnea(state, &RIGID_BODY));
+    each(noise, "effects", Noise::state, |state| Engine::<Ur5e>::rnea(state, &EFFECTS));
     each(noise, "trig", |noise| noise.number(6.3), sin_cos);
-    let gains = Gains {
-        kp: [500.0; N],
-        kd: [50.0; N],
-    };
+    let gains = Gains { kp: [500.0; N], kd: [50.0; N] };
     each(
         noise,
         "law",
@@ -127,12 +111,7 @@ fn main() -> ! {
         target::fail("a full scale is above zero");
     };
     let drive = LockedAntiphase::new(WIRES.drive(0), full_scale, Direction::Forward);
-    each(
-        noise,
-        "drive",
-        |noise| noise.number(200.0),
-        |torque| duty(&drive, *torque),
-    );
+    each(noise, "drive", |noise| noise.number(200.0), |torque| duty(&drive, *torque));
     defmt::println!("constant controller {=usize}", STATES);
     control(noise, None);
     defmt::println!("bounded reentry {=usize}", STATES);

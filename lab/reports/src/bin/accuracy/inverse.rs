@@ -58,10 +58,7 @@ impl<const N: usize> Visitor<N> for Bench<N> {
 pub fn print<T: Compared<B, N, W>, const B: usize, const N: usize, const W: usize>(
     ways: fn(&mut Bench<N>),
 ) {
-    let labelled = |state| Problem {
-        state,
-        truth: ours::<T, B, N>(&state),
-    };
+    let labelled = |state| Problem { state, truth: ours::<T, B, N>(&state) };
     let mut random = random_numbers();
     let more = (0..MORE_STATES).map(|_| labelled(drawn(&mut random, [PI, 3.0, 10.0])));
     let mut states: Vec<_> = more.collect();
@@ -79,14 +76,7 @@ pub fn print<T: Compared<B, N, W>, const B: usize, const N: usize, const W: usiz
         yardsticks::print::<T, B, N>(full_scale, &way);
         yardsticks::print_speeds::<T, B, N>(full_scale);
     }
-    ways(&mut Bench {
-        kind: "inverse",
-        robot: T::MODEL.name,
-        full_scale,
-        floor,
-        states,
-        way,
-    });
+    ways(&mut Bench { kind: "inverse", robot: T::MODEL.name, full_scale, floor, states, way });
 }
 
 fn ours<T: Robot<B, N, N>, const B: usize, const N: usize>(state: &State<f32, N, N>) -> [f64; N] {
@@ -129,10 +119,7 @@ fn recorded_states<const N: usize>(name: &str) -> Vec<Problem<N>> {
     let state = |k| {
         let [q, qd, qdd] = [&recording.q, &recording.qd, &recording.qdd]
             .map(|rows| first(rows, k).map(|x| x as f32));
-        Problem {
-            state: State { q, qd, qdd },
-            truth: first(&recording.rnea, k),
-        }
+        Problem { state: State { q, qd, qdd }, truth: first(&recording.rnea, k) }
     };
     (0..recording.rnea.len()).map(state).collect()
 }

@@ -18,11 +18,7 @@ pub fn true_motion<T: PassiveMotion<N>, E: Effect<f64, N, N>, const N: usize>(
     effects: &E,
     step: u32,
 ) -> Vec<[[f64; N]; 2]> {
-    let robot = ModelDynamics {
-        robot: &Static::<T>::NEW,
-        tau: [0.0; N],
-        effects,
-    };
+    let robot = ModelDynamics { robot: &Static::<T>::NEW, tau: [0.0; N], effects };
     let ([q, qd], qdd) = (T::START, [0.0; N]);
     let mut motion = KahanState::<f64, N, true>::at(State { q, qd, qdd });
     let h = f64::from(step) * 1e-6;

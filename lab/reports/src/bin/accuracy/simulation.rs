@@ -42,10 +42,7 @@ pub fn print() {
 
 fn robot<T: PassiveMotion<N>, const N: usize>() {
     let damped = <Damped<f64, N> as Scene<T, f64, N>>::effects();
-    let truth = [
-        true_motion::<T, _, N>(&RIGID_BODY, FINE),
-        true_motion::<T, _, N>(&damped, FINE),
-    ];
+    let truth = [true_motion::<T, _, N>(&RIGID_BODY, FINE), true_motion::<T, _, N>(&damped, FINE)];
     let energies = |[q, qd]: [[f64; N]; 2]| {
         let qdd = [0.0; N];
         let state = State { q, qd, qdd };
@@ -58,12 +55,7 @@ fn robot<T: PassiveMotion<N>, const N: usize>() {
     let angles = truth.iter().flatten().flat_map(|at| at[0]);
     let scales = [largest(kinetic), largest(angles.map(f64::abs))];
     let robot = T::MODEL.name;
-    every::<T, N>(&mut Bench {
-        robot,
-        truth,
-        energies,
-        scales,
-    });
+    every::<T, N>(&mut Bench { robot, truth, energies, scales });
 }
 
 impl<const N: usize> Visitor<N> for Bench<N> {
@@ -99,13 +91,7 @@ impl<const N: usize> Visitor<N> for Bench<N> {
             });
             // A simulation that has left the robot's range has no meaningful error.
             if failed || errors.max() >= 100.0 || drift.max() >= 1e3 * kinetic {
-                for name in [
-                    "error_max",
-                    "error_rms",
-                    "error_p99",
-                    "relative_max",
-                    "drift",
-                ] {
+                for name in ["error_max", "error_rms", "error_p99", "relative_max", "drift"] {
                     line[name] = Value::Null;
                 }
             }

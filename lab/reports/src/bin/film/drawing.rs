@@ -83,9 +83,7 @@ pub fn film(motion: &Motion) -> String {
     // The reference is the same in each part.
     let (part, seconds) = (motion.part / STEP, SECONDS / PARTS.len() as f64);
     let mut shapes = floor();
-    shapes += &arm("wanted", &samples[..=part], still % part, seconds, |tick| {
-        tick.reference
-    });
+    shapes += &arm("wanted", &samples[..=part], still % part, seconds, |tick| tick.reference);
     shapes += &arm("arm", &samples, still, SECONDS, |tick| tick.actual);
     shapes += &words(motion);
     shapes += &plot(&errors, still, &labels);
@@ -179,21 +177,13 @@ fn words(motion: &Motion) -> String {
         let (style, name) = (format!("{class} bold moves 20 end"), "feed-forward");
         shapes += &text(&style, [620.0, 32.0], &format!("{name} {state}{animation}"));
     }
-    shapes
-        + &text(
-            "wanted bold still 20 end",
-            [620.0, 32.0],
-            "feed-forward off",
-        )
+    shapes + &text("wanted bold still 20 end", [620.0, 32.0], "feed-forward off")
 }
 
 /// A share of the film and an error in mm, px.
 fn plotted(share: f64, error: f64) -> DVec2 {
     let [left, top, right, bottom] = PLOT;
-    DVec2::new(
-        left + share * (right - left),
-        bottom - error / MOST * (bottom - top),
-    )
+    DVec2::new(left + share * (right - left), bottom - error / MOST * (bottom - top))
 }
 
 fn plot(errors: &[f64], still: usize, labels: &[String; PARTS.len()]) -> String {
@@ -217,9 +207,7 @@ fn plot(errors: &[f64], still: usize, labels: &[String; PARTS.len()]) -> String 
     }
     let whole = (errors.len() - 1) as f64;
     let curve = errors.iter().enumerate();
-    let curve: Vec<DVec2> = curve
-        .map(|(k, error)| plotted(k as f64 / whole, *error))
-        .collect();
+    let curve: Vec<DVec2> = curve.map(|(k, error)| plotted(k as f64 / whole, *error)).collect();
     shapes += &format!(
         "<polyline class=\"arm-line\" stroke-width=\"2\" points=\"{}\"/>\n",
         points(curve.iter().copied())
@@ -246,10 +234,7 @@ fn labels(motion: &Motion) -> [String; PARTS.len()] {
     let parts: Vec<&[f64]> = errors.chunks(motion.part).collect();
     let most = |errors: &[f64]| errors.iter().copied().fold(0.0, f64::max);
     let [first, second] = [parts[0], parts[1]].map(most);
-    let settled = parts[2]
-        .iter()
-        .rposition(|&error| error > first)
-        .map_or(0, |k| k + 1);
+    let settled = parts[2].iter().rposition(|&error| error > first).map_or(0, |k| k + 1);
     let last = most(&parts[2][settled..]);
     [
         format!("on: at most {first:.2} mm"),

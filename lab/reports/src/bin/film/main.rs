@@ -19,10 +19,7 @@ mod tests {
         let film = drawing::film(&simulation::run());
         let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/film.svg");
         let written = std::fs::read_to_string(file).expect("the film");
-        assert!(
-            written == film,
-            "cargo run -p host-reports --bin film docs/film.svg"
-        );
+        assert!(written == film, "cargo run -p host-reports --bin film docs/film.svg");
         assert!(film.len() <= 150_000, "{} bytes", film.len());
         for part in [
             "<title id=\"title\">",
@@ -38,9 +35,8 @@ mod tests {
     fn without_feed_forward_the_tip_is_far_off() {
         let motion = simulation::run();
         let parts = motion.ticks.chunks(motion.part);
-        let most: Vec<f64> = parts
-            .map(|ticks| ticks.iter().map(Tick::error).fold(0.0, f64::max))
-            .collect();
+        let most: Vec<f64> =
+            parts.map(|ticks| ticks.iter().map(Tick::error).fold(0.0, f64::max)).collect();
         assert!(most[0] < 1e-4 && most[1] > 0.02, "{most:?}");
         assert!(motion.ticks.last().is_some_and(|tick| tick.error() < 1e-4));
     }

@@ -85,24 +85,17 @@ pub fn run() -> Motion {
         simulated_loop::<PickAndPlace, (), 6, 6, 6, 6>(&way, wires, ()).expect("torque limits");
     let part = way.ticks() as usize;
     let cycles = Cycles(way);
-    let switches = PARTS
-        .into_iter()
-        .flat_map(|on| std::iter::repeat_n(on, part));
+    let switches = PARTS.into_iter().flat_map(|on| std::iter::repeat_n(on, part));
     let ticks = switches.map(|on| {
         let told = control.tick_probed::<Switched, _, _>(&cycles, &Switch(on), &mut ());
         assert!(told.status.fault.is_none(), "{:?}", told.status);
-        let tick = Tick {
-            reference: skeleton(&told.reference),
-            actual: skeleton(&rig.plant.actual()),
-        };
+        let tick =
+            Tick { reference: skeleton(&told.reference), actual: skeleton(&rig.plant.actual()) };
         let moved = rig.advance(wires, STEPS, TICK / STEPS as f32, |_| ());
         moved.expect("the arm has forward dynamics");
         tick
     });
-    Motion {
-        ticks: ticks.collect(),
-        part,
-    }
+    Motion { ticks: ticks.collect(), part }
 }
 
 fn skeleton(q: &[f32; 6]) -> Skeleton {

@@ -34,10 +34,8 @@ fn a_measurement_corrects_what_was_predicted() {
     near(&observer.clone().predict(&[8.0, -4.0]), [q, qd]);
     let measured = [5.0, -3.5];
     let errors = [0, 1].map(|k| measured[k] - q[k]);
-    let want = [
-        [0, 1].map(|k| q[k] + position * errors[k]),
-        [0, 1].map(|k| qd[k] + velocity * errors[k]),
-    ];
+    let want =
+        [[0, 1].map(|k| q[k] + position * errors[k]), [0, 1].map(|k| qd[k] + velocity * errors[k])];
     near(&observer.update(&measured, &[8.0, -4.0]), want);
     near(observer.estimate(), want);
 }

@@ -127,11 +127,8 @@ fn a_set_follows_to_the_margin() {
 #[test]
 fn an_estimate_changes_the_nominal_set() {
     let mut two = two();
-    let mut base = SelectedParameters {
-        columns: [20, 21],
-        prior: [1.0; 2],
-        spread: [[0.0; 2]; 22],
-    };
+    let mut base =
+        SelectedParameters { columns: [20, 21], prior: [1.0; 2], spread: [[0.0; 2]; 22] };
     (base.spread[0], base.spread[20]) = ([0.5, 0.0], [-0.25, 1.0]);
     // The same again: it is the change of the nominal parameters, not of those that are stored.
     for _ in 0..2 {

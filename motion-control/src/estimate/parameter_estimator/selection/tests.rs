@@ -11,9 +11,8 @@ fn a_change_of_a_base_parameter_is_one_of_its_sum() {
         motion.add(&[a, 2.0 * a, b], 0.5);
     }
     let (nominal, share) = ([4.0, 1.0, 30.0], 0.5);
-    let base: SelectedParameters<f64, 2, 3> = motion
-        .select::<_, 0, 2>(&nominal, share)
-        .expect("two columns");
+    let base: SelectedParameters<f64, 2, 3> =
+        motion.select::<_, 0, 2>(&nominal, share).expect("two columns");
     // Among deviations 2 and 2 · 0.5 the first has the larger effect; the last has the largest, and
     // stays behind it.
     assert_eq!(base.columns, [0, 2]);
@@ -48,9 +47,7 @@ fn the_weight_of_a_row_is_its_noise() {
     let mut motion: Excitation<2> = Excitation::new();
     motion.add(&[3.0, 0.0], 1.0);
     motion.add(&[0.0, 2.0], 0.5);
-    let base = motion
-        .select::<f64, 0, 1>(&[1.0; 2], 1.0)
-        .expect("one column");
+    let base = motion.select::<f64, 0, 1>(&[1.0; 2], 1.0).expect("one column");
     assert_eq!(base.columns, [1]);
     // Among two that explain the same it is the first.
     let mut motion: Excitation<3> = Excitation::new();
@@ -86,9 +83,7 @@ fn product(a: [[f64; 4]; 4], b: [[f64; 4]; 4]) -> [[f64; 4]; 4] {
 // The covariance of two parameters ⟨X, J⟩ and ⟨Y, J⟩ is s² tr(X J Y J).
 #[test]
 fn the_covariance_of_a_body_follows_its_pseudo_inertia() {
-    const BODY: [f64; 10] = [
-        2.0, 0.5, -0.25, 0.125, 1.0, -0.25, 1.5, -0.125, -0.0625, 2.0,
-    ];
+    const BODY: [f64; 10] = [2.0, 0.5, -0.25, 0.125, 1.0, -0.25, 1.5, -0.125, -0.0625, 2.0];
     let (share, friction) = (0.5, 3.0);
     // The second of two bodies, and a friction.
     let mut nominal = [0.0; 21];
@@ -141,10 +136,7 @@ fn a_row_has_the_selected_columns_of_its_joint() {
     assert_eq!(base.own::<3>(BODIES, 2), [1, 1, 1]);
     assert_eq!(base.own::<3>(BODIES, 0), [0; 3]);
     assert_eq!(base.bodies::<BODIES>(), [true, true]);
-    let friction = SelectedParameters {
-        columns: [10, 20, 21, 22, 25],
-        ..base
-    };
+    let friction = SelectedParameters { columns: [10, 20, 21, 22, 25], ..base };
     assert_eq!(friction.bodies::<BODIES>(), [false, true]);
     assert_eq!(friction.own::<3>(BODIES, 2), [2, 1, 1]);
 }
@@ -164,9 +156,8 @@ fn the_spread_is_that_of_the_regression_on_the_selection() {
     let mut motion: Excitation<5> = Excitation::new();
     ROWS.iter().for_each(|row| motion.add(row, 1.0));
     let nominal = [1.0, 2.0, 0.5, 1.5, 3.0];
-    let base: SelectedParameters<f64, 3, 5> = motion
-        .select::<_, 0, 3>(&nominal, 1.0)
-        .expect("three columns");
+    let base: SelectedParameters<f64, 3, 5> =
+        motion.select::<_, 0, 3>(&nominal, 1.0).expect("three columns");
     let product = |a: usize, b: usize| ROWS.iter().map(|row| row[a] * row[b]).sum::<f64>();
     let columns = base.columns;
     assert!(columns.is_sorted());

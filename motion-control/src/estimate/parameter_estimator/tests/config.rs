@@ -29,10 +29,7 @@ fn each_number_has_its_range() {
     assert_eq!(of(|c| c.limit = 3.0), None);
     assert_eq!(of(|c| c.limit = 2.95), Some(InnovationLimit));
     assert_eq!(of(|c| c.limit = 1.05e3), Some(InnovationLimit));
-    let bad = Config {
-        limit: f64::NAN,
-        ..config(0.0)
-    };
+    let bad = Config { limit: f64::NAN, ..config(0.0) };
     assert!(Estimator::try_new(bad).is_err());
 }
 

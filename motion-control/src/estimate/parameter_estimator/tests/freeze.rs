@@ -67,10 +67,7 @@ fn a_row_at_the_limit_is_no_outlier() {
     let outlier = Err(RejectedRow::Outlier { joint });
     assert_eq!(update(&mut pair(), joint, 4.01), outlier);
     // With an uncertain parameter the error may be larger.
-    let config = ParameterEstimatorConfig {
-        prior: [3.0_f64.sqrt(); 2],
-        ..at.config
-    };
+    let config = ParameterEstimatorConfig { prior: [3.0_f64.sqrt(); 2], ..at.config };
     let mut uncertain = Pair::try_new(config).expect("a good configuration");
     assert_eq!(update(&mut uncertain, 0, 7.99), Ok(()));
     let level = uncertain.consistency()[0];
@@ -121,10 +118,7 @@ fn many_consistent_rows_of_others_thaw_the_estimate() {
 #[test]
 fn a_level_at_a_bound_neither_freezes_nor_stays_frozen() {
     // For a limit of 5 the bounds are 2.5² and 2², and an innovation of that size keeps its level.
-    let config = ParameterEstimatorConfig {
-        limit: 5.0,
-        ..pair().config
-    };
+    let config = ParameterEstimatorConfig { limit: 5.0, ..pair().config };
     let mut pair = Pair::try_new(config).expect("a good configuration");
     pair.levels = [6.25; 2];
     assert_eq!(pair.update(0, &[0.0; 2], 2.5), Ok(()));

@@ -11,12 +11,8 @@ const MOST: f64 = 16.0;
 type One = PayloadEstimator<f64, 1>;
 
 fn one_with(prior: f64) -> One {
-    let config = PayloadEstimatorConfig {
-        noise: [1.0],
-        prior: [prior; N],
-        forgetting: 0.0,
-        limit: 4.0,
-    };
+    let config =
+        PayloadEstimatorConfig { noise: [1.0], prior: [prior; N], forgetting: 0.0, limit: 4.0 };
     One::try_new(config).expect("a good configuration")
 }
 
@@ -61,10 +57,7 @@ fn each_number_of_the_configuration_has_its_range() {
     assert_eq!(of(|c| c.limit = 3.0), None);
     assert_eq!(of(|c| c.limit = 1.05e3), Some(InnovationLimit));
     assert_eq!(of(|c| c.limit = 2.95), Some(InnovationLimit));
-    let bad = PayloadEstimatorConfig {
-        limit: f64::NAN,
-        ..config(0.0)
-    };
+    let bad = PayloadEstimatorConfig { limit: f64::NAN, ..config(0.0) };
     assert!(Estimator::try_new(bad).is_err());
 }
 
@@ -233,12 +226,8 @@ fn ticks_of_a_fault_begin_the_other_load_anew() {
 /// One of a limit of 5, whose bounds are 2² and 2.5², frozen at no load with these levels and ticks
 /// of the other load.
 fn frozen_with(level: f64, other: f64, ticks: u32) -> One {
-    let config = PayloadEstimatorConfig {
-        noise: [1.0],
-        prior: [2.0; N],
-        forgetting: 0.0,
-        limit: 5.0,
-    };
+    let config =
+        PayloadEstimatorConfig { noise: [1.0], prior: [2.0; N], forgetting: 0.0, limit: 5.0 };
     let mut one = One::try_new(config).expect("a good configuration");
     one.freeze();
     one.level = level;

@@ -37,13 +37,7 @@ fn compensation_is_a_share_less_the_error_of_either_sign() {
     }
     let none = [0.0; 2];
     // Nothing up to the speed of rest, all of it from twice that speed on.
-    for [speed, share] in [
-        [0.5, 0.0],
-        [1.0, 0.0],
-        [1.25, 0.25],
-        [1.75, 0.75],
-        [2.0, 1.0],
-    ] {
+    for [speed, share] in [[0.5, 0.0], [1.0, 0.0], [1.25, 0.25], [1.75, 0.75], [2.0, 1.0]] {
         let qd = [0.01 * speed, -0.02 * speed];
         let tau = torque(qd, [4.0, -8.0], none);
         for (tau, full) in tau.into_iter().zip([3.0, -6.0]) {
@@ -78,9 +72,7 @@ fn each_joint_has_its_own_walls_and_its_own_lock() {
     near(at(&guiding, [0.48, 0.98], none), [2.0, 6.0]);
     assert_eq!(guiding.locked(), [true; 2]);
     // At a wall a locked joint has both. There is nothing to lock of the other one.
-    guiding
-        .lock(&[true, false], &[0.5, f64::NAN])
-        .expect("finite");
+    guiding.lock(&[true, false], &[0.5, f64::NAN]).expect("finite");
     near(at(&guiding, [1.51, 0.0], none), [-5.0 - 1.0, 0.0]);
 }
 

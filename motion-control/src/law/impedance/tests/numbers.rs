@@ -3,11 +3,8 @@
 use super::*;
 use crate::limits::ConfigParameter::{DampingRatio, SlowestMode, Stiffness};
 
-const CONFIG: ImpedanceConfig<f64, 2> = ImpedanceConfig {
-    stiffness: [400.0, 90.0],
-    zeta: 0.75,
-    slowest: 2.0,
-};
+const CONFIG: ImpedanceConfig<f64, 2> =
+    ImpedanceConfig { stiffness: [400.0, 90.0], zeta: 0.75, slowest: 2.0 };
 
 /// Inertias of three joints, kg·m², of which the last is not in the task.
 const MASSES: [f64; 3] = [4.0, 0.5, 2.0];
@@ -23,8 +20,7 @@ fn torque(
     let rows = [[LEVERS[0], 0.0, 0.0], [0.0, LEVERS[1], 0.0]];
     let solve = |tau: &[f64; 3]| core::array::from_fn(|i| tau[i] / MASSES[i]);
     let mut law = CartesianImpedance::try_new(config).expect("a good one");
-    law.torque(&rows, solve, deviation, &bias, &posture)
-        .expect("finite")
+    law.torque(&rows, solve, deviation, &bias, &posture).expect("finite")
 }
 
 #[test]
@@ -65,10 +61,7 @@ fn a_slow_mode_has_the_damping_of_the_tangent() {
     // Ω² = K/Λ: 400 and 45 rad²/s². Below ω_min, 1/Ω is (3/2 − Ω²/2 ω_min²)/ω_min.
     let slowest = 12.0;
     let config = ImpedanceConfig { slowest, ..CONFIG };
-    let deviation = TaskDeviation {
-        position: [0.0; 2],
-        velocity: [0.0, 2.0],
-    };
+    let deviation = TaskDeviation { position: [0.0; 2], velocity: [0.0, 2.0] };
     let got = torque(config, &deviation, [0.0; 3], [0.0; 3]);
     let share = 45.0 / (slowest * slowest);
     let d = 2.0 * config.zeta * config.stiffness[1] * (1.5 - 0.5 * share) / slowest;

@@ -113,12 +113,7 @@ fn an_outward_torque_brakes_no_more_than_the_speed_needs() {
         (FROM, inwards, [30.0, -30.0, 30.0], [20.0, -20.0, 30.0]),
         (FROM, inwards, [10.0, -10.0, 30.0], [10.0, -10.0, 30.0]),
         (FROM, [0.25, -0.25, 0.0], [30.0, -30.0, 0.0], rest),
-        (
-            FROM,
-            [-9.0, 9.0, 0.0],
-            [99.0, -99.0, 0.0],
-            [40.0, -40.0, 0.0],
-        ),
+        (FROM, [-9.0, 9.0, 0.0], [99.0, -99.0, 0.0], [40.0, -40.0, 0.0]),
         // Torques that point inwards are as they were, and so are all of a joint that is back.
         (FROM, rest, [-30.0, 30.0, 0.0], [-30.0, 30.0, 0.0]),
         ([0.25, 0.75, 2.0], rest, all, all),

@@ -43,10 +43,7 @@ fn most(values: impl Iterator<Item = f64>) -> f64 {
 /// The largest speed and acceleration of the retraction.
 fn peaks(path: &TravelledPath<f64, 2, 16>) -> [f64; 2] {
     let states = || (0..=path.ticks()).map(|tick| path.at(tick));
-    [
-        most(states().flat_map(|state| state.qd)),
-        most(states().flat_map(|state| state.qdd)),
-    ]
+    [most(states().flat_map(|state| state.qd)), most(states().flat_map(|state| state.qdd))]
 }
 
 #[test]

@@ -47,12 +47,7 @@ impl Bench {
     fn new(controller: Controller, q: [f64; 2]) -> Self {
         let command = full_command([0.0; 2], true);
         let qd = [0.0; 2];
-        Self {
-            controller,
-            q,
-            qd,
-            command,
-        }
+        Self { controller, q, qd, command }
     }
 
     /// One without bounds, at rest at the start of its motion.
@@ -95,9 +90,7 @@ impl Bench {
     }
 
     fn tick(&mut self, motion: &impl Reference<f32, 2>) {
-        self.command = self
-            .controller
-            .tick(Ok(&self.measured()), motion, Self::law);
+        self.command = self.controller.tick(Ok(&self.measured()), motion, Self::law);
         self.advance();
     }
 
@@ -121,13 +114,9 @@ fn on_brake([lower, upper]: [f32; 2], q: [f64; 2]) -> Bench {
 
 #[test]
 fn a_reset_at_the_same_place_on_another_turn_starts() {
-    for (stands, begins) in [
-        (-3.10, 3.18),
-        (6.282, 0.01),
-        (0.0, 25.13),
-        (3.1, -3.1831855),
-        (-25.13, 12.57),
-    ] {
+    for (stands, begins) in
+        [(-3.10, 3.18), (6.282, 0.01), (0.0, 25.13), (3.1, -3.1831855), (-25.13, 12.57)]
+    {
         let mut bench = on_brake(FREE, [stands, 0.0]);
         let motion = line([begins, 0.0], 0.2, 1000);
         assert_eq!(bench.controller.reset(&motion), Ok(()), "{stands} {begins}");

@@ -80,10 +80,7 @@ fn excess_speed_is_a_fault_of_its_tick() {
 #[test]
 fn a_predicted_excess_speed_is_a_fault() {
     // A reference that accelerates by 2 rad/s in a tick.
-    let steep = Motion(|_| State {
-        qdd: [2.0 / TICK],
-        ..State::at([0.0])
-    });
+    let steep = Motion(|_| State { qdd: [2.0 / TICK], ..State::at([0.0]) });
     let mut controller = controller::<CurrentTick>();
     controller.tick(Ok(&[0.0]), &steep, |_, _| [1.0]);
     let mut lost = || controller.tick(LOST, &steep, |_, _| [1.0]).status;

@@ -143,14 +143,8 @@ fn a_second_reset_needs_another_measurement() {
 
 #[test]
 fn an_arm_at_the_restart_distance_is_near_enough() {
-    let config = MotionControllerConfig {
-        restart_distance: 0.125,
-        ..CONFIG
-    };
-    for (q, reset) in [
-        (0.125, Ok(())),
-        (0.126, Err(ResetError::TooFar { joint: 0 })),
-    ] {
+    let config = MotionControllerConfig { restart_distance: 0.125, ..CONFIG };
+    for (q, reset) in [(0.125, Ok(())), (0.126, Err(ResetError::TooFar { joint: 0 }))] {
         let mut controller = Controller::new(config).on_brake();
         let motion = State::at([0.0]);
         controller.tick(Ok(&[q]), &motion, |_, _| [0.0]);

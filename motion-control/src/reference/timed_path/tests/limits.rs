@@ -5,10 +5,7 @@ use super::*;
 /// M q̈ of two coupled joints, and a load of gravity on the second one.
 fn coupled(state: &State<f64, 2, 2>) -> [f64; 2] {
     let [x, y] = state.qdd;
-    [
-        2.0 * x + 0.8 * y,
-        0.8 * x + 0.6 * y + 1.5 * state.q[1].cos(),
-    ]
+    [2.0 * x + 0.8 * y, 0.8 * x + 0.6 * y + 1.5 * state.q[1].cos()]
 }
 
 /// The greatest share of a limit of torque in all ticks, with this inverse dynamics.
@@ -31,11 +28,7 @@ fn share<const V: usize, P: GeometricPath<f64, V>, const M: usize>(
 /// sign twice.
 fn arc(s: f64) -> [[f64; 2]; 3] {
     let (sin, cos) = (5.0 * s).sin_cos();
-    [
-        [sin, cos],
-        [5.0 * cos, -5.0 * sin],
-        [-25.0 * sin, -25.0 * cos],
-    ]
+    [[sin, cos], [5.0 * cos, -5.0 * sin], [-25.0 * sin, -25.0 * cos]]
 }
 
 #[test]
@@ -53,10 +46,7 @@ fn a_point_of_zero_inertia_is_no_special_case() {
     let coarse = TimedPath::<_, _, 101>::new(&path, 1e-4, &limits, coupled).unwrap();
     let fine = TimedPath::<_, _, 3201>::new(&path, 1e-4, &limits, coupled).unwrap();
     let lost = coarse.seconds() / fine.seconds() - 1.0;
-    let excess = [
-        share(&coarse, &limits.torque, coupled),
-        share(&fine, &limits.torque, coupled),
-    ];
+    let excess = [share(&coarse, &limits.torque, coupled), share(&fine, &limits.torque, coupled)];
     std::println!("{lost:e} {excess:?}");
     assert!((0.0..0.01).contains(&lost), "{lost:e}");
     assert!(excess[0] < 1.002 && excess[1] < 1.000002, "{excess:?}");
@@ -93,15 +83,9 @@ fn friction_helps_only_as_far_as_it_is_certain() {
             x.push(v + 2.0 * h * (tau - coulomb - viscous * f64::sqrt(v)) / 2.5);
             down.push(w + 2.0 * h * (tau + certain * (coulomb + viscous * f64::sqrt(w))) / 2.5);
         }
-        let least = x
-            .iter()
-            .zip(down.iter().rev())
-            .map(|(x, w)| x.min(*w).sqrt());
+        let least = x.iter().zip(down.iter().rev()).map(|(x, w)| x.min(*w).sqrt());
         let rates: Vec<f64> = least.collect();
-        rates
-            .windows(2)
-            .map(|w| 2.0 * h / (w[0] + w[1]))
-            .sum::<f64>()
+        rates.windows(2).map(|w| 2.0 * h / (w[0] + w[1])).sum::<f64>()
     };
     let timed = |certain, velocity| {
         let limits = PathLimits {

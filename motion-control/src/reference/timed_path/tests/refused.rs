@@ -20,13 +20,7 @@ fn gravity_beyond_a_limit_names_joint_and_point() {
     let path = Curve(|s: f64| [[0.0, 1.8 * s], [0.1, 1.8], [0.0; 2]]);
     let lift = |state: &State<f64, 2, 2>| [state.qdd[0], state.qdd[1] + 9.0 * state.q[1].sin()];
     let error = refused(&path, &torques([6.0; 2]), lift);
-    let TimedPathError::Torque {
-        point,
-        joint,
-        needed,
-        allowed,
-    } = error
-    else {
+    let TimedPathError::Torque { point, joint, needed, allowed } = error else {
         panic!("{error}");
     };
     // The backward pass meets the last such point first.
@@ -54,13 +48,7 @@ fn friction_in_the_inverse_dynamics_is_found() {
 
 #[test]
 fn numbers_that_are_not_finite_are_named() {
-    let path = Curve(|s: f64| {
-        [
-            [s, s],
-            [1.0, if s > 0.55 { f64::NAN } else { 1.0 }],
-            [0.0; 2],
-        ]
-    });
+    let path = Curve(|s: f64| [[s, s], [1.0, if s > 0.55 { f64::NAN } else { 1.0 }], [0.0; 2]]);
     let error = refused(&path, &torques([5.0; 2]), |state| state.qdd);
     let (point, joint) = (10, 1);
     assert_eq!(error, TimedPathError::NotFinite { point, joint });
@@ -102,12 +90,9 @@ fn limits_that_allow_nothing_are_named() {
             }
         }
     }
-    for [coulomb, viscous, certain] in [
-        [-0.1, 0.0, 0.0],
-        [0.0, f64::NAN, 0.0],
-        [0.0, f64::INFINITY, 0.0],
-        [0.0, 0.0, 1.1],
-    ] {
+    for [coulomb, viscous, certain] in
+        [[-0.1, 0.0, 0.0], [0.0, f64::NAN, 0.0], [0.0, f64::INFINITY, 0.0], [0.0, 0.0, 1.1]]
+    {
         let friction = [self::friction(coulomb, viscous, certain)];
         let error = refused(&path, &PathLimits { friction, ..good }, inertia);
         assert_eq!(error, TimedPathError::Friction { joint: 0 });
@@ -116,10 +101,7 @@ fn limits_that_allow_nothing_are_named() {
 
 #[test]
 fn a_motion_of_too_many_ticks_is_refused() {
-    let slow = PathLimits {
-        motion: [motion_limits(1e-9, f64::INFINITY)],
-        ..torques([5.0])
-    };
+    let slow = PathLimits { motion: [motion_limits(1e-9, f64::INFINITY)], ..torques([5.0]) };
     let error = refused(&line(10.0), &slow, inertia);
     assert_eq!(error, TimedPathError::TooLong);
 }

@@ -41,10 +41,7 @@ fn random_motions_are_finite_and_within_the_torques() {
         let id = |state: &State<f32, 2, 2>| {
             let ([x, y], [v, w]) = (state.qdd, state.qd);
             let weight = 0.95 * g * state.q[1].sin();
-            [
-                m * (x + off * y) + m * v * w,
-                m * (off * x + y) - m * v * v + weight,
-            ]
+            [m * (x + off * y) + m * v * w, m * (off * x + y) - m * v * v + weight]
         };
         let has = f32::from(u8::from(random.next() > 0.0));
         let viscous = has * 0.1 * random.size(1.0);
@@ -83,9 +80,7 @@ fn random_motions_are_finite_and_within_the_torques() {
                     let moves = f32::from(u8::from(slope[j] != 0.0));
                     let sign = moves * slope[j].signum();
                     let moving = tau + sign * friction.coulomb + friction.viscous * state.qd[j];
-                    excess = excess
-                        .max(tau.abs() / limit - 1.0)
-                        .max(moving.abs() / limit - 1.0);
+                    excess = excess.max(tau.abs() / limit - 1.0).max(moving.abs() / limit - 1.0);
                 }
             }
         }

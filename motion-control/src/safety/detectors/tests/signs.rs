@@ -88,11 +88,7 @@ fn rates_that_are_not_finite_are_named_and_large_ones_are_none() {
         }
     }
     let mut steps = ReferenceStep::new([0.5; 2]);
-    let state = State {
-        qd: [f64::MAX; 2],
-        qdd: [f64::MAX; 2],
-        ..State::at([0.0; 2])
-    };
+    let state = State { qd: [f64::MAX; 2], qdd: [f64::MAX; 2], ..State::at([0.0; 2]) };
     assert_eq!(steps.check(&state), Ok(()));
     assert!(steps.check(&State::at([0.6, 0.0])).is_err());
 }

@@ -4,12 +4,7 @@ use super::*;
 
 /// Ranges whose middles are not zero, and a speed whose double is not its sum with two.
 const OFFSET: SupervisorConfig<f32, 2> = SupervisorConfig {
-    limits: SafetyLimits {
-        speed: [3.0, 3.0],
-        lower: [-1.0, 0.5],
-        upper: [0.5, 1.0],
-        ..LIMITS
-    },
+    limits: SafetyLimits { speed: [3.0, 3.0], lower: [-1.0, 0.5], upper: [0.5, 1.0], ..LIMITS },
     ..CONFIG
 };
 /// Twice the greatest speed for a tick.
@@ -40,12 +35,7 @@ fn positions_at_their_bounds_are_within_them() {
         let fault = Some(Fault::NotFinite { joint: 1 });
         assert_eq!(fault_at(supervisor, [0.0, none]), fault, "{none}");
     }
-    for (q, joint) in [
-        ([0.51, 0.7], 0),
-        ([-1.01, 0.7], 0),
-        ([0.0, 0.49], 1),
-        ([0.0, 1.01], 1),
-    ] {
+    for (q, joint) in [([0.51, 0.7], 0), ([-1.01, 0.7], 0), ([0.0, 0.49], 1), ([0.0, 1.01], 1)] {
         assert_eq!(supervisor.outside(&q), Some(joint), "{q:?}");
         assert_eq!(fault_at(supervisor, q), Some(Fault::Position { joint }));
         assert_eq!(fault_at(at([0.0, 0.7]), q), Some(Fault::Position { joint }));
@@ -59,12 +49,7 @@ fn replaced_bounds_are_restored_to_the_bit() {
     let mut supervisor = before;
     let other = [[-0.1, 0.3], [0.6, 0.9]];
     let ranges = supervisor.replace_bounds(&other);
-    for (bounds, other) in supervisor
-        .bounds()
-        .as_flattened()
-        .iter()
-        .zip(other.as_flattened())
-    {
+    for (bounds, other) in supervisor.bounds().as_flattened().iter().zip(other.as_flattened()) {
         assert!((bounds - other).abs() < 1e-6, "{bounds} {other}");
     }
     supervisor.restore_bounds(ranges);
@@ -140,10 +125,7 @@ fn a_tick_that_is_not_a_positive_time_is_refused() {
 #[test]
 fn the_greatest_number_of_reentry_ticks_can_be_counted() {
     let reentry_ticks = u32::MAX;
-    let mut supervisor = Supervisor::new(SupervisorConfig {
-        reentry_ticks,
-        ..CONFIG
-    });
+    let mut supervisor = Supervisor::new(SupervisorConfig { reentry_ticks, ..CONFIG });
     for _ in 0..3 {
         let command = good(&mut supervisor, [0.0; 2]);
         assert_eq!(command.status.mode, Mode::Full);

@@ -34,10 +34,7 @@ fn a_position_jumps_in_either_direction() {
 #[test]
 fn a_resolution_is_added_to_the_step() {
     for resolution in [0.0, 0.5, -0.5, f32::NAN] {
-        let mut arm = Supervisor::new(SupervisorConfig {
-            resolution,
-            ..CONFIG
-        });
+        let mut arm = Supervisor::new(SupervisorConfig { resolution, ..CONFIG });
         fault_at(&mut arm, [0.0; 2]);
         let counted = resolution == 0.5;
         for q in [[0.3, 0.0], [0.0, -0.3]] {
@@ -50,11 +47,7 @@ fn a_resolution_is_added_to_the_step() {
 #[test]
 fn positions_without_limits_are_within_ten_thousand() {
     let with = |lower: f32, upper: f32| {
-        let limits = SafetyLimits {
-            lower: [-1.0, lower],
-            upper: [1.0, upper],
-            ..LIMITS
-        };
+        let limits = SafetyLimits { lower: [-1.0, lower], upper: [1.0, upper], ..LIMITS };
         Supervisor::new(SupervisorConfig { limits, ..CONFIG })
     };
     let (far, none) = (1e4, f32::INFINITY);
@@ -66,10 +59,7 @@ fn positions_without_limits_are_within_ten_thousand() {
         (-none, -500.0, -far, -500.0),
     ] {
         let mut arm = with(lower, upper);
-        for q in [
-            least - 0.001 * least.abs(),
-            greatest + 0.001 * greatest.abs(),
-        ] {
+        for q in [least - 0.001 * least.abs(), greatest + 0.001 * greatest.abs()] {
             let fault = Some(Fault::Position { joint: 1 });
             assert_eq!(fault_at(&mut arm, [0.0, q]), fault, "{lower} {upper}: {q}");
             arm.reset();
@@ -110,10 +100,7 @@ fn torques_of_both_signs_have_both_limits() {
         let mut arm = supervisor();
         let mut torque = |wanted: [f32; 2]| {
             let command = good(&mut arm, wanted.map(|torque| sign * torque));
-            (
-                command.torque.map(|torque| sign * torque),
-                command.status.limited,
-            )
+            (command.torque.map(|torque| sign * torque), command.status.limited)
         };
         assert_eq!(torque([3.0, -3.0]), ([3.0, -3.0], false));
         assert_eq!(torque([7.0, -7.0]), ([7.0, -5.0], true));

@@ -16,10 +16,7 @@ fn table() -> [BTreeSet<[String; 2]>; 2] {
     let rows: Vec<_> = rows.filter_map(|row| row.strip_prefix("//! | `")).collect();
     let words = |cell: &str| -> Vec<String> {
         let quoted = cell.split('`').skip(1).step_by(2);
-        quoted
-            .filter(|word| word.starts_with(char::is_uppercase))
-            .map(str::to_owned)
-            .collect()
+        quoted.filter(|word| word.starts_with(char::is_uppercase)).map(str::to_owned).collect()
     };
     let pairs = |cell: usize| {
         let row = |row: &&str| {
@@ -47,22 +44,13 @@ fn every_transition_of_the_table_occurs_and_no_other_one() {
 // An arm with useless limits stays stopped.
 #[test]
 fn a_reset_restores_the_full_law() {
-    let required = Required {
-        reason: Fault::External,
-        again: false,
-    };
-    let stopping = State::Stopping {
-        required,
-        ending: Ending::Off,
-        ticks: 1,
-    };
+    let required = Required { reason: Fault::External, again: false };
+    let stopping = State::Stopping { required, ending: Ending::Off, ticks: 1 };
     let stopped = State::Stopped { lowers: true };
     let standing = State::Standing(required);
     let (full, held, torqueless) = (State::Full, State::Held, State::Torqueless);
     let unusable = State::Unusable(Fault::Limits { joint: 1 });
-    for state in [
-        full, held, torqueless, stopping, standing, stopped, unusable,
-    ] {
+    for state in [full, held, torqueless, stopping, standing, stopped, unusable] {
         let mut supervisor = supervisor();
         supervisor.state = state;
         supervisor.reset();

@@ -134,10 +134,7 @@ fn table() -> Table {
 /// with useless limits.
 fn starts() -> Vec<(One, Expected)> {
     let mut starts = Vec::new();
-    for (ticks, category) in TICKS
-        .iter()
-        .flat_map(|&ticks| (0..4).map(move |c| (ticks, c)))
-    {
+    for (ticks, category) in TICKS.iter().flat_map(|&ticks| (0..4).map(move |c| (ticks, c))) {
         let [ride_through_ticks, hold_ticks, reentry_ticks] = ticks;
         let with = |torque| {
             let limits = safety_limits([torque], [4.0], [2.0], [-1.0], [1.0]);

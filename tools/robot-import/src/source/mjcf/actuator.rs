@@ -28,13 +28,9 @@ pub fn read(
     let mut controllers: BTreeMap<&str, Vec<String>> = BTreeMap::new();
     for element in root.all("actuator").flat_map(|section| &section.children) {
         let view = classes.view(element, classes.main())?;
-        let Some(name) = element
-            .get("joint")
-            .or_else(|| element.get("jointinparent"))
-        else {
+        let Some(name) = element.get("joint").or_else(|| element.get("jointinparent")) else {
             let words = element.words();
-            tree.notes
-                .push(format!("{words}: it acts on no joint and is left out"));
+            tree.notes.push(format!("{words}: it acts on no joint and is left out"));
             continue;
         };
         let Some(&joint) = joints.get(name) else {
@@ -46,9 +42,7 @@ pub fn read(
         };
         if !tree.joints[joint].kind.has_axis() {
             let words = element.words();
-            tree.notes.push(format!(
-                "{words}: its joint is no hinge and no slide; it is left out"
-            ));
+            tree.notes.push(format!("{words}: its joint is no hinge and no slide; it is left out"));
             continue;
         }
         let gear = view.list("gear", [1, 6])?;
@@ -116,16 +110,13 @@ fn tendons(root: &Element, tree: &mut Tree<'_>, classes: &Classes<'_>) -> Result
         let words = element.words();
         let view = classes.view(element, classes.main())?;
         let forces = ["stiffness", "damping", "frictionloss", "armature"];
-        let stated: Vec<&str> = forces
-            .into_iter()
-            .filter(|name| view.get(name).is_some())
-            .collect();
+        let stated: Vec<&str> =
+            forces.into_iter().filter(|name| view.get(name).is_some()).collect();
         let which = match stated.is_empty() {
             true => String::new(),
             false => format!(" with its {}", stated.join(", ")),
         };
-        tree.notes
-            .push(format!("{words}: the tendon{which} is left out"));
+        tree.notes.push(format!("{words}: the tendon{which} is left out"));
     }
     Ok(())
 }

@@ -72,9 +72,7 @@ impl<'e> Tree<'e> {
             let around = Around {
                 link: 0,
                 frame: Placement::IDENTITY,
-                class: tree
-                    .classes
-                    .named(section, "childclass", tree.classes.main())?,
+                class: tree.classes.named(section, "childclass", tree.classes.main())?,
                 fixed: true,
             };
             let contents = Contents::read(section, &around, compiler, classes)?;
@@ -127,11 +125,7 @@ impl<'e> Tree<'e> {
 
     fn bodies(&mut self, contents: &Contents<'e>, around: &Around) -> Result<()> {
         for (element, frame, class) in &contents.bodies {
-            let around = Around {
-                frame: Placement::clone(frame),
-                class: *class,
-                ..around.clone()
-            };
+            let around = Around { frame: Placement::clone(frame), class: *class, ..around.clone() };
             self.body(element, &around)?;
         }
         Ok(())
@@ -154,16 +148,10 @@ impl<'e> Tree<'e> {
             ));
         }
         if view.flag("mocap")? == Some(true) {
-            self.notes.push(format!(
-                "body `{name}`: mocap moves it in a simulation; here it is fixed"
-            ));
+            self.notes
+                .push(format!("body `{name}`: mocap moves it in a simulation; here it is fixed"));
         }
-        let mut inside = Around {
-            link: 0,
-            frame: Placement::IDENTITY,
-            class,
-            fixed: around.fixed,
-        };
+        let mut inside = Around { link: 0, frame: Placement::IDENTITY, class, fixed: around.fixed };
         let contents = Contents::read(element, &inside, self.compiler, self.classes)?;
         inside.link = self.chain(element, &name, &placement, around.link, &contents)?;
         inside.fixed &= contents.joints.is_empty();
@@ -207,10 +195,7 @@ impl<'e> Tree<'e> {
                     return Ok(Vec::new());
                 }
                 Geom::Mesh => {
-                    let word = element
-                        .name()
-                        .or_else(|| element.get("mesh"))
-                        .unwrap_or("mesh");
+                    let word = element.name().or_else(|| element.get("mesh")).unwrap_or("mesh");
                     let reason = "the mass of its body would be that of a mesh, and meshes are not \
                         read: give the body an <inertial>, or the geom mass=\"0\"";
                     return Err(element.unsupported("geom", word, reason));

@@ -32,8 +32,7 @@ pub fn read(
         let name = name.unwrap_or_else(|| format!("loop_{}", loops.len()));
         if view.flag("active")? == Some(false) {
             let words = element.words();
-            tree.notes
-                .push(format!("{words}: the constraint is inactive and left out"));
+            tree.notes.push(format!("{words}: the constraint is inactive and left out"));
             continue;
         }
         match element.tag.as_str() {
@@ -117,12 +116,7 @@ fn connect(view: View<'_>, tree: &Tree<'_>, name: String) -> Result<Loop> {
     let anchor = Placement::position(view, "anchor")?;
     let mut other = between(tree, [second, first]).then(&anchor);
     other.exact.rotation = dynamics_core::glam::DMat3::IDENTITY;
-    closed(
-        view,
-        name,
-        Kind::Spherical,
-        [(first, anchor), (second, other)],
-    )
+    closed(view, name, Kind::Spherical, [(first, anchor), (second, other)])
 }
 
 /// A constraint that two bodies share a frame.
@@ -141,22 +135,12 @@ fn weld(view: View<'_>, tree: &Tree<'_>, name: String, compiler: &Compiler) -> R
         // A quaternion of zeros, the default, is that of the configuration of the file.
         Some([x, y, z, quaternion @ ..]) if quaternion != [0.0; 4] => {
             let [w, i, j, k] = quaternion;
-            let text = |numbers: &[f64]| {
-                numbers
-                    .iter()
-                    .map(f64::to_string)
-                    .collect::<Vec<_>>()
-                    .join(" ")
-            };
+            let text =
+                |numbers: &[f64]| numbers.iter().map(f64::to_string).collect::<Vec<_>>().join(" ");
             let relative = Element::placement(element, text(&[x, y, z]), text(&[w, i, j, k]));
             Placement::read(View::plain(&relative), compiler)?
         }
         _ => between(tree, links).then(&anchor),
     };
-    closed(
-        view,
-        name,
-        Kind::Fixed,
-        [(links[0], one), (links[1], anchor)],
-    )
+    closed(view, name, Kind::Fixed, [(links[0], one), (links[1], anchor)])
 }

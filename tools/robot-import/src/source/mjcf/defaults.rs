@@ -29,11 +29,7 @@ impl<'e> Classes<'e> {
     /// # Errors
     /// A class without name or with the name of another.
     pub fn read(root: &'e Element) -> Result<Self> {
-        let mut classes = Self {
-            classes: vec![Class::default()],
-            index: HashMap::new(),
-            main: 0,
-        };
+        let mut classes = Self { classes: vec![Class::default()], index: HashMap::new(), main: 0 };
         for section in root.all("default") {
             let name = section.get("class").unwrap_or("main");
             // A second section adds to `main`, but not to the classes that have been derived from
@@ -53,10 +49,7 @@ impl<'e> Classes<'e> {
         if let Some((_, twice)) = others.iter().find(|(_, one)| !tags.insert(&one.tag)) {
             return Err(twice.error(Problem::Duplicate("default of this class")));
         }
-        self.classes.push(Class {
-            parent,
-            elements: others,
-        });
+        self.classes.push(Class { parent, elements: others });
         Ok(self.classes.len() - 1)
     }
 
@@ -109,10 +102,7 @@ impl<'e> Classes<'e> {
     /// There is no such class.
     pub fn view<'v>(&'v self, element: &'v Element, otherwise: usize) -> Result<View<'v>> {
         let class = self.named(element, "class", otherwise)?;
-        Ok(View {
-            element,
-            defaults: Some((self, class)),
-        })
+        Ok(View { element, defaults: Some((self, class)) })
     }
 }
 
@@ -138,10 +128,7 @@ pub struct View<'v> {
 impl<'v> View<'v> {
     /// An element whose kind has no defaults.
     pub const fn plain(element: &'v Element) -> Self {
-        Self {
-            element,
-            defaults: None,
-        }
+        Self { element, defaults: None }
     }
 
     /// The element and the defaults of its kind, the most special one first.
@@ -159,8 +146,7 @@ impl<'v> View<'v> {
         });
         let defaults = chain.flat_map(move |(classes, class)| {
             let all = classes.classes[class].elements.iter();
-            all.filter(move |(other, _)| *other == tag)
-                .map(|(_, element)| *element)
+            all.filter(move |(other, _)| *other == tag).map(|(_, element)| *element)
         });
         std::iter::once(self.element).chain(defaults)
     }
@@ -256,10 +242,7 @@ impl<'v> View<'v> {
     pub fn range(self, range: &str, limited: &str, automatic: bool) -> Result<Option<[f64; 2]>> {
         let numbers: Option<[f64; 2]> = match self.get(range) {
             // An end without a limit is infinite.
-            Some(text) => self
-                .words(range, text, [2, 2], |x| !x.is_nan())?
-                .try_into()
-                .ok(),
+            Some(text) => self.words(range, text, [2, 2], |x| !x.is_nan())?.try_into().ok(),
             None => None,
         };
         let ordered = numbers.filter(|[low, high]| low < high);

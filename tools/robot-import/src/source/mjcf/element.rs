@@ -112,20 +112,12 @@ impl Element {
 
     /// The error of something that is not imported, with what to do.
     pub fn unsupported(&self, what: &'static str, word: &str, reason: &str) -> ImportError {
-        self.error(Problem::Unsupported {
-            what,
-            word: shortened(word),
-            reason: reason.to_owned(),
-        })
+        self.error(Problem::Unsupported { what, word: shortened(word), reason: reason.to_owned() })
     }
 
     /// The error of a name.
     pub fn no_such(&self, what: &'static str, name: &str) -> ImportError {
-        self.error(Problem::NoSuch {
-            what,
-            name: shortened(name),
-            suggestion: String::new(),
-        })
+        self.error(Problem::NoSuch { what, name: shortened(name), suggestion: String::new() })
     }
 
     /// Refuses attributes that are not in `known`: each could have an effect.
@@ -175,12 +167,7 @@ impl Source {
     fn new(root: Node<'_, '_>, file: Option<Rc<str>>, folder: PathBuf, includes: usize) -> Self {
         let text = root.document().input_text();
         let ends = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n');
-        Self {
-            file,
-            folder,
-            includes,
-            line_ends: ends.map(|(at, _)| at).collect(),
-        }
+        Self { file, folder, includes, line_ends: ends.map(|(at, _)| at).collect() }
     }
 
     fn line(&self, node: Node<'_, '_>) -> u32 {
@@ -264,10 +251,7 @@ impl Loader<'_> {
             return Err(element.unsupported("include", file, reason));
         }
         let unreadable = |reason: std::io::Error| {
-            element.error(Problem::File {
-                path: shortened(file),
-                reason: reason.to_string(),
-            })
+            element.error(Problem::File { path: shortened(file), reason: reason.to_string() })
         };
         let length = std::fs::metadata(&path).map_err(unreadable)?.len() as usize;
         self.bytes = self.bytes.saturating_add(length);
@@ -287,8 +271,7 @@ impl Loader<'_> {
         let xml = Xml::of(&text).map_err(in_file)?;
         let document = xml.document().map_err(in_file)?;
         let notes = note.into_iter().chain(xml.notes());
-        self.notes
-            .extend(notes.map(|note| format!("Included file {}: {note}", shortened(file))));
+        self.notes.extend(notes.map(|note| format!("Included file {}: {note}", shortened(file))));
         let root = document.root_element();
         let folder = path.parent().unwrap_or(self.folders.model).to_owned();
         let source = Source::new(root, Some(file.into()), folder, includes);
@@ -315,9 +298,7 @@ impl Loader<'_> {
         if self.folders.include_root.is_none() && !Path::new(&relative).components().all(plain) {
             return Err(outside());
         }
-        let roots = [Some(self.folders.model), self.folders.include_root]
-            .into_iter()
-            .flatten();
+        let roots = [Some(self.folders.model), self.folders.include_root].into_iter().flatten();
         // Nothing is told of what is outside, not even whether it is there.
         let mut allowed = roots.filter_map(|root| match root.as_os_str().is_empty() {
             true => Path::new(".").canonicalize().ok(),
@@ -326,9 +307,7 @@ impl Loader<'_> {
         let allowed: Vec<PathBuf> = allowed.by_ref().collect();
         let candidates = [self.folders.model, &source.folder].map(|folder| folder.join(&relative));
         // Links of the file system can lead out of a folder.
-        let found = candidates
-            .iter()
-            .filter_map(|path| path.canonicalize().ok());
+        let found = candidates.iter().filter_map(|path| path.canonicalize().ok());
         let mut found = found.filter(|path| path.is_file());
         match found.next() {
             Some(path) if allowed.iter().any(|root| path.starts_with(root)) => Ok(path),

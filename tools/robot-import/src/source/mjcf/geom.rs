@@ -119,10 +119,7 @@ fn between(view: View<'_>, ends: [f64; 6]) -> Result<(Placement, f64)> {
     if !(1e-10..1e10).contains(&length) {
         return Err(view.element.value("`fromto` has no direction"));
     }
-    let pose = Pose {
-        position: 0.5 * (from + to),
-        rotation: to_axis((from - to) / length),
-    };
+    let pose = Pose { position: 0.5 * (from + to), rotation: to_axis((from - to) / length) };
     Ok((Placement::computed(pose), 0.5 * length))
 }
 

@@ -54,9 +54,7 @@ fn explicit(
     let placement = frame.then(&Placement::read(view, compiler)?);
     let full = view.numbers::<6>("fullinertia")?;
     if full.is_some() {
-        let other = super::defaults::ORIENTATIONS
-            .into_iter()
-            .chain(["diaginertia"]);
+        let other = super::defaults::ORIENTATIONS.into_iter().chain(["diaginertia"]);
         if let Some(other) = other.into_iter().find(|name| element.get(name).is_some()) {
             return Err(element.value(format!("`fullinertia` and `{other}` exclude each other")));
         }
@@ -71,9 +69,8 @@ fn explicit(
         frame: placement.pose,
         exact: placement.exact,
         // The file has the products of inertia after the moments: xx yy zz xy xz yz.
-        inertia: full.map_or([x, 0.0, 0.0, y, 0.0, z], |[xx, yy, zz, xy, xz, yz]| {
-            [xx, xy, xz, yy, yz, zz]
-        }),
+        inertia: full
+            .map_or([x, 0.0, 0.0, y, 0.0, z], |[xx, yy, zz, xy, xz, yz]| [xx, xy, xz, yy, yz, zz]),
     };
     Ok((inertial, placement.snapped))
 }
@@ -93,9 +90,7 @@ fn sum(geoms: &[Solid]) -> Option<Inertial> {
     if mass == 0.0 {
         return None;
     }
-    let moments = geoms
-        .iter()
-        .map(|geom| geom.mass * geom.frame.pose.position);
+    let moments = geoms.iter().map(|geom| geom.mass * geom.frame.pose.position);
     let center = moments.fold(DVec3::ZERO, |sum, moment| sum + moment) / mass;
     let mut total = DMat3::ZERO;
     for geom in geoms {
@@ -104,9 +99,7 @@ fn sum(geoms: &[Solid]) -> Option<Inertial> {
         total +=
             rotation * principal * rotation.transpose() + steiner(geom.mass, position - center);
     }
-    let snapped = center
-        .to_array()
-        .map(|x| if x.abs() < NOISE { 0.0 } else { x });
+    let snapped = center.to_array().map(|x| if x.abs() < NOISE { 0.0 } else { x });
     Some(Inertial {
         mass,
         frame: Pose::translation(center),
@@ -129,12 +122,8 @@ fn entries(tensor: &DMat3) -> [f64; 6] {
 /// The inertia within the bounds `boundmass`, `boundinertia` and `balanceinertia`.
 fn bounded(inertial: Option<Inertial>, compiler: &Compiler) -> Option<Inertial> {
     let bounds = compiler.bound_mass > 0.0 || compiler.bound_inertia > 0.0;
-    let none = Inertial {
-        mass: 0.0,
-        frame: Pose::IDENTITY,
-        exact: Pose::IDENTITY,
-        inertia: [0.0; 6],
-    };
+    let none =
+        Inertial { mass: 0.0, frame: Pose::IDENTITY, exact: Pose::IDENTITY, inertia: [0.0; 6] };
     let mut inertial = match inertial {
         Some(inertial) => inertial,
         None if bounds => none,

@@ -82,19 +82,13 @@ pub fn read(
     let range = view.range("range", "limited", compiler.autolimits)?;
     parsed.limits.position = range.map(|range| range.map(|x| x * unit));
     if kind == Kind::Spherical && parsed.limits.position.take().is_some() {
-        notes.push(format!(
-            "joint `{name}`: the limit of a ball joint is left out"
-        ));
+        notes.push(format!("joint `{name}`: the limit of a ball joint is left out"));
     }
     if kind == Kind::Revolute && parsed.limits.position.is_none() {
         parsed.kind = Kind::Continuous;
     }
     if kind.has_axis() {
-        let effort = view.range(
-            "actuatorfrcrange",
-            "actuatorfrclimited",
-            compiler.autolimits,
-        )?;
+        let effort = view.range("actuatorfrcrange", "actuatorfrclimited", compiler.autolimits)?;
         parsed.limits.effort =
             effort.map(|range| greatest(range, &format!("joint `{name}`"), notes));
         parsed.reference = view.number("ref")? * unit;

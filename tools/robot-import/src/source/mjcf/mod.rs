@@ -68,11 +68,7 @@ const SECTIONS: [&str; 16] = [
 
 /// The robot of a document whose root is `<mujoco>`; other files are in `folders`.
 pub fn read(root: Node<'_, '_>, folders: Folders<'_>) -> Result<Description> {
-    let Loaded {
-        root,
-        files,
-        mut notes,
-    } = Element::load(root, folders)?;
+    let Loaded { root, files, mut notes } = Element::load(root, folders)?;
     for section in &root.children {
         if !SECTIONS.contains(&section.tag.as_str()) {
             let reason =

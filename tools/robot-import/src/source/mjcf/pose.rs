@@ -28,11 +28,8 @@ pub struct Placement {
 
 impl Placement {
     /// The placement without a displacement.
-    pub const IDENTITY: Self = Self {
-        pose: Pose::IDENTITY,
-        exact: Pose::IDENTITY,
-        snapped: Vec::new(),
-    };
+    pub const IDENTITY: Self =
+        Self { pose: Pose::IDENTITY, exact: Pose::IDENTITY, snapped: Vec::new() };
 
     /// The placement of `inner`, which is given in this one.
     pub fn then(&self, inner: &Self) -> Self {
@@ -54,11 +51,7 @@ impl Placement {
 
     /// The inverse of the placement.
     pub fn inverse(&self) -> Self {
-        Self {
-            pose: self.pose.inverse(),
-            exact: self.exact.inverse(),
-            snapped: Vec::new(),
-        }
+        Self { pose: self.pose.inverse(), exact: self.exact.inverse(), snapped: Vec::new() }
     }
 
     /// Attributes `pos` and those of the orientation.
@@ -108,14 +101,7 @@ impl Placement {
     pub fn computed(pose: Pose) -> Self {
         let exact = snap::permutation(&pose.rotation, 0.0);
         let exact = exact.map_or(pose.rotation, |(exact, _)| exact);
-        Self {
-            pose,
-            exact: Pose {
-                position: pose.position,
-                rotation: exact,
-            },
-            snapped: Vec::new(),
-        }
+        Self { pose, exact: Pose { position: pose.position, rotation: exact }, snapped: Vec::new() }
     }
 }
 
@@ -129,15 +115,9 @@ struct Turn {
 fn orientation(view: View<'_>, compiler: &Compiler) -> Result<Turn> {
     let stated = |element: &Element| ORIENTATIONS.iter().any(|name| element.get(name).is_some());
     let Some(element) = view.levels().find(|element| stated(element)) else {
-        return Ok(Turn {
-            given: DMat3::IDENTITY,
-            exact: DMat3::IDENTITY,
-            snapped: Vec::new(),
-        });
+        return Ok(Turn { given: DMat3::IDENTITY, exact: DMat3::IDENTITY, snapped: Vec::new() });
     };
-    let mut all = ORIENTATIONS
-        .iter()
-        .filter_map(|name| Some((*name, element.get(name)?)));
+    let mut all = ORIENTATIONS.iter().filter_map(|name| Some((*name, element.get(name)?)));
     let (name, text) = all.next().unwrap_or_default();
     if let Some((other, _)) = all.next() {
         return Err(element.value(format!("`{name}` and `{other}` exclude each other")));
@@ -155,10 +135,7 @@ fn orientation(view: View<'_>, compiler: &Compiler) -> Result<Turn> {
         }
     };
     // By how much an entry of the matrix changes with the last digits of the numbers.
-    let mut digits = text
-        .split_ascii_whitespace()
-        .map(snap::resolution)
-        .fold(0.0, f64::max);
+    let mut digits = text.split_ascii_whitespace().map(snap::resolution).fold(0.0, f64::max);
     let given = match name {
         "quat" => {
             let [w, x, y, z] = <[f64; 4]>::try_from(numbers(4)?).unwrap_or_default();
@@ -199,11 +176,7 @@ fn orientation(view: View<'_>, compiler: &Compiler) -> Result<Turn> {
             to_axis(direction(&numbers(3)?)?)
         }
     };
-    let mut turn = Turn {
-        given,
-        exact: given,
-        snapped: Vec::new(),
-    };
+    let mut turn = Turn { given, exact: given, snapped: Vec::new() };
     if let Some((exact, difference)) = snap::permutation(&given, digits.max(CONVERTED)) {
         turn.exact = exact;
         // Less than this is the rounding of the computation here, not of the text.
@@ -241,20 +214,13 @@ pub fn to_axis(direction: DVec3) -> DMat3 {
 
 /// Turns about the axes of the sequence: moving axes are small letters, fixed ones capitals.
 fn euler(compiler: &Compiler, text: &str, angles: &[f64]) -> Turn {
-    let mut turn = Turn {
-        given: DMat3::IDENTITY,
-        exact: DMat3::IDENTITY,
-        snapped: Vec::new(),
-    };
+    let mut turn = Turn { given: DMat3::IDENTITY, exact: DMat3::IDENTITY, snapped: Vec::new() };
     // 90 degrees exactly: a text in degrees is no rounding then.
     let quarter = match compiler.angle == 1.0 {
         true => std::f64::consts::FRAC_PI_2,
         false => 90.0,
     };
-    let each = text
-        .split_ascii_whitespace()
-        .zip(angles)
-        .zip(compiler.eulerseq);
+    let each = text.split_ascii_whitespace().zip(angles).zip(compiler.eulerseq);
     for ((word, angle), letter) in each {
         let radians = angle * compiler.angle;
         let mut exact = radians.sin_cos();

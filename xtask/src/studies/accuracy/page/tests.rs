@@ -20,21 +20,14 @@ fn the_bars_are_of_the_default() {
     }
     mark(&mut points);
     let all: Vec<&Point> = points.iter().collect();
-    assert_eq!(
-        check_bars(&all).expect("met"),
-        "0.800 of the worst tick, 0.500 of the mean"
-    );
+    assert_eq!(check_bars(&all).expect("met"), "0.800 of the worst tick, 0.500 of the mean");
     assert!(check_bars(&all[..2]).is_err());
 }
 
 /// The lines of a text, without what a table pads them with.
 fn lines(text: &str) -> Vec<String> {
-    let words = text
-        .lines()
-        .map(|line| line.split_whitespace().collect::<Vec<_>>().join(" "));
-    words
-        .filter(|line| !line.is_empty() && !line.starts_with("| --"))
-        .collect()
+    let words = text.lines().map(|line| line.split_whitespace().collect::<Vec<_>>().join(" "));
+    words.filter(|line| !line.is_empty() && !line.starts_with("| --")).collect()
 }
 
 /// The lines that recorded points make, without the host's errors, and that a page lacks.
@@ -55,11 +48,7 @@ fn the_page_has_every_line_that_is_recorded() {
     let page = read(FILE);
     let mut points = recorded::read(&Workspace::at(&root())).expect("points");
     let nothing: [String; 0] = [];
-    assert_eq!(
-        lacking(&page, &points),
-        nothing,
-        "`{COMMAND}` rewrites {FILE}"
-    );
+    assert_eq!(lacking(&page, &points), nothing, "`{COMMAND}` rewrites {FILE}");
     // The host measures nothing for the simulations, so that their part is known whole.
     let part = page_of(Robot::DoublePendulum);
     let written = part.written(&page).expect("markers").trim_start();

@@ -18,11 +18,7 @@ pub fn run<E: Effect<f32, 6, 6>>(effects: Option<&'static mut E>) -> ! {
         target::fail("main ran twice");
     };
     for _ in 0..TICKS {
-        let state: State<f32, 6, 6> = black_box(State {
-            q: [0.3; 6],
-            qd: [0.5; 6],
-            qdd: [1.0; 6],
-        });
+        let state: State<f32, 6, 6> = black_box(State { q: [0.3; 6], qd: [0.5; 6], qdd: [1.0; 6] });
         black_box(Engine::<Ur5e>::rnea(&state, effects));
         for joint in 0..6 {
             let at = JointState::new(state.q[joint], state.qd[joint]);

@@ -4,10 +4,7 @@ use super::*;
 use crate::tests::{Motion, motion_limits};
 
 const SLOW: MotionLimits<f32> = motion_limits(0.5, 2.0);
-const BACK: BackOffConfig<f32> = BackOffConfig {
-    limits: SLOW,
-    margin: 0.05,
-};
+const BACK: BackOffConfig<f32> = BackOffConfig { limits: SLOW, margin: 0.05 };
 
 impl Bench {
     fn back_off(&mut self, back: &mut BackOff<f32, 2>) {
@@ -77,10 +74,7 @@ fn a_retraction_leads_back_over_the_seam() {
         for tick in 0..4000 {
             let measured = bench.measured();
             let observed = bench.controller.observe(Ok(&measured));
-            let contact = (tick == 900).then_some(DetectedContact {
-                joint: 0,
-                torque: -3.0,
-            });
+            let contact = (tick == 900).then_some(DetectedContact { joint: 0, torque: -3.0 });
             let tick = reaction.reference(observed, Ok(contact), &motion);
             let tau = Bench::law(tick.reference(), tick.estimate());
             bench.command = tick.command(&tau);
@@ -97,11 +91,7 @@ fn a_retraction_leads_back_over_the_seam() {
 
 #[test]
 fn hand_guiding_pulls_and_pushes_the_short_way() {
-    let spring = LimitedSpring {
-        stiffness: [100.0_f32],
-        damping: [0.0],
-        torque: [50.0],
-    };
+    let spring = LimitedSpring { stiffness: [100.0_f32], damping: [0.0], torque: [50.0] };
     let config = |lower, upper| HandGuidingConfig {
         error: 0.1,
         share: 0.8,
@@ -152,17 +142,9 @@ fn a_taught_path_goes_the_way_of_the_hand() {
 fn a_shaped_reference_that_leaps_by_a_turn_does_not() {
     // Through π, within a turn.
     let within = |tick| State::at([nearest_turn(3.0 + 1e-3 * tick as f32, 0.0)]);
-    let sway = Vibration {
-        link: "boom",
-        mode: 0,
-        omega: 50.0,
-        damping_ratio: 0.0,
-    };
+    let sway = Vibration { link: "boom", mode: 0, omega: 50.0, damping_ratio: 0.0 };
     let shaper = Shaper::<f32, 3>::zv(&[sway], TICK).expect("a vibration");
-    let shaped = Shaped {
-        reference: Motion(within),
-        shaper: shaper.on_circles::<1>(),
-    };
+    let shaped = Shaped { reference: Motion(within), shaper: shaper.on_circles::<1>() };
     for tick in 100..400 {
         let q = shaped.at(tick).q[0];
         let step = nearest_turn(shaped.at(tick + 1).q[0], q) - q;

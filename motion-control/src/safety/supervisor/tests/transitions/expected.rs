@@ -8,30 +8,15 @@ use super::*;
 /// The visible result of a supervisor after an input: its state, its fault, the authority of the
 /// full law, whether it knows and has accepted positions and was stopped again during a stop, and
 /// its command with the brake.
-pub type Shown = (
-    &'static str,
-    Option<Fault>,
-    f32,
-    [bool; 3],
-    Option<(Status, bool, [f32; 1])>,
-);
+pub type Shown = (&'static str, Option<Fault>, f32, [bool; 3], Option<(Status, bool, [f32; 1])>);
 /// A class of inputs, and the fault after one.
 type Outcome = (&'static str, Option<Fault>);
 
 const BAD_TICK: [&str; 3] = ["bad: bridged", "fault: held", "fault: lasting"];
 const LATE_TICK: [&str; 3] = ["late: bridged", BAD_TICK[1], BAD_TICK[2]];
 const FAST: [&str; 3] = ["", "fast: held", "fast: lasting"];
-const NO_TORQUE: [&str; 3] = [
-    "no torque: bridged",
-    "no torque: held",
-    "no torque: lasting",
-];
-const STOP_BY: [&str; 4] = [
-    "`stop_by` 0",
-    "`stop_by` 1",
-    "`stop_by` 2",
-    "`stop_by` lowering",
-];
+const NO_TORQUE: [&str; 3] = ["no torque: bridged", "no torque: held", "no torque: lasting"];
+const STOP_BY: [&str; 4] = ["`stop_by` 0", "`stop_by` 1", "`stop_by` 2", "`stop_by` lowering"];
 
 pub(super) fn shown(one: &One, command: Option<Command<f32, 1>>) -> Shown {
     let mut state = one.state;
@@ -80,20 +65,8 @@ pub struct Expected {
 // Not of every field, which would take most of the time.
 impl Hash for Expected {
     fn hash<H: Hasher>(&self, hasher: &mut H) {
-        let flags = [
-            self.known,
-            self.begun,
-            self.late.is_some(),
-            self.faulted,
-            self.braked,
-        ];
-        let counts = [
-            self.left,
-            self.faults,
-            self.quiet,
-            self.ramp,
-            self.category as u32,
-        ];
+        let flags = [self.known, self.begun, self.late.is_some(), self.faulted, self.braked];
+        let counts = [self.left, self.faults, self.quiet, self.ramp, self.category as u32];
         let counts = counts.into_iter().chain(flags.map(u32::from));
         let state = self.state.len() as u64;
         hasher.write_u64(counts.fold(state, |all, count| 8 * all + u64::from(count)));
@@ -102,14 +75,7 @@ impl Hash for Expected {
 
 impl Expected {
     pub(super) fn new(ticks: [u32; 3], category: usize) -> Self {
-        Self {
-            ticks,
-            category,
-            state: "start",
-            quiet: ticks[2],
-            ramp: ticks[2],
-            ..Self::default()
-        }
+        Self { ticks, category, state: "start", quiet: ticks[2], ramp: ticks[2], ..Self::default() }
     }
 
     pub(super) fn on_brake(mut self) -> Self {
@@ -192,11 +158,7 @@ impl Expected {
         let command = matches!(input, Torque | Limited | NoTorque).then(|| {
             self.end(limited);
             let stops = self.is_stopped();
-            let status = Status {
-                mode: self.mode(),
-                fault,
-                limited: limited & !stops,
-            };
+            let status = Status { mode: self.mode(), fault, limited: limited & !stops };
             let torque = match input {
                 _ if stops => 0.0,
                 NoTorque => LAST,
@@ -322,11 +284,7 @@ impl Expected {
     }
 
     fn enter(&mut self, next: &'static str) {
-        self.state = if next == "stopped" {
-            self.stopped()
-        } else {
-            next
-        };
+        self.state = if next == "stopped" { self.stopped() } else { next };
         if self.faulted & (self.mode() != Mode::Full) {
             self.ramp = 0;
         }

@@ -2,10 +2,7 @@
 
 use super::*;
 
-const REQUIRED: Required = Required {
-    reason: REASON,
-    again: false,
-};
+const REQUIRED: Required = Required { reason: REASON, again: false };
 
 /// A cell, and the state to which it leads by mistake.
 const STATES: [(Cell, State); 12] = [
@@ -68,10 +65,7 @@ const MISTAKES: [Mistake; 8] = [
 fn is_found(cell: Cell, spoil: &dyn Fn(Cell, &One, Input, &mut One)) {
     let message = enumerate(spoil).map(|_| ()).unwrap_err();
     let (state, class) = cell;
-    assert!(
-        message.starts_with(&format!("{state}, {class}: ")),
-        "{cell:?} {message}"
-    );
+    assert!(message.starts_with(&format!("{state}, {class}: ")), "{cell:?} {message}");
 }
 
 #[test]
@@ -84,8 +78,6 @@ fn each_of_twenty_wrong_transitions_is_found() {
         });
     }
     for (cell, mistake) in MISTAKES {
-        is_found(cell, &|_, before, input, after| {
-            mistake(before, input, after)
-        });
+        is_found(cell, &|_, before, input, after| mistake(before, input, after));
     }
 }

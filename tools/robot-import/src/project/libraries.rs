@@ -17,9 +17,11 @@ const WORKSPACE: &str = include_str!("../../../../Cargo.toml");
 /// what a project does not use.
 pub(super) const LOCK: &str = include_str!("../../../../Cargo.lock");
 pub(super) const LOCK_OF_BOARDS: &str = include_str!("../../../../firmware-demo/boards/Cargo.lock");
-const LICENCES: [(&str, &str); 2] = [
+/// Files beside the crates: their licences, and how their sources are formatted.
+const BESIDE: [(&str, &str); 3] = [
     ("libraries/LICENSE-APACHE", include_str!("../../../../LICENSE-APACHE")),
     ("libraries/LICENSE-MIT", include_str!("../../../../LICENSE-MIT")),
+    ("libraries/rustfmt.toml", include_str!("../../../../rustfmt.toml")),
 ];
 
 /// The folder of a project with the crates.
@@ -36,7 +38,7 @@ pub(super) fn copies(manifest: &str) -> Vec<(String, String)> {
         .filter(|one| is_named(manifest, &format!("{FOLDER}/{}", one.folder)))
         .collect();
     let mut copied = 0;
-    let mut files: Vec<(String, String)> = LICENCES.map(|(p, t)| (p.into(), t.into())).into();
+    let mut files: Vec<(String, String)> = BESIDE.map(|(p, t)| (p.into(), t.into())).into();
     while let Some(&one) = named.get(copied) {
         copied += 1;
         for (path, text) in one.files {

@@ -65,6 +65,8 @@ export function fluent(work, held) {
 
 /// Processor time of the browser for a frame, ms; `empty` is that of a page with an empty canvas, where software draws the page.
 export function cheap(processor, empty) {
+  const comparable = empty === undefined || (empty > 0 && empty <= 2 * BARS.processor);
+  miss(comparable, `a frame of an empty page takes ${empty} ms of processor time: nothing can be compared with it`);
   const most = empty === undefined ? BARS.processor : Math.max(BARS.processor, BARS.timesEmpty * empty);
   miss(processor > 0 && processor <= most, `a frame takes ${processor.toFixed(1)} ms of processor time, at most ${most.toFixed(1)}`);
   return processor;

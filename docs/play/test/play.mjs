@@ -56,12 +56,12 @@ async function span(browser, page) {
   return { processor: processor / frames.length, rate: (1000 * (frames.length - 1)) / (frames.at(-1) - frames[0]), others };
 }
 
-/// Spans of a page that has nothing but a canvas of the view's size, which is new in each frame.
-async function emptySpans(browser) {
+/// Spans of a page that has nothing but a canvas of this size, which is new in each frame.
+async function emptySpans(browser, [width, height]) {
   const page = await browser.newPage();
   await page.setViewport(DESKTOP);
-  await page.evaluate(() => {
-    const canvas = Object.assign(document.body.appendChild(document.createElement("canvas")), { width: 700, height: 612 });
+  await page.evaluate((width, height) => {
+    const canvas = Object.assign(document.body.appendChild(document.createElement("canvas")), { width, height });
     const context = canvas.getContext("2d", { willReadFrequently: true });
     const image = context.createImageData(canvas.width, canvas.height);
     const pixels = new Uint32Array(image.data.buffer);
@@ -73,7 +73,7 @@ async function emptySpans(browser) {
       requestAnimationFrame(frame);
     };
     requestAnimationFrame(frame);
-  });
+  }, width, height);
   await pause(1000);
   const spans = [];
   for (let i = 0; i < 3; i++) spans.push(await span(browser, page));
@@ -141,24 +141,25 @@ const tests = {
         for (let i = 0; i < 5; i++) batches.push(await during(browser.process().pid, () => page.evaluate(() => play.work(100))));
         const each = ((await ticks()) - before) / 500;
         if (tab === "disturb") must(each > 16, `${each} ticks of the plant in a frame`);
-        // Other work on the machine only adds: the best of five.
+        // Other work on the machine only adds: the best of five meets the bars if a calm one does.
         const mean = ({ result }) => result.reduce((a, b) => a + b, 0) / result.length;
         const batch = batches.reduce((a, b) => (mean(b) < mean(a) ? b : a));
         // Software in place of a graphics processor takes both processors at sixty frames a second: times on the wall are then
         // those of the machine, and the processor time is compared with an empty page's.
         const bySoftware = kind === "software GL";
-        const work = fluent(batch.result, !bySoftware && calm(batch.others));
+        const held = !bySoftware && batches.some(({ others }) => calm(others));
+        const work = fluent(batch.result, held);
         const spans = [];
         for (let i = 0; i < 3; i++) spans.push(await span(browser, page));
         const least = (spans) => Math.min(...spans.map((one) => one.processor));
-        const empty = bySoftware && measurable ? least(await emptySpans(browser)) : undefined;
+        const empty = bySoftware && measurable ? least(await emptySpans(browser, await page.evaluate(() => play.state.view.size))) : undefined;
         const processor = measurable ? cheap(least(spans), empty) : NaN;
-        const { rate, others } = spans.reduce((a, b) => (b.rate > a.rate ? b : a));
-        if (!bySoftware && calm(others)) steady(rate);
-        const held = calm(batch.others) && calm(others);
+        const rate = Math.max(...spans.map((one) => one.rate));
+        const rateHeld = !bySoftware && spans.some(({ others }) => calm(others));
+        if (rateHeld) steady(rate);
         const plant = tab === "disturb" ? ` with ${each.toFixed(1)} ticks of the plant` : "";
-        const than = empty ? `, ${empty.toFixed(1)} ms those of an empty page` : "";
-        say(`frames, ${kind}, ${tab}`, `${work.mean.toFixed(2)} ms of work${plant}, one in twenty ${work.late.toFixed(2)} ms; ${processor.toFixed(1)} ms of all processes${than}; ${rate.toFixed(1)} frames a second${held || bySoftware ? "" : ", times not held: the machine is busy"}`);
+        const beside = empty ? `, ${empty.toFixed(1)} ms those of an empty page` : "";
+        say(`frames, ${kind}, ${tab}`, `${work.mean.toFixed(2)} ms of work${plant}, one in twenty ${work.late.toFixed(2)} ms; ${processor.toFixed(1)} ms of all processes${beside}; ${rate.toFixed(1)} frames a second${bySoftware || (held && rateHeld) ? "" : ", times not held: the machine is busy"}`);
       }
       await browser.close();
     }
@@ -167,6 +168,7 @@ const tests = {
     refused("cheap", () => cheap(40));
     refused("cheap, by software", () => cheap(50, 27));
     refused("cheap, by fast software", () => cheap(36, 20));
+    refused("cheap, beside a page that draws nothing", () => cheap(40, Infinity));
     refused("steady", () => steady(26));
     must(calm(0.05) && !calm(0.4) && !calm(NaN), "which machines are busy");
   },

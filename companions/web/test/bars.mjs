@@ -11,9 +11,6 @@ export const BARS = {
   workOfOneIn20: 16,
   /// The processor time of all of the browser's processes for a frame, ms: two cores, sixty times a second.
   processor: 33,
-  /// That time as a multiple of a page's that has nothing but a canvas of the same size. It is the bar where software draws the whole
-  /// page: the empty one takes 20 ms to 28 ms, by the machine.
-  timesEmpty: 1.75,
   /// Frames a second.
   rate: 55,
   /// The share of the machine's processors that other programs may have where times on the wall are held to their bars: with more
@@ -63,10 +60,9 @@ export function fluent(work, held) {
   return { mean, late };
 }
 
-/// Processor time of the browser for a frame, ms; `empty` is that of a page with an empty canvas, where software draws the page.
-export function cheap(processor, empty) {
-  const most = empty === undefined ? BARS.processor : Math.max(BARS.processor, BARS.timesEmpty * empty);
-  miss(processor > 0 && processor <= most, `a frame takes ${processor.toFixed(1)} ms of processor time, at most ${most.toFixed(1)}`);
+/// Processor time of the browser for a frame, ms.
+export function cheap(processor) {
+  miss(processor > 0 && processor <= BARS.processor, `a frame takes ${processor.toFixed(1)} ms of processor time, at most ${BARS.processor}`);
   return processor;
 }
 

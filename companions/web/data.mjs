@@ -111,17 +111,13 @@ export function recorded(root) {
   };
 }
 
-/// The digits that the page keeps of the suite's fifty: f64, in which errors are measured, reads the same number from them.
-const KEPT = 20;
-
-/// The hard cases: a list of their files, by name, with answers of [`KEPT`] digits.
+/// The hard cases: a list of their files, by name; an answer has the fewest digits from which f64, in which errors are measured, reads the same number.
 export function cases(root) {
   const folder = join(root, "companions/hard-case-suite/cases");
   const files = readdirSync(folder).filter((name) => name.endsWith(".json")).sort();
   const shorter = (whole, digits) => {
-    const [, head, rest = ""] = /^([^e]*)(e.*)?$/i.exec(digits);
-    const short = Number(head.slice(0, KEPT) + rest) === Number(digits) && head.includes(".") ? head.slice(0, KEPT) + rest : digits;
-    refuse(Number(short) === Number(digits), `${digits} of a case loses its value`);
+    const short = String(Number(digits));
+    refuse(Number.isFinite(Number(digits)), `${digits} of a case is no number`);
     return `"${short}"`;
   };
   const texts = files.map((name) => readFileSync(join(folder, name), "utf8").replace(/"(-?[0-9][0-9.e+-]{20,})"/gi, shorter));

@@ -1,4 +1,4 @@
-//! The fuzz targets on a fixed stream of bytes: the bounded run of `cargo xtask fuzz`.
+//! The fuzz targets on a fixed stream of bytes: the bounded run of the package `host-tests/fuzz`.
 
 use host_tests::everyday_or_full;
 use host_tests::fuzz::{controller, description, dynamics, frames};

@@ -6,7 +6,7 @@ use std::sync::atomic::Ordering;
 
 use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 
-use crate::commands::{demo, endurance, identify, import, meter, test, watch};
+use crate::commands::{demo, identify, import, meter, test, watch};
 use crate::kit::error::{Result, VERBOSE, check};
 use crate::kit::{output, processes, setup, workspace};
 use crate::studies;
@@ -50,29 +50,11 @@ enum Command {
     Watch(watch::Args),
     /// Find masses, inertias and frictions of a robot from a record of `watch`, for its file
     Identify(identify::Args),
-    /// Feed descriptions, files, dynamics, controller and encoder frames random bytes; CI does so
-    /// for a moment
-    Fuzz {
-        /// Seconds for each target
-        #[arg(long, default_value_t = 60, value_name = "N")]
-        seconds: u64,
-    },
-    /// Run the control loop under random faults; CI does so for 200,000 ticks
-    Soak {
-        /// Ticks
-        #[arg(long, default_value_t = 10_000_000, value_name = "N")]
-        ticks: u64,
-    },
-    /// Run the library's unit tests in Miri, where a nightly toolchain has it
-    Miri,
 }
 
 /// The commands for users, in the order of the help; all others are the laboratory's.
 const FIRST: [&str; 9] =
     ["demo", "test", "new", "import", "meter", "watch", "identify", "costs", "accuracy"];
-
-/// The commands that lists name behind those of the studies.
-const LAST: [&str; 4] = ["fuzz", "soak", "miri", "help"];
 
 const LABORATORY: &str = "\x1b[1;4mLaboratory, which writes the pages of docs/\x1b[0m";
 
@@ -85,20 +67,13 @@ fn command() -> clap::Command {
         Some(place) => command.display_order(place),
         None => command.hide(true),
     });
-    let hidden = in_order(&root).filter(|command| command.is_hide_set());
+    let hidden = root.get_subcommands().filter(|command| command.is_hide_set());
     let lines = hidden.map(|command| {
         let about = command.get_about().map(ToString::to_string);
         format!("\n  {:13} {}", command.get_name(), about.unwrap_or_default())
     });
     let laboratory = format!("{LABORATORY}:{}", lines.collect::<String>());
     root.after_help(laboratory)
-}
-
-/// The subcommands in the order of lists.
-fn in_order(root: &clap::Command) -> impl Iterator<Item = &clap::Command> {
-    let mut commands: Vec<_> = root.get_subcommands().collect();
-    commands.sort_by_key(|command| LAST.contains(&command.get_name()));
-    commands.into_iter()
 }
 
 /// The command line of this process, or what is wrong with it, or the help that was asked for.
@@ -137,9 +112,6 @@ pub fn run((cli, matches): (Cli, ArgMatches)) -> Result<ExitCode> {
         Command::Meter(args) => meter::run(setup, &args),
         Command::Watch(args) => watch::run(setup, &args),
         Command::Identify(args) => identify::run(&args.arguments),
-        Command::Fuzz { seconds } => endurance::fuzz(seconds),
-        Command::Soak { ticks } => endurance::soak(ticks),
-        Command::Miri => endurance::miri(),
     }
 }
 

@@ -1,6 +1,6 @@
-//! The links and pictures of the documents, and the programs on the guide's pages.
+//! The pages and pictures of the documents, and the programs on the guide's pages.
 
-mod links;
+mod files;
 mod pages;
 mod pictures;
 mod reference;

@@ -1,4 +1,8 @@
-//! The programs for microcontrollers that the pages show are those that are compiled.
+//! The pages of the guide are listed and their programs are those that are compiled.
+
+use std::fs::read_to_string;
+
+use crate::files::{files, root};
 
 const PAGE: &str = include_str!("../src/firmware.md");
 
@@ -142,4 +146,17 @@ fn the_page_has_the_dependencies_of_the_templates() {
         return;
     }
     assert_eq!(page, current, "UPDATE_EXPECT=1 cargo test -p guide");
+}
+
+#[test]
+fn every_page_is_listed_and_its_code_compiled() {
+    let pages = root().join("docs/guide");
+    let list = read_to_string(pages.join("src/SUMMARY.md")).expect("the list");
+    let compiled = read_to_string(pages.join("lib.rs")).expect("the library");
+    for page in files(&pages.join("src"), "md") {
+        let name = page.file_name().and_then(|name| name.to_str()).expect("a name");
+        assert!(name == "SUMMARY.md" || list.contains(&format!("({name})")), "{name}");
+        let has_code = read_to_string(&page).expect("a page").contains("```rust\n");
+        assert!(!has_code || compiled.contains(&format!("\"{name}\"")), "{name}");
+    }
 }

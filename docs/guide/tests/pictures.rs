@@ -2,7 +2,7 @@
 
 use std::fs::read_to_string;
 
-use crate::links::{files, root};
+use crate::files::{files, root};
 
 /// px
 const HIGHEST: f64 = 900.0;

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::LazyLock;
 
-use crate::links::{between, files, prose, root};
+use crate::files::{between, files, prose, root};
 
 /// Items of other crates and of written files, options, and parameters.
 const OTHERS: [&str; 10] = [

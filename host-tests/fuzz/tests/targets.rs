@@ -1,5 +1,5 @@
-//! The targets of `host_tests::fuzz` for bolero: `cargo xtask fuzz`, or with coverage to guide it
-//! `cargo bolero test --engine libfuzzer description` in this directory.
+//! The targets of `host_tests::fuzz` for bolero: `cargo test --test targets` in this directory, or
+//! with coverage to guide it `cargo bolero test --engine libfuzzer description`.
 
 #[test]
 fn description() {

@@ -1,5 +1,5 @@
 //! The shipped control loop on the scene's plant under random faults, for as many ticks as one
-//! likes: `cargo xtask soak` runs ten million.
+//! likes: `SOAK_TICKS=10000000` names ten million.
 
 use crate::arm::{Arm, POISON};
 use host_tests::random::random_numbers;

@@ -1,6 +1,6 @@
 //! Targets that accept any bytes: they panic only to report a broken promise.
 //!
-//! `tests/fuzz.rs` runs each target on a fixed stream, `cargo xtask fuzz` for as long as one likes.
+//! `tests/fuzz.rs` runs each target on a fixed stream, `host-tests/fuzz` for as long as one likes.
 
 mod bytes;
 mod controller;

@@ -1,7 +1,6 @@
 //! The commands of a user, and the tests.
 
 pub mod demo;
-pub mod endurance;
 pub mod identify;
 pub mod import;
 pub mod meter;

@@ -8,33 +8,16 @@ use crate::kit::error::{Error, Result, refuse_if};
 use crate::kit::host_bin::SHARED;
 use crate::kit::shell;
 use crate::kit::toolchain::{TARGET, Toolchain};
-use crate::kit::workspace::read;
 
 const LIBRARY: &str = "dynamics-core";
 const CONTROLLER: &str = "motion-control";
 const FEATURES: &str = "defmt,serde";
-/// The files of the root that the crate has to contain: copies, since a symbolic link is a text
-/// file after a checkout on Windows.
-const COPIES: [&str; 2] = ["LICENSE-APACHE", "LICENSE-MIT"];
 /// The example whose numbers are compared with and without features: it prints all digits of a
 /// simulation's end.
 const COMPARED: &str = "computed_torque";
 
 pub fn package(context: &Context) -> Result<String> {
-    let root = &context.workspace.root;
-    for library in [LIBRARY, CONTROLLER] {
-        copies_are_equal(root, &root.join(library))?;
-    }
     context.cargo(&["package --package dynamics-core --allow-dirty"])
-}
-
-/// Compares what stands in the workspace's root with the crate's copies.
-fn copies_are_equal(root: &Path, library: &Path) -> Result<()> {
-    for name in COPIES {
-        let is_other = read(&root.join(name))? != read(&library.join(name))?;
-        refuse_if!(is_other, "{} is not a copy of {name}", library.join(name).display());
-    }
-    Ok(())
 }
 
 pub fn features(context: &Context) -> Result<String> {
@@ -96,25 +79,4 @@ pub fn deny(context: &Context) -> Result<String> {
     }
     context.cargo(&["deny check bans licenses sources"])?;
     Ok(String::new())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{COPIES, LIBRARY, copies_are_equal};
-    use crate::kit::workspace::write;
-
-    #[test]
-    fn a_licence_that_differs_from_its_copy_is_refused() {
-        let folder = tempfile::tempdir().expect("a folder");
-        let library = folder.path().join(LIBRARY);
-        std::fs::create_dir(&library).expect("a folder");
-        for name in COPIES {
-            write(&folder.path().join(name), "a licence").expect("written");
-            write(&library.join(name), "a licence").expect("written");
-        }
-        copies_are_equal(folder.path(), &library).expect("equal");
-        write(&library.join(COPIES[0]), "another licence").expect("written");
-        let error = copies_are_equal(folder.path(), &library).expect_err("not equal");
-        assert!(error.to_string().contains(COPIES[0]), "{error}");
-    }
 }

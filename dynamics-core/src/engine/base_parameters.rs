@@ -180,7 +180,9 @@ fn attach<R: Real>(
             let place = along_axis(joints, i, parent, frame);
             (i + 1, along_axis(joints, i + 1, i, place))
         }
-        _ => (i, along_axis(joints, i, parent, frame)),
+        Revolute | Continuous | Prismatic | Helical | Fixed => {
+            (i, along_axis(joints, i, parent, frame))
+        }
     }
 }
 

@@ -94,7 +94,7 @@ where
                 let (x, y) = (cos * x - sin * y, sin * x + cos * y);
                 put(&mut out, at, &[was(0) + d(0), was(1) + x, was(2) + y]);
             }
-            _ => {
+            Revolute | Continuous | Prismatic | Helical | Cylindrical | Universal | Fixed => {
                 for k in link.coordinates() {
                     let k = k - link.idx_v();
                     put(&mut out, at + k, &[was(k) + d(k)]);
@@ -152,7 +152,7 @@ where
                 let ([_, _, turn], [x, y, _]) = (phi.array(), rho.array());
                 put(&mut out, idx_v, &[turn, x, y]);
             }
-            _ => {
+            Revolute | Prismatic | Helical | Cylindrical | Universal | Fixed => {
                 for k in link.coordinates() {
                     put(&mut out, k, &[step(k - idx_v)]);
                 }

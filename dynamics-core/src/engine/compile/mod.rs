@@ -177,7 +177,7 @@ const fn attach<const V: usize>(
         Planar => return at_once(joints, &single, JointMotion::Planar),
         Spherical => return at_once(joints, &single, JointMotion::Spherical),
         Free => return at_once(joints, &single, JointMotion::Free),
-        _ => (JointMotion::Turn, 0.0),
+        Revolute | Continuous | Cylindrical | Universal | Fixed => (JointMotion::Turn, 0.0),
     };
     let mut first =
         Joint { motion, pitch, prismatic: matches!(motion, JointMotion::Slide), ..single };
@@ -191,7 +191,9 @@ const fn attach<const V: usize>(
     let (motion, rot) = match link.joint.kind {
         Universal => (JointMotion::Turn, transpose(&turned)),
         Cylindrical => (JointMotion::Slide, DMat3::IDENTITY),
-        _ => return place,
+        Revolute | Continuous | Prismatic | Helical | Planar | Spherical | Free | Fixed => {
+            return place;
+        }
     };
     let second = Joint {
         parent: v,

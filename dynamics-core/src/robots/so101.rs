@@ -3,7 +3,6 @@
 // Formatted as users' files are.
 
 #[rustfmt::skip]
-
 #[path = "imported/so101.rs"]
 mod imported;
 

@@ -3,7 +3,6 @@
 // Formatted as users' files are.
 
 #[rustfmt::skip]
-
 #[path = "imported/xarm7.rs"]
 mod imported;
 

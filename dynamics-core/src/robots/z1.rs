@@ -3,7 +3,6 @@
 // Formatted as users' files are.
 
 #[rustfmt::skip]
-
 #[path = "imported/z1.rs"]
 mod imported;
 

@@ -4,7 +4,6 @@
 // Formatted as users' files are.
 
 #[rustfmt::skip]
-
 #[path = "../../../../tools/robot-import/template/board/pico2/src/periods.rs"]
 pub mod periods;
 

@@ -32,7 +32,7 @@ class Case:
     links: list
     states: list  # of (q, q̇, q̈)
     gravity: list = field(default_factory=lambda: DOWN)
-    # Of what underflow may take beside the bound; f32 and f64.
+    # The amount that underflow may add to the bound, in f32 and in f64.
     underflow: tuple = (0.0, 0.0)
     # The scalars in which forward dynamics may be refused.
     refusal: list = field(default_factory=list)

@@ -142,7 +142,8 @@ class Tree:
         return tau, self.sizes(own, qdd)
 
     def sizes(self, own, qdd):
-        """Of each joint: the sum over the bodies it moves of |couple| + |arm| |force|; |force| if it slides."""
+        """For each joint, the sum over the bodies it moves of |couple| + |arm| |force|; |force| if
+        it slides."""
         sums = [link.armature * abs(x) for link, x in zip(self.links, qdd)]
         for j, (force, couple) in enumerate(own):
             attitude, at = self.world[j]

@@ -53,7 +53,8 @@ def answer(robot, state):
         bias, _ = tree.torques(qd, [mpf(0)] * len(q))
         accel = solve(l, [mpf(t) - b for t, b in zip(given, bias)])
         rows = inverse(l)
-        # What an error of one unit in every contribution to a torque may do to the accelerations.
+        # The effect that an error of one unit in every contribution to a torque may have on the
+        # accelerations.
         scale["qdd"] = [sum(abs(x) * s for x, s in zip(row, sizes)) for row in rows]
         answers["qdd"] = digits(accel, scale["qdd"])
         reach = max(sum(abs(x) for x in row) for row in rows)
@@ -73,7 +74,7 @@ def written(case):
     bound = {name: float(f"{FACTOR * len(case.links) ** 0.5 * unit:.2g}") for name, unit in UNIT.items()}
     if not case.in_f32:
         bound["f32"] = None
-    # Of a torque, of M, and through M⁻¹ of an acceleration.
+    # The underflow of a torque, of M, and through M⁻¹ of an acceleration.
     underflow = {name: {"tau": x, "M": x, "qdd": float(mp.nstr(x * reach, 3))} for name, x in zip(UNIT, case.underflow)}
     parts = [
         ("case", case.number),

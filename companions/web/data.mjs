@@ -43,7 +43,7 @@ function costs(text) {
   return costs;
 }
 
-/// What an effect adds to the rigid body's, by robot.
+/// The costs that each effect adds to those of the rigid body, by robot.
 function effects(text) {
   const effects = {};
   for (const { columns, cells } of rows(text)) {
@@ -56,7 +56,7 @@ function effects(text) {
   return effects;
 }
 
-/// Ticks of the scenes.
+/// The ticks of the scenes, by name.
 function scenes(text) {
   const scenes = {};
   for (const { columns, cells } of rows(text)) {

@@ -11,10 +11,10 @@ use crate::image::Image;
 use crate::interval::Interval;
 use crate::taylor::{SLOPES, Scalar, Taylor};
 
-/// How a body moves on its parent.
+/// The way in which a body moves relative to its parent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Moves {
-    /// Not at all.
+    /// The body does not move relative to its parent.
     Fixed,
     /// By the angle of this joint, about z.
     Turns(usize),
@@ -22,12 +22,12 @@ pub enum Moves {
     Slides(usize),
 }
 
-/// A body.
+/// A rigid body of a robot, with its placement, its joint and its inertia.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Body {
-    /// The body before it.
+    /// The body that carries it, or none on the base.
     pub parent: Option<usize>,
-    /// Its joint.
+    /// The motion that its joint allows.
     pub moves: Moves,
     /// From the parent's coordinates to its own at q = 0, by rows.
     pub rot: [[f64; 3]; 3],
@@ -37,11 +37,11 @@ pub struct Body {
     pub inertia: [f64; 10],
 }
 
-/// Three coordinates.
+/// Three coordinates of a vector.
 pub type Vector<S> = [S; 3];
 
-/// What kinematics needs of a joint's position: cosine and sine, those of twice the angle, and the
-/// position.
+/// The numbers that kinematics needs of a joint's position: cosine and sine, those of twice the
+/// angle, and the position.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Position<S> {
     cosine: S,
@@ -52,7 +52,7 @@ pub struct Position<S> {
 }
 
 impl Position<f64> {
-    /// Of a number.
+    /// The position of a joint at the coordinate `q`.
     pub fn at(q: f64) -> Self {
         let ((s, c), (s2, c2)) = (q.sin_cos(), (2.0 * q).sin_cos());
         Self { cosine: c, sine: s, cosine_of_two: c2, sine_of_two: s2, q }
@@ -60,7 +60,7 @@ impl Position<f64> {
 }
 
 impl Position<Taylor> {
-    /// Of a joint of this number over a range.
+    /// The position of the given joint over a range of its coordinate.
     pub fn over(joint: usize, range: Interval) -> Self {
         let slope = (joint < SLOPES).then_some(joint);
         let [cosine, sine] = Taylor::cosine_and_sine(range, 1.0, slope);
@@ -130,7 +130,7 @@ impl Body {
         self.rot.map(|row| x[0].times(row[0]) + x[1].times(row[1]) + x[2].times(row[2]))
     }
 
-    /// The other way.
+    /// From its own coordinates at q = 0 to those of the parent: the inverse of `placed`.
     pub(crate) fn unplaced<S: Scalar>(&self, x: Vector<S>) -> Vector<S> {
         std::array::from_fn(|i| {
             x[0].times(self.rot[0][i]) + x[1].times(self.rot[1][i]) + x[2].times(self.rot[2][i])
@@ -146,7 +146,7 @@ impl Body {
         [x[0] * c + x[1] * s, x[1] * c - x[0] * s, x[2]]
     }
 
-    /// The other way.
+    /// From its own coordinates to those at q = 0: the inverse of `turned`.
     pub(crate) fn unturned<S: Scalar>(&self, x: Vector<S>, at: &[Position<S>]) -> Vector<S> {
         let Moves::Turns(joint) = self.moves else {
             return x;
@@ -243,7 +243,7 @@ pub(crate) fn at_parent(body: &Body) -> [f64; 10] {
     [mass, x, y, z, a, b, c, d, e, f]
 }
 
-/// Where a symmetric matrix of six numbers has its entries, and its rows.
+/// The entries of a symmetric matrix in its six numbers, and its three rows as indices of these.
 const PLACES: [(usize, usize); 6] = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)];
 const ROWS: [[usize; 3]; 3] = [[0, 1, 2], [1, 3, 4], [2, 4, 5]];
 

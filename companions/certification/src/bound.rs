@@ -22,32 +22,32 @@ use crate::state_box::{Leaf, Robot, Sector, cosine, sine};
 /// The error of a kernel of sines: the most by which a sine or cosine differs from the true one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct SineErrors {
-    /// Of the sine.
+    /// The error of the sine.
     pub sine: f64,
-    /// Of the cosine.
+    /// The error of the cosine.
     pub cosine: f64,
 }
 
 /// A bound, and what it is made of.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Bound {
-    /// By rounded operations.
+    /// The part caused by rounded operations.
     pub operations: f64,
-    /// By literals.
+    /// The part caused by the rounding of literals.
     pub literals: f64,
-    /// By sines and cosines.
+    /// The part caused by the errors of sines and cosines.
     pub sines: f64,
 }
 
 impl Bound {
-    /// The whole bound.
+    /// The whole bound: the sum of its three parts.
     pub fn total(self) -> f64 {
         // Three terms: an ulp of the sum more than makes up for two roundings.
         (self.operations + self.literals + self.sines) * (1.0 + 4.0 * f64::EPSILON)
     }
 }
 
-/// How values are enclosed.
+/// The ways in which values are enclosed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Enclosure {
     /// Operation by operation, as Gappa does.
@@ -60,7 +60,7 @@ pub enum Enclosure {
 #[derive(Clone, Debug)]
 pub struct Bounder {
     graph: Graph,
-    /// What each input is, by node.
+    /// The coordinate that each input node stands for; `None` for other nodes.
     leaves: Vec<Option<Leaf>>,
     sines: SineErrors,
     /// Sums that are bounded better when they are written out, and all adjoints.
@@ -74,9 +74,9 @@ pub struct Bounder {
     relative: Vec<f64>,
     /// The values and the adjoints of the nodes, and the greatest error of each.
     pub values: Vec<Interval>,
-    /// See `values`.
+    /// The range of each node's adjoint.
     pub adjoints: Vec<Interval>,
-    /// See `values`.
+    /// The greatest error of each node.
     pub errors: Vec<f64>,
 }
 
@@ -135,7 +135,7 @@ impl Bounder {
         &self.uses[node]
     }
 
-    /// What a node is, if it is an input.
+    /// The coordinate that an input node stands for; `None` for other nodes.
     pub fn leaf(&self, node: usize) -> Option<Leaf> {
         self.leaves[node]
     }
@@ -204,7 +204,7 @@ impl Bounder {
                     };
                     let written_out = self.sums[k].as_ref().map(|form| self.evaluate(form, values));
                     let exact = written_out.map_or(exact, |other| exact.and(other));
-                    // What is zero stays zero.
+                    // An exact zero has no rounding error.
                     let error = if exact.is_zero() { 0.0 } else { half_ulp(exact.magnitude()) };
                     (exact, error)
                 }

@@ -13,7 +13,7 @@ use crate::paths;
 pub struct Part {
     /// The ranges of the coordinates.
     pub states: Vec<Interval>,
-    /// The bound.
+    /// The bound of the error over this part.
     pub bound: Bound,
     /// The range of the output.
     pub range: Interval,
@@ -36,7 +36,7 @@ impl Ord for Part {
     }
 }
 
-/// What was proven of an output over the whole box.
+/// The result of the proof of one output over the whole box.
 #[derive(Clone, Debug)]
 pub struct Proven {
     /// The greatest bound of a part.
@@ -93,7 +93,7 @@ fn outermost(x: Interval) -> f64 {
     if x.high.abs() >= x.low.abs() { x.high } else { x.low }
 }
 
-/// What a split along each coordinate has gained so far.
+/// The gain of the splits along each coordinate so far.
 struct Gains {
     axes: Vec<usize>,
     /// The mean share of the bound that was left, by place in `axes` and number of splits of it
@@ -144,7 +144,7 @@ fn split(
     gains: &mut Gains,
 ) -> Option<[Part; 2]> {
     if part.bound.total().is_infinite() {
-        // What has no bound has no gain either.
+        // If there is no bound yet, no gain can be measured either.
         let halves = paths::halves(&part.states, paths::decisive(bounder, &part.states)?)?;
         return Some(halves.map(|states| bounded(bounder, states)));
     }

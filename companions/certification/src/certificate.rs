@@ -25,7 +25,7 @@ use crate::state_box::{Joint, Robot};
 use crate::target::Target;
 use crate::walk::Walked;
 
-/// How much is spent on a certificate.
+/// The effort that is spent on a certificate.
 #[derive(Clone, Copy, Debug)]
 pub struct Spent {
     /// The parts that the box of each output is split into.
@@ -39,51 +39,51 @@ pub struct Spent {
 /// The parts by which it is proven of each branch that the whole box takes it.
 const PATH_PARTS: usize = 20_000;
 
-/// A certificate.
+/// A certificate: the proven bounds of one function of one robot.
 #[derive(Clone, Debug, Serialize)]
 pub struct Certificate {
-    /// The robot's name.
+    /// The name of the robot.
     pub robot: String,
-    /// The function.
+    /// The function whose results are bounded.
     pub function: Function,
     /// SHA-256 of its machine code.
     pub hash: String,
-    /// The compiler.
+    /// The version of the compiler.
     pub rustc: String,
-    /// Instructions of one call.
+    /// The number of instructions of one call.
     pub instructions: usize,
-    /// Rounded operations of one call.
+    /// The number of rounded operations of one call.
     pub operations: usize,
-    /// The box.
+    /// The box of states: the ranges of each joint.
     pub joints: Vec<Joint>,
     /// The error of the sines over the joints' ranges.
     pub sines: SineErrors,
-    /// States of the search.
+    /// The number of states that the search tried.
     pub states: usize,
-    /// What holds of each output.
+    /// The proven bound of each output and the worst error found.
     pub outputs: Vec<Output>,
-    /// What a call takes on the target.
+    /// The cycles and the stack of a call on the target.
     pub target: Option<Target>,
-    /// Of forward dynamics, of which the outputs are the biases and the inertia matrix.
+    /// The bounds of forward dynamics, whose outputs are the biases and the inertia matrix.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub forward: Option<Forward>,
 }
 
-/// What is proven of a function of a program.
+/// A function of a program, with the expressions about which something is proven.
 #[derive(Clone, Debug)]
 pub struct Subject {
     function: Function,
-    /// Its expression.
+    /// The expression of its machine code.
     pub walked: Walked,
     /// The expression whose results have bounds: of a symmetric matrix the upper triangle, of
     /// forward dynamics that of [`Factored`].
     pub graph: Graph,
-    /// Forward dynamics, taken apart.
+    /// The factors and the solution that the code of forward dynamics was recognised as.
     pub factored: Option<Factored>,
 }
 
 impl Subject {
-    /// Of a function of a program.
+    /// Reads a function of a program.
     ///
     /// # Errors
     /// As [`expression`], and [`Error::Factors`].
@@ -103,7 +103,7 @@ impl Subject {
         Ok(Self { function, walked, graph, factored })
     }
 
-    /// What a result is called, by its place among the function's.
+    /// The name of a result, from its place among the function's results.
     fn name(&self, place: usize, joints: usize) -> String {
         let entry = |at: usize| format!("{},{}", at / joints + 1, at % joints + 1);
         match self.function {
@@ -114,7 +114,7 @@ impl Subject {
         }
     }
 
-    /// Of an effort, what is spent on each result.
+    /// The share of an effort that is spent on each result.
     fn effort(&self, effort: Effort) -> Effort {
         match self.factored {
             Some(_) => Effort { children: effort.children / SHARE, ..effort },
@@ -203,7 +203,8 @@ impl Subject {
 const REFERENCE: f64 = 1e-14;
 /// The parts of the floor of the scaled inertia matrix.
 const FLOOR_PARTS: usize = 20_000;
-/// Of the states of the search, the share for each result that forward dynamics solves with.
+/// The states of the search are divided by this number for each result with which forward dynamics
+/// solves.
 const SHARE: usize = 8;
 
 /// Proves the bounds of a function, and searches the worst errors beside them.

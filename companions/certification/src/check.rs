@@ -15,13 +15,13 @@ use crate::state_box::Robot;
 /// A part of the page, between its marks, or the record of configurations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum Part {
-    /// The proven errors.
+    /// The proven errors of torques and matrices.
     Certificates,
-    /// Those of forward dynamics.
+    /// The proven errors of forward dynamics.
     Forward,
     /// Those of the robot with a kinematic loop.
     Clusters,
-    /// docs/accuracy-proven.json.
+    /// The record docs/accuracy-proven.json.
     Configurations,
 }
 

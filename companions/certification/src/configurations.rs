@@ -61,7 +61,7 @@ const MODELS: [(&str, &str); 11] = [
     ("pruned30000", "CONFIGURED_PRUNED30000_PPM"),
 ];
 
-/// What has no bound here, and why.
+/// The configurations that have no bound here, and the reason for each.
 const LEFT_OUT: [(&str, &str); 5] = [
     ("reduced rates", "the ticks between depend on the path, not on a state"),
     ("carried sines", "their error depends on the ticks before"),
@@ -77,15 +77,15 @@ pub const PATHS: [(&str, f64); 3] = [("ur5e", 12.0), ("panda", 12.0), ("a1_leg",
 /// The proven errors of a robot's configurations.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Configurations {
-    /// The robot's name.
+    /// The name of the robot.
     pub robot: String,
-    /// The box of states.
+    /// The box of states: the ranges of each joint.
     pub joints: Vec<Joint>,
-    /// What the proofs are of: see [`hashes`].
+    /// The hashes of the code and inputs that the proofs hold for: see [`hashes`].
     pub hashes: BTreeMap<String, String>,
     /// The greatest proven error of a joint, N·m or N, by the key of the configuration.
     pub proven: BTreeMap<String, f64>,
-    /// What has no bound, and why.
+    /// The configurations that have no bound, and the reason for each.
     pub left_out: BTreeMap<String, String>,
 }
 
@@ -176,7 +176,7 @@ pub fn check(
     }
 }
 
-/// Proves them.
+/// Proves the errors of all configurations of a robot.
 ///
 /// # Errors
 /// [`Error::Declined`], [`Error::Missing`].
@@ -220,7 +220,8 @@ pub fn prove(program: &Program, robot: &Robot, spent: Spent) -> Result<Configura
 #[derive(Clone, Debug)]
 pub struct Whole<'a> {
     graph: &'a Graph,
-    /// How far its literals take each result from the robot's.
+    /// For each result, the greatest difference from the robot's exact model that the literals
+    /// cause.
     literals: Vec<f64>,
 }
 

@@ -4,7 +4,7 @@
 //! The code is executed with numbers where they are known and names where they are not. So loops
 //! whose counts do not depend on data are followed turn by turn, as the processor does. At a branch
 //! that depends on data both ways are followed to where they meet again, and what they leave behind
-//! is joined. What has no bound is declined, with its address.
+//! is joined. Code without a bound is declined, with its address.
 
 use std::collections::{BTreeSet, HashMap};
 use std::rc::Rc;
@@ -35,43 +35,43 @@ pub enum Declined {
     /// The number of its turns depends on data.
     #[error("the loop at {at:#x} has no bound in the code")]
     Loop {
-        /// Of the branch.
+        /// The address of the branch.
         at: u32,
     },
     /// A jump through a register whose targets are not known.
     #[error("the jump at {at:#x} goes where a register says")]
     IndirectJump {
-        /// Of the jump.
+        /// The address of the jump.
         at: u32,
     },
     /// A call through a register whose value is not known.
     #[error("the call at {at:#x} goes where a register says")]
     IndirectCall {
-        /// Of the call.
+        /// The address of the call.
         at: u32,
     },
     /// The model has no such instruction, or it traps.
     #[error("the instruction at {at:#x} is not in the model")]
     UnknownInstruction {
-        /// Of the instruction.
+        /// The address of the instruction.
         at: u32,
     },
     /// A function that calls itself.
     #[error("the function at {at:#x} calls itself")]
     Recursion {
-        /// Of the function.
+        /// The address of the function.
         at: u32,
     },
     /// The code does not determine the stack pointer at an instruction.
     #[error("the stack pointer at {at:#x} is not known")]
     StackPointer {
-        /// Of the instruction.
+        /// The address of the instruction.
         at: u32,
     },
     /// More instructions than are followed.
     #[error("the path is still not at its end at {at:#x}")]
     TooLong {
-        /// Where it was given up.
+        /// The address at which the analysis was given up.
         at: u32,
     },
 }
@@ -153,13 +153,13 @@ fn before<'a>(image: &Image, whole: &'a Flow, mark: u32) -> Option<Before<'a>> {
     if targets.contains(&mark) && !pipe.is_clear() {
         pipes.push((pipe.cleared(), 0));
     }
-    // What stands before the target of a branch is left out by the branch.
+    // A branch skips what stands before its target.
     let last = targets.range(..=mark).next_back().copied().unwrap_or(0);
     row.retain(|one| one.at >= last);
     Some((row, pipes))
 }
 
-/// Where a way leads.
+/// The destination of a way: an address at which it goes on, or the outside.
 enum Led {
     On(Machine, u32),
     Out(Machine),
@@ -173,13 +173,14 @@ struct Run<'a> {
     around: (u32, u32),
     /// The functions that are executed, each called by the one before.
     calls: Vec<u32>,
-    /// How often both ways of a branch are being followed, by its address and the depth of calls.
+    /// The number of times that both ways of a branch are being followed, by its address and the
+    /// depth of calls.
     turns: HashMap<(u32, usize), usize>,
     /// The branches whose ways are being followed.
     open: usize,
     executed: u64,
     branches: BTreeSet<u32>,
-    /// What the region calls through a register.
+    /// The function that the region calls through a register.
     callee: Option<u32>,
 }
 

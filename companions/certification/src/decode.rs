@@ -1,7 +1,7 @@
 //! Instructions of ARMv7E-M with FPv4-SP that straight-line arithmetic uses, by the table of the
 //! cycle meter: ARM DDI 0403E, chapters A5 to A7.
 //!
-//! What is not here is declined by the walk, with its address: no instruction is guessed at.
+//! The walk declines every other instruction, with its address, and never guesses.
 
 use cycle_meter::Operation;
 
@@ -13,9 +13,9 @@ pub type Condition = u8;
 pub enum Operand {
     /// A constant, negative for a subtraction.
     Constant(u32),
-    /// A register, shifted left.
+    /// A register whose value is shifted left.
     Register(u8, u8),
-    /// A register, shifted right.
+    /// A register whose value is shifted right.
     Right(u8, u8),
 }
 
@@ -34,7 +34,7 @@ pub enum Arithmetic {
     Div,
 }
 
-/// Operations on integers.
+/// The operations on integers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Integer {
     /// n + m
@@ -60,7 +60,7 @@ pub enum Integer {
 }
 
 impl Integer {
-    /// Of two words.
+    /// The result of the operation on two words.
     pub fn of(self, n: u32, m: u32) -> u32 {
         match self {
             Self::Add => n.wrapping_add(m),
@@ -77,16 +77,16 @@ impl Integer {
     }
 }
 
-/// One decoded instruction.
+/// One decoded instruction and its operands.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Instruction {
-    /// Nothing.
+    /// An instruction without effect.
     Nop,
-    /// d = a constant
+    /// d = a constant, in a core register
     Constant { d: u8, value: u32 },
     /// The upper half of d.
     Upper { d: u8, value: u32 },
-    /// d = m
+    /// d = m, core registers
     Move { d: u8, m: u8 },
     /// d = n op m
     Arithmetic { op: Arithmetic, d: u8, n: u8, m: u8 },
@@ -100,9 +100,9 @@ pub enum Instruction {
     Compare { d: u8, m: Option<u8> },
     /// The flags of that comparison become those of the processor.
     TakeFlags,
-    /// d = m
+    /// d = m, floating-point registers
     Copy { d: u8, m: u8 },
-    /// d = a constant
+    /// d = a constant, in a floating-point register
     Real { d: u8, value: f32 },
     /// Bits between a core register and a floating-point one.
     Transfer { core: u8, real: u8, to_core: bool },
@@ -127,7 +127,7 @@ pub enum Instruction {
     TableBranch { n: u8, m: u8, shift: u8 },
     /// Memory of any size at n + offset; n may be the program counter.
     Access(Access),
-    /// Words of several registers.
+    /// Several registers are loaded from or stored to consecutive words.
     Several(Several),
 }
 
@@ -136,13 +136,13 @@ pub enum Instruction {
 pub struct Several {
     /// A bit for each, in their order: those of the core, then those of the floating-point unit.
     pub registers: u64,
-    /// The base.
+    /// The register that holds the base address.
     pub n: u8,
     /// The lowest address, from the base on.
     pub offset: i32,
-    /// What is added to the base, afterwards.
+    /// The number that is added to the base register afterwards.
     pub moves: i32,
-    /// From memory.
+    /// Whether it loads from memory.
     pub load: bool,
 }
 
@@ -153,26 +153,26 @@ impl Several {
     }
 }
 
-/// A load or store.
+/// A load or store of one register or two.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Access {
-    /// The register.
+    /// The register that is loaded or stored.
     pub t: u8,
-    /// The one of the next word, [`NOWHERE`] if there is none.
+    /// The register of the following word, or [`NOWHERE`] if the instruction moves one word.
     pub second: u8,
-    /// The base.
+    /// The register that holds the base address.
     pub n: u8,
-    /// What is added to it.
+    /// The offset that is added to the base.
     pub offset: Operand,
-    /// 1, 2 or 4.
+    /// The size in memory: 1, 2 or 4 bytes.
     pub bytes: u8,
     /// Whether a narrow number has a sign.
     pub is_signed: bool,
-    /// From memory.
+    /// Whether it loads from memory.
     pub load: bool,
     /// Whether the offset counts for the address.
     pub before: bool,
-    /// Whether n moves.
+    /// Whether the base register is updated.
     pub writes_back: bool,
 }
 
@@ -180,14 +180,14 @@ pub struct Access {
 pub const ALWAYS: Condition = 14;
 /// The stack pointer, link register and program counter.
 pub const SP: u8 = 13;
-/// See [`SP`].
+/// The link register.
 pub const LR: u8 = 14;
-/// See [`SP`].
+/// The program counter.
 pub const PC: u8 = 15;
 /// No register: where a comparison writes.
 pub const NOWHERE: u8 = 16;
 
-/// What the instruction of these halfwords does; of a short one the first counts alone.
+/// The instruction that these halfwords encode; a short instruction uses only the first.
 pub fn decode(first: u16, second: u16) -> Option<Instruction> {
     let of = cycle_meter::operation(first, second)?;
     match of.name() {
@@ -364,7 +364,7 @@ fn of_reals(name: &str, of: Operation) -> Option<Instruction> {
         "vabs" => Instruction::Absolute { d, m },
         "vsqrt" => Instruction::Root { d, m },
         "vmov" => Instruction::Copy { d, m },
-        // Of numbers the form that signals NaNs is the same.
+        // For numbers that are no NaN, the form that signals NaNs compares in the same way.
         "vcmp" => Instruction::Compare { d, m: of.field("m").map(|_| m) },
         "vconst" => {
             let exponent = if number & 0x40 != 0 { 0x7c } else { 0x80 } | number >> 4 & 3;

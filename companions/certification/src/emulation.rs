@@ -18,18 +18,18 @@ const QEMU: &str = "qemu-system-arm";
 const OPTIONS: &str = "-machine netduinoplus2 -nographic -audiodev none,id=silent -monitor none -serial none \
                        -icount shift=3,sleep=off -semihosting-config enable=on,target=native";
 
-/// What was seen of a program.
+/// The observations of a program that ran in the emulator.
 #[derive(Clone, Debug)]
 pub struct Emulation {
     /// The states: q, q̇, q̈ of each, numbers of f32.
     pub states: Vec<Vec<f64>>,
-    /// Of each call the function's name, its cost and the bits of its results.
+    /// For each call, the function's name, its cost and the bits of its results.
     calls: Vec<(String, Sample, Vec<u32>)>,
 }
 
 impl Emulation {
-    /// What a program printed, a line for each call, and what its calls cost; nothing if these are
-    /// not as many.
+    /// Combines the lines that a program printed, one for each call, with the costs of its calls;
+    /// `None` if there are none or their numbers differ.
     pub fn read(states: Vec<Vec<f64>>, said: &str, samples: Vec<Sample>) -> Option<Self> {
         let is_whole = !samples.is_empty() && samples.len() == said.lines().count();
         let calls = said.lines().zip(samples).map(|(line, sample)| call(line, sample));

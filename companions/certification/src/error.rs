@@ -20,7 +20,7 @@ pub enum Error {
     /// Machine code of forward dynamics is not that of the factors of M.
     #[error("forward dynamics: {what} is not as the recursion of LᵀDL has it")]
     Factors {
-        /// What differs.
+        /// The part of the computation that differs.
         what: String,
     },
     /// A page or file is of other machine code.
@@ -34,7 +34,7 @@ pub enum Error {
         "docs/accuracy-proven.json is not of today's {what} of {robot}: run `certify --write configurations`"
     )]
     Unproven {
-        /// The robot.
+        /// The name of the robot.
         robot: String,
         /// The variable that points to a function, or `inputs`.
         what: String,
@@ -46,7 +46,7 @@ pub enum Error {
         address: u32,
         /// Its first halfword above its second one; the second is zero of a short instruction.
         instruction: u32,
-        /// What is not proven.
+        /// The reason why nothing is proven.
         reason: &'static str,
     },
     /// The direction of a branch depends on the state, or is not proven to be the same in the whole
@@ -75,7 +75,7 @@ pub enum Error {
     Unbounded {
         /// The number of the joint, from 1.
         joint: usize,
-        /// What is not finite.
+        /// The quantity that is not finite.
         what: &'static str,
     },
     /// The proof says less than what was observed: one of them is wrong.
@@ -83,7 +83,7 @@ pub enum Error {
     Contradicted {
         /// The number of the output, from 1.
         output: usize,
-        /// The proven bound.
+        /// The proven bound of its error.
         bound: f64,
         /// The error of a state that was found.
         observed: f64,
@@ -91,18 +91,18 @@ pub enum Error {
     /// A position has a lesser eigenvalue than is proven.
     #[error("the inertia matrix is proven to be above {proven:e}, and {found:e} was found")]
     Floor {
-        /// The proven bound.
+        /// The proven lower bound of the eigenvalues.
         proven: f64,
-        /// What a position has.
+        /// The lesser eigenvalue that a position has.
         found: f64,
     },
     /// A call took more cycles than its machine code says, or not as many although nothing branches
     /// on data.
     #[error("{function}: the bound is {bound} cycles, and {least} to {most} were measured")]
     Cycles {
-        /// The function.
+        /// The name of the function.
         function: &'static str,
-        /// By the machine code.
+        /// The bound that follows from the machine code.
         bound: u64,
         /// The fewest of a call.
         least: u64,
@@ -114,34 +114,34 @@ pub enum Error {
         "{function}: result {result} of state {state} has the bits {target:#010x} on the target and {host:#010x} on the host"
     )]
     Bits {
-        /// The function.
+        /// The name of the function.
         function: &'static str,
         /// The number of the state, from 1.
         state: usize,
         /// The number of the result, from 1.
         result: usize,
-        /// In QEMU.
+        /// The bits on the target, in QEMU.
         target: u32,
-        /// Of the expression.
+        /// The bits of the expression, evaluated on the host.
         host: u32,
     },
     /// A range of `--box` is not taken.
     #[error(transparent)]
     Narrow(#[from] NarrowError),
-    /// A program failed.
+    /// A program ended with a failure.
     #[error("{program}: {said}")]
     Program {
-        /// Its name.
+        /// The name of the program.
         program: String,
-        /// What it printed.
+        /// The output that it printed.
         said: String,
     },
     /// A file cannot be read or written.
     #[error("{}: {source}", path.display())]
     File {
-        /// The file.
+        /// The path of the file.
         path: PathBuf,
-        /// Why.
+        /// The operating system's reason.
         source: std::io::Error,
     },
     /// A robot's file is not taken.
@@ -153,8 +153,8 @@ pub enum Error {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{option}: {why}")]
 pub struct NarrowError {
-    /// As it was written.
+    /// The option as the user wrote it.
     pub option: String,
-    /// The reason.
+    /// The reason for the refusal.
     pub why: String,
 }

@@ -93,7 +93,7 @@ pub fn torques(bodies: &[Body], q: &[f64], qd: &[f64], qdd: &[f64]) -> Vec<f64> 
     let at: Vec<Position<f64>> = q.iter().map(|q| Position::at(*q)).collect();
     let dot = |a: Vector<f64>, b: Vector<f64>| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     let none = [0.0; 3];
-    // Of each body its angular velocity and acceleration, and the acceleration of its origin.
+    // For each body, its angular velocity and acceleration, and the acceleration of its origin.
     let mut moving: Vec<[Vector<f64>; 3]> = Vec::new();
     let mut loads: Vec<[Vector<f64>; 2]> = Vec::new();
     for body in bodies {

@@ -1,5 +1,5 @@
-//! That machine code of forward dynamics factors M = Lᵀ D L and solves with the factors, and how
-//! often it rounds.
+//! The check that machine code of forward dynamics factors M = Lᵀ D L and solves with the factors,
+//! and the count of its roundings.
 //!
 //! The recursion (RBDA, tables 6.3 and 6.4) is written down here once more, over expressions: of
 //! the entries of M, which are those of the engine's `crba`, and of torques less biases it makes
@@ -159,7 +159,7 @@ impl Terms {
     }
 }
 
-/// What the recursion makes of M and of torques less biases.
+/// The results of the recursion, from M and from the torques less the biases.
 struct Solved {
     accelerations: Vec<Term>,
     /// D, not yet its reciprocals.
@@ -245,7 +245,7 @@ fn roundings(turns: &[Vec<Option<u32>>], subtracted: &[u32], order: Order) -> Ve
     };
     let of = |i: usize, j: usize| {
         let by = |k: usize| {
-            // That of l, or of 1/D; those of y, of D⁻¹ y and of torque less bias.
+            // The roundings of l, or of 1/D; then those of y, of D⁻¹ y and of torque less bias.
             let factors = inward(k, i.max(j))? + 1;
             Some(factors + inward(k, i)? + 1 + outward(k, j)? + 1)
         };
@@ -254,7 +254,7 @@ fn roundings(turns: &[Vec<Option<u32>>], subtracted: &[u32], order: Order) -> Ve
     (0..n).map(|i| (0..n).map(|j| of(i, j)).collect()).collect()
 }
 
-/// What a pivot must exceed.
+/// The threshold that a pivot must exceed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Noise {
     /// A number, kg·m² or kg: infinity if it depends on torques.
@@ -263,15 +263,15 @@ pub struct Noise {
     pub share: f64,
 }
 
-/// Forward dynamics, taken apart.
+/// The factors and the solution that machine code of forward dynamics computes.
 #[derive(Clone, Debug)]
 pub struct Factored {
     /// Its results are the biases b and the lower triangle of M, by rows: offsets 4 i and 4 (n + n
     /// i + j).
     pub graph: Graph,
-    /// Of each entry of M, m as above.
+    /// The count m of roundings, as above, for each entry of M.
     pub roundings: Vec<Vec<u32>>,
-    /// What each pivot is compared with, where it is: the greatest.
+    /// The greatest threshold that each pivot is compared with; `None` if it is not compared.
     pub noise: Vec<Option<Noise>>,
     /// The joints whose pivots are compared with what depends on the state in another way than M,
     /// and the nodes of the graph that this is.
@@ -286,7 +286,8 @@ fn other(what: String) -> Error {
 }
 
 impl Factored {
-    /// Of the machine code of forward dynamics, with that of the inertia matrix.
+    /// Recognises the recursion in the machine code of forward dynamics, with that of the inertia
+    /// matrix.
     ///
     /// # Errors
     /// [`Error::Factors`] of what is not that of the recursion.
@@ -364,7 +365,7 @@ fn pushed(graph: &mut Graph, node: Node) -> usize {
     graph.nodes.len() - 1
 }
 
-/// Where a bias is.
+/// The place of a bias in the expression, if there is one, and its sign.
 enum Bias {
     None,
     At(usize),

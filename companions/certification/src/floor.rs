@@ -24,14 +24,14 @@ use crate::peel;
 use crate::positive::{Matrix, not_positive};
 use crate::taylor::{SLOPES, Taylor};
 
-/// What was proven of the least eigenvalue.
+/// The proven lower bound of the least eigenvalue.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Floor {
     /// It is above this everywhere, kg·m² (of joints that slide, kg).
     pub floor: f64,
     /// The least that was found.
     pub least: f64,
-    /// The position of it.
+    /// The position that has it.
     pub q: Vec<f64>,
     /// The parts of the box that the proof took.
     pub parts: usize,
@@ -200,7 +200,7 @@ struct Enclosure {
     centre: Matrix,
     slopes: Vec<(usize, Matrix)>,
     rest: Matrix,
-    /// One by s.
+    /// The roots of the centre's diagonal entries, which set the scale of each coordinate.
     scale: Vec<f64>,
 }
 

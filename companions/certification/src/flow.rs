@@ -1,4 +1,5 @@
-//! Where the instructions of a function go on, and where the ways of a branch meet again.
+//! The successors of the instructions of a function, and the places where the ways of a branch meet
+//! again.
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -21,7 +22,7 @@ pub struct Fetched {
     pub condition: Option<Condition>,
 }
 
-/// Where an instruction may go on.
+/// A way in which execution may go on after an instruction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Way {
     Next,
@@ -95,7 +96,7 @@ impl Fetched {
                 };
                 let entry = if bytes == 1 { entry & 0xff } else { entry };
                 let target = self.next() + 2 * u32::from(entry);
-                // What leads out of the function is padding.
+                // An entry that leads out of the function is padding.
                 if function.is_some_and(|(start, size)| target.wrapping_sub(start) >= size) {
                     break;
                 }
@@ -154,7 +155,7 @@ impl Fetched {
 #[derive(Debug)]
 pub struct Flow {
     pub code: BTreeMap<u32, Fetched>,
-    /// Where all ways of an instruction meet again, if that is inside.
+    /// The place where all ways of an instruction meet again, if that is inside.
     meets: HashMap<u32, u32>,
 }
 

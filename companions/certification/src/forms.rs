@@ -18,11 +18,11 @@ pub type Sum = Vec<(usize, f64)>;
 /// c a + s b of one joint.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Rotation {
-    /// The joint.
+    /// The joint whose angle rotates.
     pub joint: usize,
-    /// What the cosine multiplies.
+    /// The sum a, which the cosine multiplies.
     pub cosine: Sum,
-    /// What the sine multiplies.
+    /// The sum b, which the sine multiplies.
     pub sine: Sum,
 }
 
@@ -33,12 +33,12 @@ pub struct Form {
     pub plain: Sum,
     /// Sums that a value multiplies.
     pub scaled: Vec<(usize, Sum)>,
-    /// Rotations.
+    /// The terms that are rotations by a joint's angle.
     pub rotations: Vec<Rotation>,
     /// The nodes whose rounding errors the sum has beside these.
     pub errors: Sum,
-    /// Of adjoints, those of quotients, roots and absolute values, and of which operand: the first
-    /// or the second.
+    /// For adjoints: the nodes that are quotients, roots or absolute values, and which operand is
+    /// meant, the first or the second.
     pub steep: Vec<(usize, usize)>,
 }
 
@@ -123,7 +123,7 @@ pub fn of_adjoints(graph: &Graph, leaves: &[Option<Leaf>]) -> Vec<Form> {
     let mut steep: Vec<Vec<(usize, usize)>> = vec![Vec::new(); graph.nodes.len()];
     for k in (0..graph.nodes.len()).rev() {
         let pass = |terms: &mut Vec<Terms>, to: usize, factor: f64| {
-            // What is short is passed on term by term, so that what cancels does.
+            // Short sums are passed on term by term, so that terms which cancel do so here too.
             let is_long = terms[k].len() + terms[to].len() > LONGEST;
             let passed = if terms[k].is_empty() || !steep[k].is_empty() || is_long {
                 Terms::from([((None, k), 1.0)])

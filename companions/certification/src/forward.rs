@@ -43,27 +43,27 @@ const UNIT: f64 = 1.0 / (1 << 24) as f64;
 /// A bound of the sum of all errors of subnormal numbers, for robots whose inertias are at most
 /// [`HEAVIEST`].
 const TINY: f64 = 1e-30;
-/// kg·m²
+/// The greatest inertia for which [`TINY`] holds, kg·m².
 const HEAVIEST: f64 = 1e6;
 /// A factor that exceeds the relative errors of the sums in this file, which are in f64.
 const UP: f64 = 1.0 + 1e-12;
 
 type Matrix = Vec<Vec<f64>>;
 
-/// What is proven of forward dynamics.
+/// The proven errors of forward dynamics.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Forward {
     /// β: of the bias of each joint, N·m or N.
     pub bias: Vec<f64>,
     /// μ: of the inertia matrix, kg·m², kg·m or kg.
     pub matrix: Matrix,
-    /// m of each entry.
+    /// The count m of roundings, for each entry.
     pub roundings: Vec<Vec<u32>>,
     /// The squares of S: the greatest h of each joint.
     pub scales: Vec<f64>,
-    /// ε
+    /// The norm ε = ‖S⁻¹ Φ S⁻¹‖₂ above.
     pub epsilon: f64,
-    /// β_S
+    /// The norm β_S = ‖S⁻¹ β‖₂ above.
     pub beta: f64,
     /// The floor of the least eigenvalue of S⁻¹ M S⁻¹, which is 1/ρ.
     pub floor: Floor,
@@ -72,12 +72,12 @@ pub struct Forward {
     pub is_total: bool,
     /// The states that were tried.
     pub states: usize,
-    /// Of each joint, the greatest error of its acceleration as a share of the bound at the same
+    /// For each joint, the greatest error of its acceleration as a share of the bound at the same
     /// state; then that of the norm.
     pub shares: Vec<Observed>,
     /// The same states, for a computation in more digits.
     pub worst: Vec<Worst>,
-    /// What that computation is about.
+    /// The bodies of the robot, for that computation.
     pub bodies: Vec<Body>,
 }
 
@@ -92,21 +92,21 @@ pub struct Worst {
     pub tau: Vec<f64>,
     /// Accelerations of the machine code, rad/s² or m/s².
     pub computed: Vec<f64>,
-    /// Their errors by f64.
+    /// Their errors, computed in f64.
     pub errors: Vec<f64>,
-    /// What the error of this joint, or of the norm, is as a share of its bound.
+    /// The error of this joint, or of the norm, as a share of its bound.
     pub share: f64,
 }
 
-/// γ_m
+/// The number γ_m = m u / (1 − m u) of a count m of roundings, for the unit roundoff u.
 fn gamma(roundings: u32) -> f64 {
     let sum = f64::from(roundings) * UNIT;
     sum / (1.0 - sum) * UP
 }
 
 impl Forward {
-    /// Of the bounds of what [`Factored::graph`] has as results, with sines of these errors, for a
-    /// robot of these bodies. The floor is proven by at most so many parts.
+    /// Derives the errors from the bounds of the results of [`Factored::graph`], for sines of these
+    /// errors and a robot of these bodies. The floor is proven by at most so many parts.
     ///
     /// # Errors
     /// [`Error::Factors`] of inertias beyond what f32 is taken for, [`Error::Floor`].
@@ -163,7 +163,7 @@ impl Forward {
         diagonal.iter().map(size).collect()
     }
 
-    /// Φ
+    /// The matrix Φ of the backward error, from the sizes of the scaled entries.
     fn backward(&self, sizes: &[f64]) -> Matrix {
         let entry = |i: usize, j: usize| {
             self.matrix[i][j] + gamma(self.roundings[i][j]) * (sizes[i] * sizes[j]).sqrt() + TINY
@@ -220,7 +220,7 @@ impl Forward {
         Ok(())
     }
 
-    /// Of each joint the error as a share of its bound, and the same of the norm; zero where
+    /// For each joint, the error as a share of its bound, and the same of the norm; zero where
     /// nothing is proven.
     fn shares_of(&self, trial: &Trial) -> Vec<f64> {
         let rho = self.inverse_norm(&trial.inverse);
@@ -267,7 +267,7 @@ pub fn greatest_over(graph: &Graph, node: usize, robot: &Robot, sines: SineError
     }
 }
 
-/// What a state has, exact but for the roundings of f64.
+/// The quantities of a state, exact but for the roundings of f64.
 struct Trial {
     matrix: Matrix,
     inverse: Matrix,

@@ -72,7 +72,7 @@ impl Function {
         matches!(self, Self::Crba | Self::CoreCrba)
     }
 
-    /// Of forward dynamics, the function whose matrix it factors, and the order of its sums.
+    /// For forward dynamics, the function whose matrix it factors, and the order of its sums.
     pub fn matrix(self) -> Option<(Self, Order)> {
         match self {
             Self::ForwardDynamics => Some((Self::Crba, Order::Outward)),

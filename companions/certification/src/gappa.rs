@@ -6,8 +6,8 @@
 //! adjoints keep: that errors cancel. So the script is a chain of small statements: for each
 //! instruction the range of its result and the size of its rounding error, for each value the range
 //! of its adjoint, and at last the sum. Each takes the ranges of what it uses as given, and is
-//! given by those before it. What is left to trust is the mean value theorem that joins them, and
-//! that the instructions are those of the program.
+//! given by those before it. Two things are left to trust: the mean value theorem that joins the
+//! statements, and that the instructions are those of the program.
 
 use std::collections::BTreeSet;
 use std::io::Write as _;
@@ -41,7 +41,7 @@ pub struct Script {
     /// The ranges that are given: inputs and literals by what they are, results by the statements
     /// before.
     pub given: Vec<String>,
-    /// What is to be proven.
+    /// The statements that are to be proven.
     pub proven: Vec<String>,
 }
 
@@ -175,7 +175,7 @@ impl Script {
     }
 }
 
-/// Statements of a script.
+/// The number of statements in a script.
 const BLOCK: usize = 40;
 
 fn is_accepted(text: &str) -> Result<bool> {
@@ -190,7 +190,7 @@ pub fn proof(text: &str) -> Result<Option<String>> {
     run(&["-Bcoq"], text)
 }
 
-/// What Gappa prints of a text that it accepts.
+/// The output of Gappa for a text that it accepts.
 fn run(options: &[&str], text: &str) -> Result<Option<String>> {
     let mut gappa = Command::new("gappa")
         .args(options)
@@ -226,7 +226,7 @@ pub fn is_checked_by_coq(proof: &str) -> Result<bool> {
 /// A proof for Coq in which the greatest rounding error of one operation is said to be half of what
 /// it is.
 pub fn corrupted(proof: &str) -> Option<String> {
-    // Of a statement BND(round(a op b) - (a op b), interval), the interval's name and then its
+    // The statement is BND(round(a op b) - (a op b), interval): first the interval's name, then its
     // ends.
     let statement = proof.lines().find(|line| {
         line.starts_with("Notation") && line.contains("BND(float<") && line.contains(" - ")

@@ -1,6 +1,6 @@
 //! The expression that machine code evaluates: one node an operation, in the order of execution.
 
-/// A function's input.
+/// An input of a function: a number in memory that an argument points to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Input {
     /// The number of the argument's register.
@@ -12,7 +12,7 @@ pub struct Input {
 /// An operation on nodes before it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Node {
-    /// A function's input.
+    /// An input of the function, which the caller passes.
     Input(Input),
     /// A constant of the code.
     Literal(f32),
@@ -38,14 +38,14 @@ pub enum Node {
 /// y + y (½ − ½ x y²) from there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Guess {
-    /// The magic number.
+    /// The constant from which half of the bits are subtracted.
     pub magic: u32,
-    /// The steps.
+    /// The number of Newton's steps.
     pub steps: u8,
 }
 
 impl Guess {
-    /// What the code computes.
+    /// The reciprocal root of `x` as the code computes it.
     pub fn inverse_root(self, x: f32) -> f32 {
         let mut y = f32::from_bits(self.magic.wrapping_sub(x.to_bits() >> 1));
         let half = 0.5 * x;
@@ -83,7 +83,7 @@ pub struct Graph {
     pub outputs: Vec<(u32, usize)>,
 }
 
-/// What evaluates a graph: f32 as the target does, f64 as its reference.
+/// A kind of number in which a graph is evaluated: f32 as the target does, f64 as its reference.
 pub trait Number: Copy + std::ops::Neg<Output = Self> {
     /// The number of a literal.
     fn of(literal: f32) -> Self;

@@ -19,9 +19,9 @@
 
 //!
 //! A quotient or a root is no polynomial in the angles that its divisor or operand depends on, and
-//! neither is the position of a joint that slides. Of those coordinates the box is split into
-//! parts, over each of which a coefficient is a number within a radius; over the other angles it
-//! stays the same polynomial. The identity has a term of second order for a quotient too, and
+//! neither is the position of a joint that slides. The box is split into parts along those
+//! coordinates, and over each part a coefficient is a number within a radius; over the other angles
+//! it stays the same polynomial. The identity has a term of second order for a quotient too, and
 //! Lagrange's remainder for a root.
 
 mod classes;
@@ -42,18 +42,18 @@ use crate::state_box::{Leaf, Robot};
 /// A product of at most two speeds and accelerations, the lesser number first, from one; zero
 /// stands for one.
 type Monomial = (u8, u8);
-/// Where a coefficient is, and whether it is negated there.
+/// The place of a coefficient, and whether it is negated there.
 type Place = (u32, bool);
 type Polynomial = BTreeMap<Monomial, Place>;
 
-/// What a step computes.
+/// The operation of a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Kind {
-    /// What is there, or nothing at first, plus or minus the product of both operands.
+    /// The present value, or nothing at first, plus or minus the product of both operands.
     Product { is_first: bool, is_minus: bool },
     /// The reciprocal of the first operand.
     Reciprocal,
-    /// The root of it.
+    /// The root of the first operand.
     Root,
 }
 
@@ -77,7 +77,7 @@ pub struct Program {
     coordinates: Vec<[Option<u32>; 3]>,
     /// The joints whose range is split into parts: those with a grid are the others.
     parted: Vec<bool>,
-    /// Of a quotient or root, where the reciprocal is of its divisor, or of the root.
+    /// For a quotient or root, the place of the reciprocal of its divisor, or of the root.
     inverses: Vec<Option<u32>>,
     places: u32,
     /// The steps of the values, before those of the adjoints.
@@ -331,8 +331,8 @@ fn times(m: Monomial, n: Monomial) -> Option<Monomial> {
 }
 
 impl Program {
-    /// Of a graph of one output; `None` if it is no such polynomial: of a higher degree in speeds,
-    /// of a quotient by speeds or a root of them, of an absolute value.
+    /// Translates a graph of one output; `None` if it is no such polynomial, since it has a higher
+    /// degree in speeds, a quotient by speeds, a root of them, or an absolute value.
     pub fn new(graph: &Graph, robot: &Robot) -> Option<Self> {
         let n = robot.joints.len();
         let whole = robot.whole();

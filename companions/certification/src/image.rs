@@ -5,14 +5,14 @@ use sha2::{Digest, Sha256};
 
 use crate::error::{Error, Result};
 
-/// What of a program lies in flash, and its symbols.
+/// The parts of a program that lie in flash, and its symbols.
 #[derive(Clone, Debug, Default)]
 pub struct Image {
     /// First address and bytes of each section.
     sections: Vec<(u32, Vec<u8>)>,
     /// Name, address and size, sorted by address.
     symbols: Vec<(String, u32, u32)>,
-    /// Where code begins behind data, sorted: the symbols `$t` of the ARM ABI.
+    /// The addresses where code begins behind data, sorted: the symbols `$t` of the ARM ABI.
     code: Vec<u32>,
 }
 
@@ -87,7 +87,7 @@ impl Image {
         here.map(|symbol| &*symbol.0)
     }
 
-    /// Where the data at an address ends, if the program says it.
+    /// The address at which the data at an address ends, if the program says it.
     pub fn code_after(&self, data: u32) -> Option<u32> {
         let after = self.code.partition_point(|at| *at <= data);
         self.code.get(after).copied()
@@ -104,7 +104,7 @@ impl Image {
             let Some((part, after)) = rest[end..].split_at_checked(length) else {
                 break;
             };
-            // Of a type the name, without its path and parameters.
+            // A type is shown by its name, without its path and parameters.
             let part = part.trim_start_matches("_$LT$").trim_start_matches("impl$u20$");
             let part = part.split('$').next().unwrap_or_default();
             parts.push(part.rsplit("..").next().unwrap_or_default());

@@ -5,9 +5,9 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 /// All real numbers from one to another.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Interval {
-    /// The least one.
+    /// The least number of the interval.
     pub low: f64,
-    /// The greatest one.
+    /// The greatest number of the interval.
     pub high: f64,
 }
 
@@ -31,7 +31,7 @@ impl Interval {
         Self { low, high }
     }
 
-    /// One number.
+    /// The interval of a single number.
     #[inline]
     pub const fn point(x: f64) -> Self {
         Self::new(x, x)
@@ -43,7 +43,7 @@ impl Interval {
         self.low.abs().max(self.high.abs())
     }
 
-    /// Its width.
+    /// The width of the interval.
     #[inline]
     pub fn width(self) -> f64 {
         self.high - self.low
@@ -67,20 +67,20 @@ impl Interval {
         self.low <= other.low && other.high <= self.high
     }
 
-    /// What lies in both; each holds the number in question, so that they meet.
+    /// The intersection of two intervals; both hold the number in question, so that they meet.
     #[inline]
     pub fn and(self, other: Self) -> Self {
         Self::new(self.low.max(other.low), self.high.min(other.high))
     }
 
-    /// x times a number
+    /// The product of the interval and a number.
     #[inline]
     pub fn times(self, factor: f64) -> Self {
         let (a, b) = (self.low * factor, self.high * factor);
         Self::new(down(a.min(b)), up(a.max(b)))
     }
 
-    /// x²
+    /// The range of x².
     #[inline]
     pub fn square(self) -> Self {
         if self.is_zero() {
@@ -93,7 +93,7 @@ impl Interval {
 }
 
 impl Interval {
-    /// |x|
+    /// The range of |x|.
     #[inline]
     pub fn abs(self) -> Self {
         Self::new(self.low.max(-self.high).max(0.0), self.magnitude())

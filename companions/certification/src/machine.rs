@@ -12,7 +12,7 @@ use crate::flags;
 use crate::image::Image;
 use crate::words::{Names, STACK, Word, number};
 
-/// What is known to lie at an address.
+/// The word that is known to lie at an address.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Kept {
     word: Word,
@@ -21,12 +21,12 @@ struct Kept {
     is_saved: bool,
 }
 
-/// What is known of the processor, and the cycles so far for each state of the pipeline.
+/// The knowledge of the processor's state, and the cycles so far for each state of the pipeline.
 #[derive(Clone, Debug)]
 pub struct Machine {
     core: [Word; 15],
     real: [Word; 32],
-    /// Negative, zero, carry, overflow.
+    /// The flags negative, zero, carry and overflow, each if it is known.
     flags: [Option<bool>; 4],
     memory: HashMap<Word, Kept>,
     /// Whether an address of the stack was stored, so that a word from memory that is not known can
@@ -138,7 +138,7 @@ impl Machine {
         self.memory.insert(at, kept);
     }
 
-    /// What lies in memory that is not known.
+    /// A name for a word of memory that is not known.
     fn unknown(&self, names: &mut Names) -> Word {
         if self.is_exposed { names.any() } else { names.fresh() }
     }
@@ -276,7 +276,7 @@ impl Machine {
         if a.has_name_of(b) {
             let (x, y) = (a.offset, b.offset);
             if sets {
-                // What lies in memory does not reach around its end.
+                // No object in memory wraps around the end of the address space.
                 let carry = a.aligned(3).map(|_| x as i32 >= y as i32);
                 self.flags = [None, Some(x == y), carry, None];
             }

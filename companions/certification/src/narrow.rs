@@ -10,7 +10,7 @@ use crate::state_box::{Kind, Robot};
 /// A narrower range of one joint.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Narrow {
-    /// As it was written.
+    /// The option as the user wrote it.
     option: String,
     joint: usize,
     kind: Kind,
@@ -62,7 +62,7 @@ impl FromStr for Narrow {
 }
 
 impl Narrow {
-    /// Narrows a robot's box.
+    /// Narrows the box of a robot.
     ///
     /// # Errors
     /// [`NarrowError`], with the option and the joint.

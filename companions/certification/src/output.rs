@@ -5,14 +5,14 @@ use serde::{Deserialize, Serialize};
 use crate::bound::Bound;
 use crate::interval::Interval;
 
-/// What holds of one output.
+/// The proven bound of one output, and the errors that were found.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Output {
     /// Joint or entry of the matrix, from 1.
     pub name: String,
     /// The proven bound of its error.
     pub bound: f64,
-    /// What the bound is made of.
+    /// The parts of which the bound is the sum.
     pub of: Bound,
     /// The worst error that the search found.
     pub observed: f64,
@@ -26,7 +26,7 @@ pub struct Output {
     pub proof: Proof,
 }
 
-/// How a bound was proven; both are tried.
+/// The method by which a bound was proven; both are tried.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Proof {
@@ -47,7 +47,7 @@ impl Proof {
 }
 
 impl Output {
-    /// How many times the observed error the bound is.
+    /// The bound as a multiple of the observed error.
     pub fn ratio(&self) -> f64 {
         self.bound / self.observed
     }

@@ -1,4 +1,4 @@
-//! Certificates as a page.
+//! The page that prints the certificates.
 
 use std::fmt::Write as _;
 
@@ -30,14 +30,14 @@ pub fn worst_states(certificates: &[Certificate]) -> Result<String> {
     serde_json::to_string(&all).map_err(|e| Error::Robot(e.to_string()))
 }
 
-/// What is recorded of them.
+/// The record of forward dynamics, for a computation in more digits.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct RecordedForward {
-    /// The robot.
+    /// The name of the robot.
     pub robot: String,
-    /// The function.
+    /// The function of forward dynamics.
     pub function: Function,
-    /// The robot's bodies.
+    /// The bodies of the robot.
     pub bodies: Vec<Body>,
     /// For each joint the state of its greatest error as a share of the bound, then that of the
     /// norm.
@@ -47,7 +47,7 @@ pub struct RecordedForward {
     pub exact: Vec<Vec<f64>>,
 }
 
-/// How the target's code is compiled.
+/// The flags and the profile with which the target's code is compiled.
 const CONFIG: &str = include_str!("../../../.cargo/config.toml");
 const WORKSPACE: &str = include_str!("../Cargo.toml");
 const ASSUMED: &str = "### What is assumed
@@ -137,7 +137,7 @@ fn table(one: &Certificate) -> String {
     text + "\n"
 }
 
-/// What is proven of forward dynamics, joint by joint, and of all joints together.
+/// The proven errors of forward dynamics, joint by joint, and of all joints together.
 fn accelerations(one: &Certificate, forward: &Forward) -> String {
     let n = forward.bias.len();
     let mut text = "| joint | bias b: proven error β, N·m or N | worst observed | M_ii: proven error μ, kg·m² or kg | worst observed | greatest h | roundings m of \

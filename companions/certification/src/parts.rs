@@ -7,11 +7,11 @@ use crate::interval::Interval;
 /// A part and the bound over it, by which it is ordered.
 #[derive(Clone, Debug)]
 pub struct Part {
-    /// The bound.
+    /// The bound over the part.
     pub bound: f64,
     /// The ranges of the joints' positions.
     pub positions: Vec<Interval>,
-    /// The coordinate to split.
+    /// The coordinate along which it is split next.
     pub axis: Option<usize>,
 }
 
@@ -59,7 +59,7 @@ pub(crate) fn somewhere(positions: &[Interval]) -> Vec<Interval> {
     small.collect()
 }
 
-/// Of a coordinate wider than that the slope says little.
+/// The slope along a coordinate wider than this says little about the range.
 pub(crate) const WIDE: f64 = 1.6;
 
 /// The widest of these coordinates, if it is wider than that.

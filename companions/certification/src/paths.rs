@@ -93,7 +93,7 @@ pub(crate) fn decisive(bounder: &mut Bounder, part: &[Interval]) -> Option<usize
         bounder.bound(&states);
         let Interval { low: least, high: most } = bounder.range();
         let width = if bounder.is_finite() { most - least } else { f64::INFINITY };
-        // Of coordinates that say as little, the widest.
+        // Among coordinates that leave the range infinite, the widest is taken.
         let key = if width.is_finite() { width } else { 1e300 / (1.0 + high - low) };
         if low < high && best.is_none_or(|(least, _)| key < least) {
             best = Some((key, axis));

@@ -121,7 +121,7 @@ pub fn own(bodies: &[Body]) -> f64 {
     })
 }
 
-/// What is left for the last joint if the others keep a share, rounded down.
+/// The lower bound that is left for the last joint if the others keep a share, rounded down.
 pub fn least(own: f64, coupling: f64, share: f64) -> f64 {
     own / (1.0 + coupling * coupling / ((1.0 - share) * own)) * (1.0 - 1e-12)
 }

@@ -5,7 +5,7 @@
 pub(crate) type Matrix = Vec<Vec<f64>>;
 
 /// A direction in which a symmetric matrix, of which the lower triangle is given, may not be
-/// positive; none if it is positive definite. What the matrix was is lost.
+/// positive; none if it is positive definite. The matrix is overwritten.
 pub(crate) fn not_positive(matrix: &mut Matrix) -> Option<Vec<f64>> {
     let n = matrix.len();
     let trace: f64 = (0..n).map(|i| matrix[i][i].abs()).sum();

@@ -8,8 +8,8 @@ use robot_import::import;
 use crate::error::{Error, Result};
 use crate::function::Function;
 
-/// The robots of the library of which `docs/certificates.md` has certificates, and what the
-/// firmware includes for each.
+/// The robots of the library of which `companions/certification/certificates.md` has certificates,
+/// and the source that the firmware includes for each.
 pub const LIBRARY: [(&str, &str); 5] = [
     ("ur5e", include_str!("../firmware/robots/ur5e.rs")),
     ("panda", include_str!("../firmware/robots/panda.rs")),
@@ -27,11 +27,11 @@ const PACKAGE: &str = "certified";
 /// A robot's name and its program.
 #[derive(Clone, Debug)]
 pub struct Program {
-    /// The robot's name.
+    /// The name of the robot.
     pub robot: String,
-    /// The program.
+    /// The program as an ELF file.
     pub elf: Vec<u8>,
-    /// The compiler.
+    /// The version of the compiler.
     pub rustc: String,
 }
 
@@ -153,7 +153,7 @@ fn of_description(
     Ok((imported.name, text))
 }
 
-/// Writes a file.
+/// Writes a text to a file.
 ///
 /// # Errors
 /// [`Error::File`].
@@ -161,7 +161,7 @@ pub fn write(path: &Path, text: &str) -> Result<()> {
     std::fs::write(path, text).map_err(|source| Error::File { path: path.to_owned(), source })
 }
 
-/// What a command prints.
+/// The output that a command prints.
 pub(crate) fn capture(command: &mut Command) -> Result<String> {
     let program = command.get_program().to_string_lossy().into_owned();
     let failed = |said: String| Error::Program { program: program.clone(), said };

@@ -27,7 +27,7 @@ pub fn relative_error(guess: Guess) -> f64 {
             (y * f64::from(x).sqrt() - 1.0).abs()
         };
         let numbers = 1.0_f32.to_bits()..4.0_f32.to_bits();
-        // Of a NaN, nothing is proven.
+        // The comparison fails for a NaN, which is therefore not passed over.
         let worst = numbers.map(of).fold(0.0, |a: f64, b| if b <= a { a } else { b });
         let error = worst + REFERENCE;
         if let Ok(mut all) = KNOWN.lock() {
@@ -46,7 +46,7 @@ pub fn join_steps(graph: &mut Graph) {
     }
 }
 
-/// What y + y (½ − (½ x) y y) is, if node k is that of a known y.
+/// The reciprocal root y + y (½ − (½ x) y y), if node k is such a step from a known y.
 fn step(nodes: &[Node], k: usize) -> Option<Node> {
     let half = |k: usize| nodes[k] == Node::Literal(0.5);
     // The other operand of a product or sum that one fulfils a condition.

@@ -12,14 +12,14 @@ use crate::graph::{Graph, Input};
 use crate::sines;
 use crate::state_box::{Leaf, Robot};
 
-/// How far a search goes.
+/// The effort of a search, in states.
 #[derive(Clone, Copy, Debug)]
 pub struct Effort {
-    /// States drawn at random.
+    /// The number of states drawn at random.
     pub random: usize,
-    /// Generations of each output.
+    /// The number of generations for each output.
     pub generations: usize,
-    /// States of a generation.
+    /// The number of states of a generation.
     pub children: usize,
 }
 
@@ -33,7 +33,7 @@ impl Effort {
 /// The worst error of one output that was found, and where.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Observed {
-    /// |f32 − exact|
+    /// The error |f32 − exact|.
     pub error: f64,
     /// q, q̇, q̈ of it, numbers of f32.
     pub state: Vec<f64>,

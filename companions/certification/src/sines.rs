@@ -43,7 +43,7 @@ pub struct Kernel {
 }
 
 impl Kernel {
-    /// The library's own.
+    /// The library's own kernels of sines.
     pub const NATIVE: Self = Self { near: trig::sin_cos_near, far: trig::sin_cos };
 
     /// The kernel that a type is.

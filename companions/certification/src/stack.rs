@@ -17,7 +17,7 @@ use crate::image::Image;
 /// pointer is no multiple of eight (ARM DDI 0403E, B1.5.6 and B1.5.7).
 pub const INTERRUPT_FRAME: u64 = 4 * 26 + 4;
 
-/// What is known of the core registers, relative to the stack pointer at the start.
+/// The known values of the core registers, relative to the stack pointer at the start.
 type Known = [Option<i32>; 15];
 
 /// The most bytes below the stack pointer that a call of the function at an address takes, with all
@@ -69,7 +69,7 @@ impl Walk<'_> {
             deepest = deepest.max(here);
             for way in self.ways(one)? {
                 match way {
-                    // What its condition leaves out, it does not do.
+                    // If its condition fails, the instruction is skipped and changes nothing.
                     Way::Next if one.condition.is_some() && one.insn.may_branch => {
                         open.push((one.next(), state));
                     }
@@ -104,7 +104,7 @@ impl Walk<'_> {
     }
 }
 
-/// What is true on both ways.
+/// The knowledge that holds on both ways.
 fn both(a: &Known, b: &Known) -> Known {
     std::array::from_fn(|register| a[register].filter(|_| a[register] == b[register]))
 }

@@ -9,14 +9,14 @@ use crate::graph::Input;
 use crate::image::Image;
 use crate::interval::Interval;
 
-/// What a coordinate of the box is.
+/// The kind of a coordinate of the box.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Kind {
-    /// q, rad or m
+    /// A position q, rad or m.
     Position,
-    /// q̇, rad/s or m/s
+    /// A velocity q̇, rad/s or m/s.
     Velocity,
-    /// q̈, rad/s² or m/s²
+    /// An acceleration q̈, rad/s² or m/s².
     Acceleration,
 }
 
@@ -27,16 +27,16 @@ pub enum Leaf {
     Sine(usize),
     /// cos q of a joint
     Cosine(usize),
-    /// The coordinate itself.
+    /// The coordinate of this number.
     Axis(usize),
 }
 
-/// A joint's ranges.
+/// The ranges of a joint's position, speed and acceleration.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Joint {
     /// Whether its position is an angle.
     pub turns: bool,
-    /// q, rad or m
+    /// The range of q, rad or m.
     pub position: Interval,
     /// The greatest |q̇|, rad/s or m/s
     pub speed: f64,
@@ -90,7 +90,7 @@ impl Robot {
         Ok(Self { joints: joints.collect::<Result<_>>()?, trig })
     }
 
-    /// The whole box: q, then q̇, then q̈ of each joint. Of an angle a turn stands for all.
+    /// The whole box: q, then q̇, then q̈ of each joint. One turn of an angle stands for all.
     pub fn whole(&self) -> Vec<Interval> {
         let q = self.joints.iter().map(|joint| {
             let is_turn = joint.turns && joint.position.high - joint.position.low >= 2.0 * PI;
@@ -102,7 +102,7 @@ impl Robot {
         q.chain(qd).chain(qdd).collect()
     }
 
-    /// What an input is.
+    /// The coordinate, sine or cosine that an input is.
     pub fn leaf(&self, input: Input) -> Option<Leaf> {
         let n = self.joints.len();
         let [stride, sine, cosine, position] = self.trig;
@@ -130,7 +130,7 @@ impl Robot {
         }
     }
 
-    /// A coordinate's name.
+    /// The kind of a coordinate, and the number of its joint.
     pub fn axis(&self, axis: usize) -> (Kind, usize) {
         let n = self.joints.len();
         let kinds = [Kind::Position, Kind::Velocity, Kind::Acceleration];

@@ -13,7 +13,7 @@ use crate::search::Evaluation;
 use crate::stack::{self, INTERRUPT_FRAME};
 use crate::state_box::Robot;
 
-/// What a call of a function takes on the target.
+/// The cycles and the stack of a call of a function on the target.
 #[derive(Clone, Debug, Serialize)]
 pub struct Target {
     /// The fewest and the most cycles of the calls in QEMU, or why there were none.
@@ -43,8 +43,9 @@ fn untagged<T: Serialize, E: Serialize, S: Serializer>(
 }
 
 impl Target {
-    /// Of a function of a program that was run, or was not for a reason. The calls must take what
-    /// the machine code says, and results must have the bits that the host computes.
+    /// Measures a function of a program that was run, or that was not run for the given reason. The
+    /// calls must take what the machine code says, and results must have the bits that the host
+    /// computes.
     ///
     /// # Errors
     /// [`Error::Cycles`], [`Error::Bits`], [`Error::Missing`].
@@ -98,7 +99,7 @@ impl Target {
         Ok(())
     }
 
-    /// In a sentence.
+    /// The bound and the measured cycles as a sentence.
     pub fn sentence(&self) -> String {
         let states = self.states;
         let measured = match &self.measured {

@@ -3,8 +3,8 @@
 //!
 //! With each coordinate of the part as d ∈ [−1, 1], a number is c + Σ g_k d_k + e with |e| ≤ r: a
 //! Taylor model of first order (Makino & Berz, International Journal of Pure and Applied
-//! Mathematics 4, 2003). What intervals forget, that two numbers grow together, the slopes keep;
-//! the remainder falls with the square of the part's width. Roundings of f64 are in the remainder.
+//! Mathematics 4, 2003). Slopes keep what intervals forget, that two numbers grow together; the
+//! remainder falls with the square of the part's width. Roundings of f64 are in the remainder.
 
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -18,17 +18,17 @@ pub const SLOPES: usize = 8;
 pub struct Taylor {
     /// Its value in the middle, up to the remainder.
     pub centre: f64,
-    /// What it gains from the middle to the end of each coordinate.
+    /// The change from the middle to the end of each coordinate.
     pub slopes: [f64; SLOPES],
     /// The most by which it differs from that.
     pub rest: f64,
 }
 
-/// What kinematics is computed with: numbers, or [`Taylor`] models of them.
+/// A scalar of kinematics: a number, or a [`Taylor`] model of one.
 pub trait Scalar:
     Copy + Default + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
 {
-    /// A constant.
+    /// The constant `x` as such a scalar.
     fn of(x: f64) -> Self;
     /// This number times a constant.
     fn times(self, factor: f64) -> Self;
@@ -93,18 +93,18 @@ impl Taylor {
         self.slopes.iter().map(|slope| slope.abs()).sum()
     }
 
-    /// The range of it.
+    /// The interval that encloses its values.
     pub fn range(&self) -> Interval {
         Interval::point(self.centre).widened((self.reach() + self.rest) * UP)
     }
 
-    /// The greatest absolute value.
+    /// The greatest absolute value over the part.
     #[inline]
     pub fn magnitude(&self) -> f64 {
         (self.centre.abs() + self.reach() + self.rest) * UP
     }
 
-    /// x²
+    /// The model of x².
     pub fn square(self) -> Self {
         self * self
     }

@@ -40,7 +40,7 @@ enum Word {
     Bits(u32),
     /// Bits that lie between two others, as those of a positive number do.
     Within(u32, u32),
-    /// A real number.
+    /// The real number of a node.
     Real(usize),
     /// A guess of the reciprocal root of a real number: a magic number less half of its bits.
     Guess(usize, u32),
@@ -53,7 +53,7 @@ pub struct Comparison {
     pub address: u32,
     /// The nodes that are compared.
     pub nodes: [usize; 2],
-    /// How they are ordered at the state zero, and must be at every state of the box.
+    /// The order that they have at the state zero, and must have at every state of the box.
     pub ordering: Ordering,
 }
 
@@ -64,7 +64,7 @@ pub struct Walked {
     pub graph: Graph,
     /// The addresses of the instructions that were executed, sorted.
     pub visited: Vec<u32>,
-    /// Instructions executed.
+    /// The number of instructions that were executed.
     pub executed: usize,
     /// The comparisons on which the way depends.
     pub comparisons: Vec<Comparison>,
@@ -263,7 +263,7 @@ impl Walk<'_> {
                 Ok(())
             }
             I::Constant { d, value } => {
-                // Of one halfword it sets flags.
+                // An encoding of one halfword sets the flags.
                 if self.next == self.here + 2 {
                     [self.flags[0], self.flags[1]] = [value >> 31 != 0, value == 0].map(Some);
                 }

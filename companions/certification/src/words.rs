@@ -55,7 +55,7 @@ impl Word {
         (mask < multiple).then_some(self.offset & mask)
     }
 
-    /// Where it can point.
+    /// The regions of memory that it can point to.
     fn places(self) -> u32 {
         match self.name {
             0 => ELSEWHERE,
@@ -69,7 +69,7 @@ impl Word {
     }
 }
 
-/// Gives names.
+/// The source of names for words whose values are not known.
 #[derive(Debug)]
 pub struct Names {
     last: u32,

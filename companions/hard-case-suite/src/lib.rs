@@ -48,7 +48,7 @@ struct GivenState {
     tau: Vec<f64>,
 }
 
-/// Numbers of 50 digits.
+/// The answers, as numbers of 50 digits.
 #[derive(Clone, Debug, Deserialize)]
 pub struct Answers {
     pub tau: Vec<String>,
@@ -105,7 +105,7 @@ pub struct Shares {
 impl Shares {
     const NONE: Self = Self { rnea: 0.0, crba: 0.0, forward: 0.0, aba: 0.0 };
 
-    /// The largest of all.
+    /// The largest share of all quantities.
     pub fn worst(&self) -> f64 {
         larger(larger(self.rnea, self.crba), larger(self.forward, self.aba))
     }

@@ -30,7 +30,7 @@ fn every_case_of_the_suite_is_within_its_bound() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// UR5e with something changed.
+/// A case of the UR5e with a given change.
 fn changed(change: impl Fn(&mut SuiteCase)) -> SuiteCase {
     let mut cases = all().into_iter();
     let mut case = cases.find(|case| case.name == "payload-none").expect("UR5e");

@@ -17,7 +17,7 @@ const NEAR: f64 = 100.0;
 pub struct Position {
     /// Its column in q, or in y of linkages.
     pub column: usize,
-    /// Its velocity coordinate.
+    /// The velocity coordinate that belongs to it.
     pub coordinate: usize,
     /// The kind of its joint.
     pub kind: JointKind,
@@ -34,30 +34,30 @@ pub enum Use {
     Sines,
     /// It returns them, or what depends on them.
     Numbers,
-    /// It takes their difference.
+    /// It takes the difference of two positions.
     Difference,
     /// It brings them to within half a turn.
     Normalise,
     /// It adds a step to them.
     Integrate,
-    /// They are the steps.
+    /// They are the steps themselves.
     Step,
 }
 
-/// Positions in an argument.
+/// The positions in an argument, and their use.
 #[derive(Clone, Copy)]
 pub struct Positions<'a> {
     /// The use that is made of them.
     pub by: Use,
-    /// Their places.
+    /// The coordinates, by their places.
     pub at: &'a [Position],
 }
 
 /// The treatment of an angle beyond the range.
 enum Beyond {
-    /// It may stay.
+    /// The angle may stay as it is.
     Stays,
-    /// It loses whole turns.
+    /// The angle loses whole turns.
     Turns,
     /// It is refused, for this reason.
     Refused(&'static str),

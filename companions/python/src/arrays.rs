@@ -15,7 +15,7 @@ pub struct Argument<'a, 'py> {
     pub given: &'a Bound<'py, PyAny>,
     pub axes: [usize; 2],
     pub matrix: bool,
-    /// The positions in it.
+    /// The positions in it, if it has any.
     pub positions: Option<Positions<'a>>,
 }
 
@@ -32,7 +32,7 @@ impl Argument<'_, '_> {
         &self.axes[usize::from(!self.matrix)..]
     }
 
-    /// How many numbers a state has.
+    /// The number of numbers that a state has.
     pub fn width(&self) -> usize {
         self.own().iter().product()
     }
@@ -45,7 +45,8 @@ pub enum Dtype {
     Double,
 }
 
-/// That of the arguments: lists have the type of the arrays among them, and f64 if there is none.
+/// The type of the arguments: lists have the type of the arrays among them, and f64 if there is
+/// none.
 pub fn dtype(arguments: &[Argument<'_, '_>]) -> PyResult<Dtype> {
     let mut found = None;
     for argument in arguments {

@@ -7,10 +7,11 @@ use crate::error::Exception;
 const COSTS: &str = include_str!("../../../docs/costs.md");
 const SCENES: &str = include_str!("../../../docs/scenes.md");
 
-/// What one call costs on a modelled Cortex-M4F, zero-wait memory, of 32 random states the slowest.
+/// The cost of one call on a modelled Cortex-M4F with zero-wait memory, the slowest of 32 random
+/// states.
 #[pyclass(frozen, get_all, module = "robot_dynamics", name = "Cost")]
 pub struct Cost {
-    /// Such as "rnea".
+    /// The algorithm's name, such as "rnea".
     algorithm: String,
     /// "core", the textbook form, or "engine", the form that is specialised to the robot.
     form: String,
@@ -18,11 +19,11 @@ pub struct Cost {
     inputs: String,
     /// Whether sines and cosines are computed inside the call.
     trigonometry: bool,
-    /// Instructions, exact.
+    /// The number of instructions, which is exact.
     instructions: u64,
-    /// Cycles, modelled.
+    /// The number of cycles, which is modelled.
     cycles: u64,
-    /// µs at 168 MHz.
+    /// The time at 168 MHz, µs.
     microseconds: f64,
     /// Instructions and literals, bytes.
     code: u64,

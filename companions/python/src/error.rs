@@ -15,19 +15,19 @@ pub struct Exception<'py> {
 }
 
 impl<'py> Exception<'py> {
-    /// Without fields.
+    /// An exception without fields.
     pub fn new(py: Python<'py>, class: &'static str, message: impl Into<String>) -> Self {
         Self { class, message: message.into(), fields: PyDict::new(py) }
     }
 
-    /// With a field more.
+    /// The same exception with a field more.
     pub fn with(self, name: &str, value: impl IntoPyObject<'py>) -> Self {
         // The only failure is that of memory, which leaves the field unset.
         let _ = self.fields.set_item(name, value);
         self
     }
 
-    /// The exception.
+    /// The exception that Python raises.
     pub fn build(self) -> PyErr {
         let py = self.fields.py();
         let built = py

@@ -207,7 +207,7 @@ impl PyFlexibleRobot {
         Ok(Self { robot, modes })
     }
 
-    /// The number of modes.
+    /// The number of modes of the links.
     #[getter]
     fn nm(&self) -> usize {
         self.modes.count

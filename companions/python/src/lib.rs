@@ -24,7 +24,7 @@ fn robots() -> Vec<&'static str> {
     library::ROBOTS.iter().map(|(name, _)| *name).collect()
 }
 
-/// How many threads a batch uses.
+/// The number of threads that a batch uses.
 #[pyfunction]
 fn threads() -> usize {
     robot_dynamics_kernels::job::cores()

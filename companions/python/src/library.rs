@@ -7,9 +7,9 @@ use robot_dynamics_kernels::model::Bodies;
 
 /// A robot of the library.
 pub struct Known {
-    /// Its bodies.
+    /// The bodies of the robot.
     pub bodies: Bodies,
-    /// Their names.
+    /// The names of its bodies.
     pub names: Vec<String>,
     /// The limits of their joints.
     pub limits: Vec<JointLimits<f64>>,
@@ -25,7 +25,7 @@ fn known<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>() ->
     }
 }
 
-/// What builds a robot.
+/// A function that builds a robot.
 type Build = fn() -> Known;
 
 /// Names and robots, in the order of the library's documentation.

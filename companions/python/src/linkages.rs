@@ -118,9 +118,9 @@ functions! {
     /// two ratios.
     Differential(ratios: [f64; 2]), [ratios] => clusters::Differential::new(ratios);
 
-    /// An ankle of pitch and roll that two cranks drive by rods. Of each rod: the joint of its
-    /// crank, the crank's end and the rod's end on the foot, m, its length, m, and whether its root
-    /// is positive.
+    /// An ankle of pitch and roll that two cranks drive by rods. Each rod is given by the joint of
+    /// its crank, the crank's end and the rod's end on the foot, m, its length, m, and whether its
+    /// root is positive.
     ParallelAnkle(rods: [RodNumbers; 2]), [] => clusters::ParallelAnkle::new(rods.map(
         |(joint, crank, foot, length, positive)| Rod {
             joint, crank, foot, length, branch: branch(positive),
@@ -171,7 +171,7 @@ impl PyLinkages {
         argument(name, given, self.linkages.sizes[1])
     }
 
-    /// y as it is.
+    /// An argument y whose angles are used as they are.
     fn of_positions<'a, 'py>(
         &self,
         name: &'static str,

@@ -61,7 +61,7 @@ impl PyLoopJoint {
         Ok(Self { name, joint, bodies, frames })
     }
 
-    /// Its name.
+    /// The name of the loop.
     #[getter]
     fn name(&self) -> &str {
         &self.name
@@ -187,7 +187,7 @@ impl PyLoops {
     fn actuated(&self) -> Vec<usize> {
         self.loops.actuated.clone()
     }
-    /// How many directions the loops constrain.
+    /// The number of directions that the loops constrain.
     #[getter]
     fn nl(&self) -> usize {
         self.loops.rows

@@ -10,7 +10,7 @@ use crate::robot::{Array, Robot};
 
 /// A robot, alone or with loops, linkages or links that bend.
 pub trait Machine {
-    /// The robot.
+    /// The robot without these additions.
     fn robot(&self) -> &Robot;
 
     /// The names of its loops or linkages.

@@ -1,4 +1,4 @@
-//! What a call asks for.
+//! The request of a call.
 
 use robot_dynamics_engines::Scene;
 use robot_dynamics_kernels::Which;
@@ -6,7 +6,7 @@ use robot_dynamics_kernels::spec::Spec;
 
 use crate::arrays::Argument;
 
-/// What computes the rows.
+/// The algorithm or engine that computes the rows.
 #[derive(Clone, Copy)]
 pub enum By<'a> {
     /// An algorithm over the robot's model.

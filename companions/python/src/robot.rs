@@ -1,5 +1,5 @@
-//! A robot as Python sees it: where it comes from, and what it is. What it computes is in the files
-//! of its own folder.
+//! A robot as Python sees it: where it comes from, and what it is. The functions that it computes
+//! are in the files of its own folder.
 
 mod drivetrain;
 mod dynamics;
@@ -53,9 +53,9 @@ use said::Said;
 ///
 /// Angles may have any size. Sines are computed to ±10⁴ rad in float32 and to ±10⁵ rad in float64
 /// (``form="engine"``: ±100 rad in float32 for joints whose limits are within ±4π); of an angle
-/// beyond, whole turns are subtracted in float64 before the call. Where turns matter, AngleError
-/// names joint and state: at joints with a spring, end stops or cogging, in
-/// `elastic_inverse_dynamics` and `Loops.assemble`, which return positions, and in linkages.
+/// beyond, whole turns are subtracted in float64 before the call. AngleError names joint and state
+/// where turns matter: at joints with a spring, end stops or cogging, in `elastic_inverse_dynamics`
+/// and `Loops.assemble`, which return positions, and in linkages.
 ///
 /// A state with a NaN or an infinite number has NaN in its own row of the results; the others of
 /// its batch are computed.
@@ -81,11 +81,11 @@ pub struct Robot {
 #[derive(serde::Serialize, serde::Deserialize)]
 pub struct Read {
     tree: Tree,
-    /// Its loops.
+    /// The loops that the file closes.
     closed: Vec<Closed>,
     /// The coordinates that its motors drive, of a robot with loops.
     actuated: Vec<usize>,
-    /// The importer's words.
+    /// The remarks of the importer.
     said: Said,
 }
 
@@ -196,7 +196,7 @@ impl Robot {
         read.map_or((&[], &[]), |read| (&read.closed, &read.actuated))
     }
 
-    /// Its name, for errors.
+    /// The name of the robot, for errors.
     pub fn label(&self) -> &str {
         &self.name
     }
@@ -274,7 +274,7 @@ impl Robot {
         })
     }
 
-    /// What computes inverse dynamics in a form.
+    /// The way in which a form computes inverse dynamics.
     fn by(
         &self,
         py: Python<'_>,
@@ -355,7 +355,7 @@ impl Robot {
         }
     }
 
-    /// A spatial vector.
+    /// An argument that is a spatial vector.
     fn six<'a, 'py>(&self, name: &'static str, given: &'a Array<'py>) -> Argument<'a, 'py> {
         argument(name, given, 6)
     }
@@ -445,7 +445,7 @@ impl Robot {
         format!("Robot({:?}, {bodies} bodies, nq = {q}, nv = {v})", self.name)
     }
 
-    /// Its name.
+    /// The name of the robot.
     #[getter]
     fn name(&self) -> &str {
         &self.name
@@ -491,7 +491,7 @@ impl Robot {
         self.body(name)
     }
 
-    /// What each algorithm costs on a Cortex-M4F for this robot: the repository's records.
+    /// The cost of each algorithm on a Cortex-M4F for this robot, from the repository's records.
     ///
     /// Raises NotRecorded for a robot without a record, such as one from a file.
     fn costs(&self, py: Python<'_>) -> PyResult<Vec<Cost>> {

@@ -44,7 +44,7 @@ def test_inverse_dynamics_is_pinocchios(pair):
     robot, peer, (q, v, a, _) = pair
 
     def theirs(function, positions, *rates):
-        """Of each state, in our order of coordinates."""
+        """The peer's results for each state, in our order of coordinates."""
         rows = zip(positions, *rates)
         given = [(peer.q(robot, x), *(peer.v(robot, y) for y in more)) for x, *more in rows]
         return np.array([peer.back(robot, function(peer.model, peer.data, *row)) for row in given])
@@ -201,7 +201,7 @@ def test_regressor_times_parameters_is_torque(pair):
     near(robot.regressor_row(q[0], v[0], a[0], robot.nv - 1), y[-1], 1e-11)
     friction = rd.Viscous([0.5] * robot.nv) + rd.Coulomb([2.0] * robot.nv, 0.3)
     near(robot.friction_regressor(v[0], 0.3) @ [0.5, 2.0], robot.rnea(q[0], v[0], a[0], friction))
-    # Of a load only the mass column of its body changes torque: the regressor's first column.
+    # A load changes the torque by the mass column of its body only: the regressor's first column.
     load = robot.rnea(q[0], v[0], a[0], rd.RIGID_BODY + rd.Payload(robot.bodies[-1], 1.0))
     near(load - robot.rnea(q[0], v[0], a[0]), y[:, -1, 0], 1e-10)
 

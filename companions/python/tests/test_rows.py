@@ -90,7 +90,7 @@ def test_machines_mark_their_rows(dtype):
 
 
 def test_a_singular_row_that_is_finite_is_an_error():
-    """What is not of a NaN is a defect of robot or state, and has a joint."""
+    """An error that no NaN causes is a defect of the robot or the state, and is raised."""
     robot, _, (q, v, a, tau), _ = closed("fixed")
     m = np.tile(np.eye(robot.nv), (3, 1, 1))
     m[1] *= -1.0

@@ -26,7 +26,7 @@ pub extern "C" fn compute() -> usize {
     })
 }
 
-/// Where they are.
+/// The address of the lines.
 #[unsafe(no_mangle)]
 pub extern "C" fn lines() -> *const u8 {
     LINES.with_borrow(|lines| lines.as_ptr())

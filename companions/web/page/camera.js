@@ -39,7 +39,7 @@ export class Orbit {
     return [right, cross(right, forward), forward];
   }
 
-  /// Where a point is in a view of this size: x, y in pixels, and its depth.
+  /// The place of a point in a view of this size: x, y in pixels, and its depth.
   project(point, width, height) {
     const from = this.position();
     const d = point.map((x, i) => x - from[i]);

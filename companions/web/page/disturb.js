@@ -8,7 +8,7 @@ const disturb = { key: null, push: null, errors: [], events: [], owed: 0, ticks:
 /// Newtons for each metre that the pointer is away, and the most, as shares of the arm's size.
 const SPRING = 400;
 const STRONGEST = 150;
-/// Ticks that are shown.
+/// The number of ticks that are shown.
 const SHOWN = 4000;
 
 export const open = () => {
@@ -20,7 +20,7 @@ export const open = () => {
   begin(by("scene-robot").value);
 };
 
-/// Starts a scene.
+/// Starts the scene of a robot.
 function begin(key) {
   state.library.call({ op: "start", robot: key });
   Object.assign(disturb, { key, push: null, errors: [], events: [], owed: 0, ticks: 0, worst: 0 });

@@ -25,7 +25,7 @@ void main() {
   gl_FragColor = vec4(colour * (0.45 + 0.25 * sky + 0.45 * light) + gloss, 1.0);
 }`;
 
-/// What OGL's and the browsers' software calls itself: slower than `soft.js`.
+/// The names of the software renderers of OpenGL and the browsers, which are slower than `soft.js`.
 const SOFTWARE = /swiftshader|llvmpipe|softpipe|software|basic render/i;
 
 /// Whether WebGL is there and is no software.
@@ -57,7 +57,7 @@ export class Gl {
     this.aspect = width / height;
   }
 
-  /// Takes a robot.
+  /// Takes the parts of a robot.
   take({ parts }) {
     const { gl } = this.renderer;
     this.root = new ogl.Transform();

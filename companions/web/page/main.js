@@ -41,10 +41,10 @@ function tabs() {
   });
 }
 
-/// What a test reads: the work of each frame, ms, and the moments.
+/// The times that a test reads: the work of each frame, ms, and the moments.
 const times = { work: [], frames: [], firstTorque: null };
 
-/// What a frame does after so many seconds; returns its work, ms.
+/// Draws a frame after so many seconds, and returns its work, ms.
 function step(seconds) {
   const begin = performance.now();
   if (state.tab === "move") frame(seconds);

@@ -179,7 +179,7 @@ function words() {
   by("bars").setAttribute("aria-label", `Torques: ${state.robot.about.joints.map((joint, i) => `${joint.name} ${digits(single[i])}`).join(", ")}. The table below has all numbers.`);
 }
 
-/// A frame.
+/// Draws a frame after so many seconds.
 export function frame(seconds) {
   if (state.swinging) state.clock += Math.min(0.1, seconds);
   const computed = compute();

@@ -1,4 +1,4 @@
-// What is chosen costs, from the recorded figures; what nobody recorded is not estimated here.
+// The costs of the chosen effects, from the recorded figures; nothing else is estimated here.
 import { state } from "./state.js";
 
 /// The rows of docs/costs.md by which of gravity, inertia and velocity products act.
@@ -39,7 +39,7 @@ export function price(on, way) {
   return { cycles, code, added, from };
 }
 
-/// A way in words.
+/// The words that describe a way of computing.
 export function wayInWords(way) {
   const { names } = state.data;
   const words = ["arith", "trig", "model", "form"].map((axis) => {
@@ -52,7 +52,7 @@ export function wayInWords(way) {
   return way.opt === "3" ? text : `${text}, compiled at opt-level ${way.opt}`;
 }
 
-/// What a way gives up, in sentences.
+/// Sentences that say what a way of computing gives up.
 export function wayAbout(way) {
   const { names } = state.data;
   const about = ["arith", "trig", "model", "form"].filter((axis) => !(axis === "trig" && way.axes.trig === "table3"));

@@ -59,7 +59,7 @@ export class Soft {
     this.show();
   }
 
-  /// Where a point is: sample, and 1 / distance.
+  /// The place of a point: its sample, and 1 / distance.
   point(p) {
     const d = minus(p, this.eye);
     const inverse = 1 / dot(d, this.axes[2]);

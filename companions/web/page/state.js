@@ -1,4 +1,4 @@
-// What the page knows: the robot, the motion of its joints, and the effects that are on.
+// The state of the page: the robot, the motion of its joints, and the effects that are on.
 import { by } from "./words.js";
 
 /// The effects in the order of the library, with their words and their Rust.

@@ -6,7 +6,8 @@ import { Shape, palette } from "./shape.js";
 import { Soft } from "./soft.js";
 import { by, colours, element } from "./words.js";
 
-/// How near a pointer has to be to a body, pixels; a finger is wider than a mouse.
+/// The greatest distance from a pointer to a body that it takes hold of, pixels; a finger is wider
+/// than a mouse.
 const NEAR = { mouse: 26, pen: 30, touch: 44 };
 
 /// Frames that take longer than SLOW, ms, on average get fewer pixels, those that take less than QUICK more.

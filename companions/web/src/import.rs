@@ -12,7 +12,7 @@ use robot_import::{estimate, source, write};
 
 use crate::machine::{Friction, Machine, Sized};
 
-/// What a file became.
+/// The robot that a file was imported as.
 pub struct Imported {
     pub machine: Box<dyn Machine>,
     pub name: String,

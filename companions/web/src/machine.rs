@@ -42,14 +42,15 @@ pub struct BodyAbout {
     pub mass: f64,
 }
 
-/// What the page shows of a robot before it moves.
+/// The data of a robot that the page shows before it moves.
 #[derive(Clone, Debug, Serialize)]
 pub struct About {
     pub bodies: Vec<BodyAbout>,
     pub joints: Vec<JointAbout>,
     /// Bodies, position and velocity coordinates.
     pub sizes: [usize; 3],
-    /// How many coordinates of its base or of ball joints have no slider: they stay where they are.
+    /// The number of coordinates of its base or of ball joints that have no slider: they stay where
+    /// they are.
     pub held: usize,
     /// Friction and rotors, where the repository or the file has them.
     pub friction: Option<Friction>,
@@ -65,7 +66,7 @@ pub struct Friction {
     pub width: f64,
 }
 
-/// The effects that act.
+/// The effects that act on a robot.
 #[derive(Clone, Copy, Debug, Default, Deserialize)]
 #[serde(default)]
 pub struct On {
@@ -112,7 +113,7 @@ pub struct Motion {
 pub struct Computed {
     /// The origin of each body and its axes by columns, in the base's frame.
     pub poses: Vec<[f64; 12]>,
-    /// Of each joint with a slider: the torque in f32, and in f64.
+    /// For each joint with a slider, the torque in f32, and in f64.
     pub single: Vec<f64>,
     pub double: Vec<f64>,
     /// The torque of each effect alone, in the order of [`On::NAMES`].
@@ -250,7 +251,7 @@ impl<const B: usize, const Q: usize, const V: usize> Sized<B, Q, V> {
     }
 }
 
-/// A joint without mass.
+/// A robot of one joint without mass.
 struct OneJoint;
 
 impl Robot<1, 1, 1> for OneJoint {

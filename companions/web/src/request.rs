@@ -1,4 +1,4 @@
-//! Requests and their answers.
+//! The requests of the page, and their answers.
 
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
@@ -9,7 +9,7 @@ use crate::scene::{Disturbance, Disturbed, Injected, SCENES};
 use crate::suite::SuiteCase;
 use crate::{accuracy, import, robots, scene, serial};
 
-/// What lasts from request to request.
+/// The state that lasts from request to request.
 #[derive(Default)]
 pub struct Session {
     machine: Option<Box<dyn Machine>>,

@@ -21,7 +21,7 @@ use joint_drivers::{Law, Telemetry};
 use motion_control::{Detectors, Estimate, Fault, Gains, Mode, Reference, StopCategory, feedback};
 use serde::{Deserialize, Serialize};
 
-/// What the page does to an arm.
+/// The disturbances that the page applies to an arm.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(default)]
 pub struct Disturbance {
@@ -37,7 +37,7 @@ pub struct Disturbance {
 /// The most ticks of a call: the page may have been asleep.
 pub const MOST: u32 = 100;
 
-/// What can go wrong.
+/// The faults that the page can cause.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Injected {
@@ -49,14 +49,14 @@ pub enum Injected {
     Nan,
     /// The law asks for a million N·m.
     OverTorque,
-    /// An emergency stop.
+    /// The user presses the emergency stop.
     Stop,
 }
 
 /// An arm as the page shows it.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Shown {
-    /// As in `Computed`.
+    /// The poses of the bodies, as in `Computed`.
     pub poses: Vec<[f32; 12]>,
     pub q: Vec<f32>,
     pub reference: Vec<f32>,
@@ -78,7 +78,7 @@ pub trait Disturbed {
     fn tick(&mut self, by: &Disturbance) -> Shown;
     /// Lets a fault last for some ticks.
     fn inject(&mut self, what: Injected, joint: usize, ticks: u32);
-    /// Restarts a stopped arm.
+    /// Restarts an arm that has stopped.
     ///
     /// # Errors
     /// The controller's reason not to.
@@ -123,7 +123,7 @@ impl OutputPin for Brake {
 /// A motion again and again, with a pause.
 struct Repeated<T>(T);
 
-/// Ticks of the pause.
+/// The number of ticks of the pause.
 const PAUSE: u32 = 200;
 
 impl<T: Reference<f32, N>, const N: usize> Reference<f32, N> for Repeated<T> {
@@ -135,7 +135,7 @@ impl<T: Reference<f32, N>, const N: usize> Reference<f32, N> for Repeated<T> {
     }
 }
 
-/// What the law reads beside the reference.
+/// The measurements that the law reads beside the reference.
 struct Input<'a, X> {
     environment: &'a X,
     /// A torque in place of a joint's.
@@ -144,7 +144,7 @@ struct Input<'a, X> {
 
 /// The scene's law, with a torque that may be spoilt.
 struct Whole<S>(PhantomData<S>);
-/// PD control alone, likewise.
+/// PD control alone, with a torque that may be spoilt.
 struct PdAlone<S>(PhantomData<S>);
 
 fn spoilt<const N: usize>(mut tau: [f32; N], poison: Option<(usize, f32)>) -> [f32; N] {

@@ -34,7 +34,7 @@ impl Read for Received<'_> {
 }
 impl ReadReady for Received<'_> {
     fn read_ready(&mut self) -> Result<bool, Infallible> {
-        // What is here is the reply to this request: the page drops what came before it.
+        // All bytes here are the reply to this request: the page drops what came before it.
         Ok(false)
     }
 }

@@ -11,7 +11,7 @@ export const BARS = {
   workOfOneIn20: 16,
   /// The processor time of all of the browser's processes for a frame, ms: two cores, sixty times a second.
   processor: 33,
-  /// Frames a second.
+  /// The least number of frames a second.
   rate: 55,
   /// The share of the machine's processors that other programs may have where times on the wall are held to their bars: with more
   /// they say nothing of the page.
@@ -79,7 +79,7 @@ export function alike({ differ, of }, where) {
   return differ / of;
 }
 
-/// Whether axe finds nothing.
+/// Whether the accessibility checker axe finds nothing.
 export function accessible(violations, where) {
   const words = violations.map(({ id, nodes }) => `${id}: ${nodes.map((node) => `${node.target} ${node.failureSummary}`).join("; ")}`);
   miss(violations.length === 0, `axe, ${where}: ${words.join(" | ")}`);

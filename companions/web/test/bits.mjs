@@ -5,13 +5,13 @@ import { join } from "node:path";
 import { gunzipSync } from "node:zlib";
 import { compiled, root } from "../build.mjs";
 
-/// The host's lines.
+/// The lines that the host prints.
 export function hostBits() {
   const printed = execFileSync("cargo", ["run", "--quiet", "--package", "host-reports", "--bin", "bits"], { cwd: root, encoding: "utf8", stdio: ["ignore", "pipe", "inherit"] });
   return printed.split("\n").filter((line) => line.startsWith("bits "));
 }
 
-/// What the oracle recorded of a robot.
+/// The states and results that the oracle recorded of a robot.
 function recorded(robot) {
   return JSON.parse(gunzipSync(readFileSync(join(root, `host-tests/recordings/${robot}.json.gz`))));
 }

@@ -68,7 +68,7 @@ async function violations(page) {
 }
 
 const tests = {
-  /// The file is small.
+  /// The file of the page is small.
   async size({ file, say }) {
     const html = readFileSync(file);
     say("compressed", `${small(html)} bytes of at most 1,000,000`);

@@ -25,7 +25,7 @@ use firmware_demo::target;
 
 use crate::inputs::{CERTIFIED_STATES, CERTIFIED_TRIGS};
 
-/// The independent coordinates.
+/// The number of independent coordinates of the leg.
 const N: usize = 3;
 
 type Trig = JointTrig<f32, N>;
@@ -37,7 +37,7 @@ const JOINTS: [usize; N] = [0, 1, 4];
 /// The crank's range as in `docs/costs.md`: the loop does not close all around.
 const CRANK: f32 = 0.6;
 
-/// Of each joint: whether it turns, least and greatest position, greatest speed.
+/// For each joint, whether it turns, its least and greatest position, and its greatest speed.
 #[used]
 static CERTIFIED_JOINTS: [[f32; 4]; N] = {
     let mut joints = [[0.0; 4]; N];

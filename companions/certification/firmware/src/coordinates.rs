@@ -1,4 +1,5 @@
-//! Where a function finds the coordinates of the joints: data beside the code, for `certify`.
+//! The place where a function finds the coordinates of the joints: data beside the code, for
+//! `certify`.
 
 use core::mem::offset_of;
 

@@ -4,7 +4,7 @@ use dynamics_core::model::{JointKind, Robot as _};
 
 use super::{B, N, Robot};
 
-/// Of each joint: whether it turns, least and greatest position, greatest speed.
+/// For each joint, whether it turns, its least and greatest position, and its greatest speed.
 #[used]
 static CERTIFIED_JOINTS: [[f32; 4]; N] = joints();
 

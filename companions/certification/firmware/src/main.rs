@@ -32,7 +32,7 @@ type Forward = fn(
     &Full,
 ) -> Result<[f32; N], NotPositiveDefinite>;
 
-/// Of each body: its parent, its joint's kind and coordinate, placement, mass, first moment and
+/// For each body its parent, its joint's kind and coordinate, placement, mass, first moment and
 /// second moments, for what is proven of the model itself.
 #[used]
 static CERTIFIED_BODIES: [[f64; 25]; B] = bodies();

@@ -24,7 +24,7 @@ struct Args {
     /// A robot of certificates.md, or a URDF or MJCF file; all of that page if not given
     #[arg(long, value_name = "NAME|FILE")]
     robot: Option<String>,
-    /// The functions
+    /// The functions whose errors are bounded
     #[arg(long, value_enum, value_delimiter = ',', default_value = "rnea,gravity")]
     function: Vec<Function>,
     /// The greatest acceleration of each joint, rad/s² or m/s²
@@ -73,7 +73,7 @@ struct Args {
     options: robot_import::import::Options,
 }
 
-/// See [`Args::points`].
+/// The default of [`Args::points`].
 const POINTS: usize = 1_000_000;
 const PAGE_POINTS: usize = 5_000_000;
 const LOOSEST: &str = "panda";
@@ -280,7 +280,7 @@ fn sampled(args: &Args, programs: &[(Program, Robot)]) -> Result<String> {
 }
 
 fn spent(args: &Args, function: Function, robot: &str) -> Spent {
-    // Of the loop a million states with its three results.
+    // The loop has three results, each of which needs a million states.
     let states = match function {
         Function::Clustered => 2 * args.states,
         _ => args.states,

@@ -19,7 +19,8 @@ pub(super) type Weighted = Vec<(u32, f64)>;
 const SAMPLE: usize = 64 * LANES;
 const SHARE: usize = 8;
 
-/// Where a program is evaluated: on a grid of angles, and over ranges of the other coordinates.
+/// The domain on which a program is evaluated: a grid of angles, and ranges of the other
+/// coordinates.
 pub(super) struct Place<'a> {
     pub(super) lattice: &'a Lattice,
     pub(super) part: &'a [Interval],
@@ -42,7 +43,7 @@ pub(super) struct Class {
     pub(super) sum: Weighted,
     /// The sums at the sampled points.
     sampled: Vec<f64>,
-    /// What the evaluation's roundings can have hidden.
+    /// The most that the roundings of the evaluation can have hidden.
     pub(super) hidden: f64,
 }
 
@@ -57,7 +58,7 @@ impl Class {
         }
     }
 
-    /// What is known at the sampled points alone.
+    /// The bound that follows from the sampled points alone.
     fn sampled_bound(&self, lattice: &Lattice) -> f64 {
         let most = self.sampled.iter().copied().fold(0.0, f64::max);
         most * lattice.between(&self.degrees)
@@ -212,7 +213,7 @@ fn sample(lattice: &Lattice) -> impl Iterator<Item = usize> {
     (0..most.div_ceil(LANES).max(1)).map(move |_| rng.usize(..points))
 }
 
-/// Each place once.
+/// The same sum with each place listed once.
 pub(super) fn joined(sum: &[(u32, f64)]) -> Weighted {
     let mut places = BTreeMap::<u32, f64>::new();
     for (place, weight) in sum {

@@ -14,11 +14,11 @@ pub(super) trait Lanes: Copy + Default {
     fn set(&mut self, lane: usize, value: f64);
     /// Adds a product, or its opposite.
     fn add_product(&mut self, a: &Self, b: &Self, is_minus: bool);
-    /// 1/x
+    /// The reciprocal 1/x.
     fn reciprocal(&self) -> Self;
-    /// √x
+    /// The square root √x.
     fn root(&self) -> Self;
-    /// The greatest absolute values.
+    /// The greatest absolute value in each lane.
     fn magnitudes(&self) -> [f64; LANES];
 }
 
@@ -69,7 +69,7 @@ impl Ball {
             let one = Interval::point(self.centre[i]).widened(self.radius[i]);
             let Interval { low, high } = of(one);
             ball.centre[i] = 0.5 * (low + high);
-            // What is not a number is not known.
+            // A result that is not a number becomes a range without bounds.
             let radius = 0.5 * (high - low) + ROUNDED * (low.abs() + high.abs());
             (ball.centre[i], ball.radius[i]) = match radius.is_finite() {
                 true => (ball.centre[i], radius),
@@ -104,7 +104,7 @@ impl Lanes for Ball {
         self.each(|x| Interval::point(1.0) / x)
     }
     fn root(&self) -> Self {
-        // Of what may be negative nothing is known.
+        // The root of a number that may be negative becomes a range without bounds.
         self.each(|x| match x.low >= 0.0 {
             true => x.root(),
             false => Interval::new(f64::NEG_INFINITY, f64::INFINITY),
@@ -119,7 +119,7 @@ impl Lanes for Ball {
     }
 }
 
-/// Carries out steps.
+/// Carries out the steps of a program.
 pub(super) fn evaluate<L: Lanes>(steps: &[Step], x: &mut [L]) {
     for step in steps {
         let (a, b) = (x[step.a as usize], x[step.b as usize]);

@@ -1,6 +1,6 @@
 //! The grids, and how much more a polynomial may be between their points.
 //!
-//! Of a polynomial T of degree n in one angle, and the N ≥ 2n + 1 angles of a grid, two bounds are
+//! For a polynomial T of degree n in one angle, and a grid of N ≥ 2n + 1 angles, two bounds are
 //! known, of which the lesser counts:
 //!
 //! - Riesz (1914): T falls from its greatest absolute value M no faster than M cos(n θ), and one of
@@ -19,7 +19,7 @@ const BETWEEN: usize = 128;
 /// Sizes beyond the next one that are looked at.
 const AHEAD: usize = 6;
 
-/// A grid.
+/// A grid of angles, with a number of evenly spaced angles for each joint.
 #[derive(Clone, Debug)]
 pub struct Lattice {
     /// The angles of each joint.
@@ -36,12 +36,12 @@ impl Lattice {
         Self { above: above.collect(), sizes }
     }
 
-    /// That of at most so many points which loses least; `None` if these degrees ask for more.
+    /// The grid of at most so many points which loses least; `None` if these degrees ask for more.
     pub fn best(degrees: &[usize], most: usize) -> Option<Self> {
         let mut sizes: Vec<usize> = degrees.iter().map(|n| 2 * n + 1).collect();
         counted(&sizes, most)?;
         loop {
-            // What is gained for the points that it takes, both as logarithms.
+            // The gain for the points that are added, both as logarithms.
             let mut best = (0.0, None);
             for (i, n) in degrees.iter().enumerate().filter(|one| *one.1 > 0) {
                 let here = between(*n, sizes[i]);
@@ -62,12 +62,12 @@ impl Lattice {
         }
     }
 
-    /// The number of points.
+    /// The number of its points.
     pub fn points(&self) -> usize {
         self.sizes.iter().product()
     }
 
-    /// How much more a polynomial of these degrees may be between the points.
+    /// The factor by which a polynomial of these degrees may be larger between the points.
     pub fn between(&self, degrees: &[u8]) -> f64 {
         let each = self.above.iter().zip(degrees);
         (1.0 + 1e-12) * each.map(|(above, n)| above[usize::from(*n)]).product::<f64>()
@@ -81,8 +81,8 @@ pub(super) fn counted(sizes: &[usize], most: usize) -> Option<usize> {
     all.filter(|all| *all <= most)
 }
 
-/// How much more a polynomial of a degree may be between so many angles, more than twice the
-/// degree.
+/// The factor by which a polynomial of a degree may be larger between so many angles, more than
+/// twice the degree.
 pub fn between(degree: usize, size: usize) -> f64 {
     if degree == 0 {
         return 1.0;

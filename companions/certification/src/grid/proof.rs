@@ -13,10 +13,10 @@ use crate::parts::Part;
 use crate::roots;
 use crate::state_box::{Leaf, Robot};
 
-/// Which errors count.
+/// The errors that count in a proof.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Counted {
-    /// Of operations, literals and sines.
+    /// The errors of operations, literals and sines.
     All,
     /// All but those of literals: against the function that has the code's literals.
     WithoutLiterals,
@@ -34,13 +34,13 @@ struct Subject<'a> {
     graph: &'a Graph,
     robot: &'a Robot,
     counted: Counted,
-    /// What each value is known to be at most, if it is.
+    /// An upper bound of each value's magnitude, where one is known.
     known: &'a [f64],
 }
 
 impl Program {
     /// Bounds the error over all angles, from a grid of at most so many points; `None` if they are
-    /// too few. Of what the values are known to be at most in the box, the lesser bounds count.
+    /// too few. Where `known` has a lesser bound of a value in the box, that one counts.
     pub fn prove(
         &self,
         graph: &Graph,
@@ -171,7 +171,7 @@ impl Program {
         (0..nodes).map(everywhere).collect()
     }
 
-    /// What each node adds to the error of the result, for an adjoint of one.
+    /// The contribution of each node to the error of the result, for an adjoint of one.
     fn weights(&self, subject: Subject<'_>, values: &[[f64; 2]], sines: SineErrors) -> Vec<f64> {
         let Subject { graph, robot, counted, .. } = subject;
         let nodes = graph.nodes.len();
@@ -179,8 +179,8 @@ impl Program {
         let (mut errors, mut weights) = (vec![0.0; nodes], vec![0.0; nodes]);
         for (k, node) in graph.nodes.iter().enumerate() {
             let [value, inverse] = values[k];
-            // Of a quotient 1/b and of a root 1/√a are at most `inverse`; the terms of higher order
-            // grow without bound as t nears one.
+            // The factors 1/b of a quotient and 1/√a of a root are at most `inverse`; the terms of
+            // higher order grow without bound as t nears one.
             let higher = |t: f64, of: f64| if t < 1.0 { of } else { f64::INFINITY };
             let (propagated, second_order) = match *node {
                 Node::Input(_) | Node::Literal(_) => (0.0, 0.0),

@@ -6,9 +6,9 @@
 //! higher: a torque is of degree two in each angle, while its terms are of degree three, which
 //! cancel.
 //!
-//! What the coefficients of the higher degrees are, up to roundings, is added. Values known within
-//! η give the polynomial, and its part of lower degrees, within √(2n + 1) η for each angle, by the
-//! inequality of Cauchy and Schwarz.
+//! The coefficients of the higher degrees, up to roundings, are added to the error. Values known
+//! within η give the polynomial, and its part of lower degrees, within √(2n + 1) η for each angle,
+//! by the inequality of Cauchy and Schwarz.
 
 use std::f64::consts::TAU;
 
@@ -27,7 +27,7 @@ const NEGLIGIBLE: f64 = 1e-9;
 /// off by its degree times that, of degree three by one rounding more: with that of the sine at
 /// most 7.3 · 10⁻¹⁵. A sum of nine products adds 1.3 · 10⁻¹⁵.
 const ROUNDED: f64 = 1e-14;
-/// Of functions that are of a higher degree in an angle, nothing is said.
+/// The highest degree in an angle: functions of a higher one are declined.
 const HIGHEST: usize = 4;
 
 /// 1, cos θ, sin θ, cos 2θ, … of an angle, up to a degree.
@@ -204,7 +204,7 @@ impl Program {
         let finer = Lattice::best(&degrees, fine)?;
         let axes = degrees.len() as f64;
         let all = spectrum.total();
-        // Of the values, of the transform, and of the finer grid.
+        // The roundings of the values, of the transform, and of the finer grid.
         let hidden = 2.0 * (count as f64).sqrt() * at.rounding * self.absolute[last]
             + count as f64 * axes * axes.exp2() * ROUNDED * size
             + axes * ROUNDED * all;

@@ -1,4 +1,4 @@
-//! What lies in memory: words, and bytes of words of which not all are known.
+//! The content of memory: words, and bytes of words of which not all are known.
 
 use super::{ARGUMENTS, RANGE, Walk, Word};
 use crate::decode::{Access, NOWHERE, PC, Several};
@@ -63,7 +63,7 @@ impl Walk<'_> {
         byte.ok_or_else(|| self.declined("a part of a word that is not known"))
     }
 
-    /// Of a real number that it is written into, the other bytes are known no longer.
+    /// After a byte is written into a real number, its other bytes are no longer known.
     pub(super) fn store_byte(&mut self, address: u32, byte: u8) -> Result<()> {
         let within = address & 3;
         let word = address - within;
@@ -80,7 +80,7 @@ impl Walk<'_> {
         Ok(())
     }
 
-    /// One word or two.
+    /// Loads or stores one word or two.
     pub(super) fn access(&mut self, one: Access) -> Result<()> {
         let (base, by) = (self.base(one.n)?, self.operand(one.offset)?);
         let moved = base.wrapping_add(by);

@@ -1,5 +1,5 @@
-//! Where sines and cosines come into an expression: comparisons at the state zero, and calls of
-//! their function.
+//! The places where sines and cosines come into an expression: comparisons at the state zero, and
+//! calls of their function.
 
 use std::cmp::Ordering;
 
@@ -14,7 +14,7 @@ pub struct Sines {
     trig: [u32; 4],
 }
 
-/// Where coordinates lie among inputs: [`crate::state_box::Robot::trig`].
+/// The places of the coordinates among the inputs: [`crate::state_box::Robot::trig`].
 fn trig(image: &Image) -> Option<[u32; 4]> {
     image.variable("CERTIFIED_TRIG").ok()?.1.try_into().ok()
 }
@@ -77,7 +77,7 @@ impl Walk<'_> {
         };
         let [stride, sine, cosine, _] = sines.trig;
         let at = [sine, cosine].map(|within| ARGUMENTS + RANGE + stride * joint + within);
-        // What a call need not keep.
+        // A call may overwrite these registers.
         self.core[..4].fill(None);
         self.core[12] = None;
         self.real[..16].fill(None);

@@ -148,7 +148,7 @@ fn taking_the_last_body_off_is_below_and_needs_the_coupling() {
     }
     assert!(0.05 * least < floor && floor <= least, "{floor:e} {least:e}");
     assert!(rest.min(peel::least(own, 0.0, 0.0)) > least);
-    // What is welded weighs as before, and what is taken off not more.
+    // The welded robot has the same least eigenvalue as the robot itself.
     let all = &bodies(&A1Leg::MODEL);
     for _ in 0..1000 {
         let q = within(&mut rng, &[positions.clone(), positions.clone()].concat()[..3]);

@@ -22,7 +22,7 @@ use dynamics_core::state::State;
 use super::floor;
 use super::recorded::{BASE, EFFECTS, LITTLE, SINES, bytes, robot};
 
-/// `Engine::<A1Leg>::forward_dynamics` and `crba`.
+/// The machine code of `Engine::<A1Leg>::forward_dynamics` and `crba`.
 const FORWARD: &str = include_str!("a1_forward.hex");
 const CRBA: &str = include_str!("a1_crba.hex");
 /// `Core::<A1Leg>::forward_dynamics`, `crba` and what they read, each line from its address on; and
@@ -83,9 +83,9 @@ fn search(forward: &Forward, code: &Graph, robot: &Robot) -> Result<(), Error> {
 fn the_machine_code_solves_with_the_factors_and_its_roundings_are_counted() {
     let [engine, core] = BOTH.map(|function| subject(function).factored);
     let factored = engine.expect("it is forward dynamics");
-    // Of entry 1, 1 by the second joint: l, its product with the row, and the difference of the
-    // third joint's share before; the product with y and such a difference; D⁻¹ y; the product with
-    // q̈; τ − b.
+    // The roundings of entry 1, 1 by the second joint are those of l, its product with the row, and
+    // the difference of the third joint's share before; the product with y and such a difference;
+    // D⁻¹ y; the product with q̈; τ − b.
     assert_eq!(factored.roundings, [[8, 7, 6], [6, 7, 6], [4, 5, 5]]);
     let [first, second, third] = factored.noise[..] else {
         panic!("three joints");
@@ -149,12 +149,12 @@ fn solved(
 fn the_counted_roundings_are_enough_and_one_less_is_not() {
     for function in BOTH {
         let most = most_of_the_count(function);
-        // Of at most eight roundings one less would be contradicted.
+        // The count is at most eight, so that a count less by one would be contradicted.
         assert!(most <= 1.0 + 1e-5 && most > 0.95, "{function:?}: {most}");
     }
 }
 
-/// What remains of the torques, as a share of what the count allows.
+/// The torques that remain, as a share of what the count allows.
 fn most_of_the_count(function: Function) -> f64 {
     let factored = subject(function).factored;
     let counts = factored.expect("it is forward dynamics").roundings;
@@ -313,7 +313,7 @@ fn stays_below_the_bound(function: Function) {
     }
 }
 
-/// What `forward.py` makes of an error, against what f64 makes of it, as a share of the greatest
+/// The difference between an error by `forward.py` and the same by f64, as a share of the greatest
 /// error of the state.
 fn difference(of: &Worst, exact: &[f64]) -> f64 {
     let greatest = of.errors.iter().fold(0.0, |most, error| error.abs().max(most));
@@ -387,7 +387,7 @@ fn parts_are_needed(function: Function) {
         }
     }
     contradicted(&forward, &wrong, &moving);
-    // Where accelerations make the torques.
+    // The box in which accelerations alone make the torques.
     let mut still = robot(3);
     for joint in &mut still.joints {
         (joint.speed, joint.acceleration) = (0.0, 1e5);

@@ -107,7 +107,7 @@ fn the_factor_between_the_points_is_enough_and_less_than_riesz() {
     }
 }
 
-/// What is known of values lowers the errors, and what is wrong of them is contradicted.
+/// Known bounds of values lower the errors, and wrong bounds are contradicted.
 #[test]
 fn values_that_are_known_to_be_less_count() {
     let (graph, robot) = (graph(RNEA).of_output(4), robot(6));
@@ -203,8 +203,8 @@ fn a_greatest_value_knows_what_cancels() {
     }
 }
 
-/// sin⁴ q is 3/8 − ½ cos 2q + ⅛ cos 4q. Of the fifth power a wave may be off by more than the proof
-/// adds.
+/// sin⁴ q is 3/8 − ½ cos 2q + ⅛ cos 4q. With the fifth power, a wave may be off by more than the
+/// proof adds.
 #[test]
 fn a_greatest_value_of_a_higher_degree_or_too_many_points_is_declined() {
     let greatest = |graph: &Graph, joints: usize| {

@@ -28,9 +28,9 @@ use super::recorded::{BASE, LITTLE, SINES, bytes, gappa_is_installed, robot};
 /// `Clustered::<Engine<FourBarLeg>>::rnea` with its kernel of sines as a call, behind a function
 /// that passes the gravity.
 const FOUR_BAR: &str = include_str!("four_bar.hex");
-/// Where the kernel was.
+/// The address at which the kernel was.
 const KERNEL: u32 = BASE + 0xf50;
-/// The library's guess.
+/// The guess of the library's reciprocal root.
 const GUESS: Guess = Guess { magic: 0x5f37_59df, steps: 3 };
 
 fn four_bar() -> Walked {

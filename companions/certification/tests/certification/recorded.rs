@@ -13,7 +13,7 @@ use certification::walk::walk;
 /// `Engine::<Ur5e>::rnea` and the same of gravity alone as they were compiled one day.
 pub const RNEA: &str = include_str!("ur5e_rnea.hex");
 pub const GRAVITY: &str = include_str!("ur5e_gravity.hex");
-/// `RIGID_BODY` in memory.
+/// The bytes of `RIGID_BODY` in memory.
 pub const EFFECTS: &str = "1f85eb51b89e2340c3f51c4100000000";
 pub const BASE: u32 = 0x0800_0000;
 

@@ -79,7 +79,8 @@ fn gappa_checks_an_absolute_value_and_refuses_wrong_ones() {
         script.is_proven().expect("it runs")
     };
     assert!(is_proven(&bounder));
-    // That of the operand without its sign, too little of it, and a derivative of one sign.
+    // Gappa refuses a range that begins above zero, one that ends too early, and a derivative of
+    // one sign alone.
     let wrong = |change: fn(&mut Bounder)| {
         let mut wrong = bounder.clone();
         change(&mut wrong);
@@ -113,7 +114,7 @@ impl dynamics_core::model::Robot<2, 2, 2> for Reach {
     );
 }
 
-/// `Engine::<Reach>::forward_dynamics` and `crba`.
+/// The machine code of `Engine::<Reach>::forward_dynamics` and `crba`.
 const REACH: &str = include_str!("reach.hex");
 
 fn subject() -> Subject {
@@ -225,7 +226,8 @@ fn what_pivots_are_compared_with_is_bounded_over_the_slide() {
         }
         let proven = most(&own);
         assert!(found <= proven && proven < 1.01 * found, "{found:e} {proven:e}");
-        // Of a wrong absolute value less would be proven than the code computes.
+        // With a wrong absolute value the proven bound would be less than the values that the code
+        // computes.
         let outputs = own.outputs.clone();
         let wrong = most(&Graph { nodes, outputs });
         assert!(wrong < found, "{wrong:e} {found:e}");

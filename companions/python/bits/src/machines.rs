@@ -49,7 +49,7 @@ impl ClusteredRobot<3, 3, 3, 1, 1> for Bars {
     const COORDINATES: &'static [&'static [usize]] = &[&[0, 1, 2]];
 }
 
-/// What the library computes for it.
+/// The results of the library for the bars.
 pub fn bars(quantity: &str, numbers: &[f32]) -> Option<Vec<f32>> {
     let (robot, of) = (&Static::<Bars>::NEW, &Bars::LOOPS);
     let mut out = Vec::new();
@@ -94,7 +94,7 @@ impl ClusteredRobot<6, 6, 6, 6, 6> for Wrist {
     const COORDINATES: &'static [&'static [usize]] = &[&[4, 5]];
 }
 
-/// What the library computes for it.
+/// The results of the library for the wrist.
 pub fn wrist(numbers: &[f32]) -> Option<Vec<f32>> {
     let rows = numbers.chunks_exact(24).map(|row| {
         let part = |at: usize| std::array::from_fn(|i| row[at + i]);
@@ -130,7 +130,7 @@ impl Robot<2, 2, 2> for Boom {
 
 static MODES: Modes<f32, 3> = Modes::new(&Boom::MODEL, &[LINK]).to_f32();
 
-/// What the library computes for it: of rows of q, q̇, q̈, τ, η, η̇ and η̈.
+/// The results of the library for the boom, from rows of q, q̇, q̈, τ, η, η̇ and η̈.
 pub fn boom(quantity: &str, numbers: &[f32]) -> Option<Vec<f32>> {
     let (robot, scene) = (&Static::<Boom>::NEW, &(RIGID_BODY, Elasticity));
     let mut out = Vec::new();

@@ -61,7 +61,7 @@ fn rows<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>(
     Some(found)
 }
 
-/// What an algorithm computes that `Core` does not list.
+/// The results of an algorithm that `Core` does not list.
 fn algorithm<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>(
     quantity: &str,
     state: &State<f32, Q, V>,
@@ -124,7 +124,7 @@ fn square<const V: usize>(out: &mut Vec<f32>, of: impl Fn(usize, usize) -> f32) 
     (0..V).for_each(|i| out.extend((0..V).map(|j| of(i, j))));
 }
 
-/// What the engine computes; of a humanoid the compiler would take minutes for it.
+/// The results of the engine; for a humanoid its compilation would take minutes.
 fn engine<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>(
     quantity: &str,
     state: &State<f32, Q, V>,

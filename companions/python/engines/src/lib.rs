@@ -19,13 +19,13 @@ pub enum Scene {
     RigidBody,
     /// Gravity and velocity products.
     Bias,
-    /// Gravity.
+    /// Gravity alone, of a robot at rest.
     Gravity,
 }
 
 /// A scalar in which the engines are compiled.
 pub trait InEngine: Real {
-    /// What computes the rows of a robot, if it is one of the wheel's engines.
+    /// The function that computes the rows of a robot, if the wheel has an engine for it.
     fn engine(robot: &str) -> Option<fn(Scene, &mut Job<'_, Self>)>;
 }
 

@@ -14,9 +14,9 @@ pub type Done = Result<(), Failure>;
 /// The terms of a scene.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Terms {
-    /// Products of accelerations.
+    /// Whether products of accelerations act.
     pub inertia: bool,
-    /// Products of velocities.
+    /// Whether products of velocities act.
     pub coriolis: bool,
     /// Effects at bodies, at the base or in gears.
     pub extra: bool,
@@ -24,19 +24,19 @@ pub struct Terms {
 
 /// A call of an algorithm for a robot of a type.
 pub struct Call<'a, D, P, R: Real, const V: usize> {
-    /// The robot.
+    /// The model of the robot.
     pub robot: &'a D,
-    /// Its sizes.
+    /// The numbers of its bodies and coordinates.
     pub counts: Counts,
-    /// The scene.
+    /// The terms of the scene.
     pub terms: Terms,
-    /// The scene's effects.
+    /// The effects besides these terms.
     pub parts: &'a Parts<R, V>,
-    /// The rows.
+    /// The rows that are computed.
     pub rows: &'a mut P,
 }
 
-/// An algorithm.
+/// An algorithm that computes the rows of a call.
 pub trait Algorithm: Sync {
     /// Whether the library has a form of it for some kinds of robots.
     const FAST: bool = false;

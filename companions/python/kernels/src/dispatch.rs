@@ -8,7 +8,7 @@ use crate::algorithm::{Algorithm, Call, Done, Terms};
 use crate::job::{Failure, Row, Rows};
 use crate::spec::Spec;
 
-/// Those of the effects.
+/// The terms that the effects of a scene have.
 pub fn terms_of(effects: &[Spec]) -> Terms {
     let mut terms = Terms::default();
     for effect in effects {
@@ -76,7 +76,7 @@ pub mod terms {
     }
 
     scenes! {
-        /// All.
+        /// All terms are told apart at compile time.
         all, terms =>
         (true, true, false) => [true, true, false],
         (true, false, false) => [true, false, false],
@@ -137,7 +137,7 @@ pub mod terms {
         _ => [true, true, true]
     }
     scenes! {
-        /// None.
+        /// No terms are told apart, since the algorithm has none.
         none, terms =>
         _ => [true, true, false]
     }

@@ -19,16 +19,16 @@ const FILLER: f64 = 1e20;
 pub struct AnyModes {
     single: Modes<f32, MOST_MODES>,
     double: Modes<f64, MOST_MODES>,
-    /// How many there are.
+    /// The number of modes that are used.
     pub count: usize,
 }
 
 /// Why there are no modes.
 #[derive(Debug)]
 pub enum NoModes {
-    /// Of this model.
+    /// The robot has no model of the supported sizes.
     Model(NoModel),
-    /// Of these links.
+    /// The library refuses the modes of these links.
     Modes(ModeError),
 }
 

@@ -13,10 +13,10 @@ use dynamics_core::scalar::Real;
 use dynamics_core::state::all_finite;
 use dynamics_core::state::manifold::NoAttitude;
 
-/// A row-major array.
+/// An array of arguments, in row-major order.
 #[derive(Clone, Copy)]
 pub struct Input<'a, R> {
-    /// Its numbers.
+    /// All numbers of the array.
     pub data: &'a [R],
     /// The numbers of a row.
     pub width: usize,
@@ -24,19 +24,19 @@ pub struct Input<'a, R> {
 
 /// A row-major array to be written.
 pub struct Output<'a, R> {
-    /// Its numbers.
+    /// All numbers of the array.
     pub data: &'a mut [R],
     /// The numbers of a row.
     pub width: usize,
 }
 
-/// What an algorithm computes for many states.
+/// The arrays that an algorithm reads and writes for many states.
 pub struct Job<'a, R> {
-    /// The arguments.
+    /// The arrays of the arguments.
     pub inputs: Vec<Input<'a, R>>,
-    /// The results.
+    /// The arrays of the results.
     pub outputs: Vec<Output<'a, R>>,
-    /// How many states.
+    /// The number of states.
     pub rows: usize,
 }
 
@@ -89,9 +89,9 @@ impl From<(usize, ClusterProblem)> for Problem {
 /// A state without a result.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Failure {
-    /// The state.
+    /// The number of the state.
     pub row: usize,
-    /// Why it has none.
+    /// The reason why it has no result.
     pub problem: Problem,
 }
 
@@ -120,9 +120,9 @@ pub trait Row<R> {
 
 /// Rows that are computed one after the other.
 pub trait Rows<R> {
-    /// How many there are.
+    /// The number of rows.
     fn count(&self) -> usize;
-    /// One of them.
+    /// The row with this number.
     fn at(&mut self, row: usize) -> impl Row<R>;
 }
 
@@ -139,9 +139,9 @@ impl<R: Real> Rows<R> for Job<'_, R> {
 
 /// One row of a job.
 pub struct One<'j, 'a, R> {
-    /// The job.
+    /// The job that has the row.
     pub job: &'j mut Job<'a, R>,
-    /// The row.
+    /// The number of the row.
     pub row: usize,
 }
 
@@ -235,7 +235,7 @@ impl<'a, R: Copy> Job<'a, R> {
     }
 }
 
-/// How many threads a batch uses.
+/// The number of threads that a batch uses.
 pub fn cores() -> usize {
     // To ask the operating system takes longer than a state.
     static CORES: LazyLock<usize> =

@@ -18,10 +18,10 @@ use wide::f32x8;
 
 use crate::job::{Job, Row, Rows};
 
-/// How many states are computed at once.
+/// The number of states that are computed at once.
 pub const LANES: usize = 8;
 
-/// Eight numbers.
+/// One number of each of eight states.
 #[derive(Clone, Copy, Debug)]
 #[repr(transparent)]
 pub struct Lanes(f32x8);
@@ -136,7 +136,7 @@ impl Neg for Lanes {
     }
 }
 
-/// Three of them.
+/// A vector for each of the eight states.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Vec3 {
     x: Lanes,
@@ -144,7 +144,7 @@ pub struct Vec3 {
     z: Lanes,
 }
 
-/// Three columns.
+/// A matrix for each of the eight states, by its columns.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Mat3 {
     x: Vec3,
@@ -373,9 +373,9 @@ fn lifted(link: &Link<f32>) -> Link<Lanes> {
 
 /// The whole blocks of eight rows of a job.
 pub struct Blocks<'j, 'a> {
-    /// The job.
+    /// The job that has the rows.
     pub job: &'j mut Job<'a, f32>,
-    /// How many blocks.
+    /// The number of blocks of eight rows.
     pub count: usize,
 }
 

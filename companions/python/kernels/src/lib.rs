@@ -33,7 +33,7 @@ use spec::{BodyRef, Spec};
 /// A call, of which the algorithm and the rows are known elsewhere.
 #[derive(Clone, Copy)]
 pub struct Setting<'a> {
-    /// The robot's sizes.
+    /// The numbers of the robot's bodies and coordinates.
     pub counts: Counts,
     /// The effects, which fit the robot.
     pub effects: &'a [Spec],
@@ -46,7 +46,7 @@ pub(crate) const fn most_angle<R>() -> f64 {
     if size_of::<R>() == size_of::<f64>() { 1e5 } else { 1e4 }
 }
 
-/// A scalar of arrays.
+/// A scalar that the arrays of a call can have.
 pub trait Scalar: Real {
     /// The largest angle, rad, of which sines are computed to their last digits.
     const MOST_ANGLE: f64;
@@ -64,7 +64,7 @@ pub trait Scalar: Real {
 
 macro_rules! which {
     ($($name:ident $({ $($field:ident: $type:ty),* })?),* $(,)?) => {
-        /// An algorithm.
+        /// The algorithm of a call, with its parameters.
         #[derive(Clone, Copy, Debug)]
         #[allow(missing_docs, reason = "their documentation is that of `algorithms`")]
         pub enum Which<'a> {
@@ -160,7 +160,7 @@ which! {
 scalar!(f32);
 scalar!(f64);
 
-/// How the rows of a job are computed in a scalar.
+/// The computation of a job's rows in a scalar.
 trait WithLanes: Real {
     fn rows<O: Algorithm>(
         algorithm: &O,
@@ -216,7 +216,7 @@ impl WithLanes for f32 {
     }
 }
 
-/// Computes blocks of rows.
+/// Computes blocks of eight rows at once.
 fn in_lanes<O: Algorithm>(
     algorithm: &O,
     model: &Fast<Lanes>,

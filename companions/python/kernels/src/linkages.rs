@@ -20,7 +20,7 @@ const INDEPENDENT: usize = 6;
 
 macro_rules! linkages {
     ($($name:ident $(<$c:ident>)? $m:literal $n:literal),* $(,)?) => {
-        /// A linkage.
+        /// A linkage of the library, with its dimensions.
         #[derive(Clone, Copy, Debug)]
         pub enum Linkage {
             $(
@@ -95,13 +95,13 @@ impl<R: Real> Motion<R> {
 /// A linkage on a robot.
 #[derive(Clone, Debug)]
 pub struct Placed {
-    /// The linkage.
+    /// The linkage with its dimensions.
     pub linkage: Linkage,
     /// The velocity coordinates that it drives, in the order of its rows.
     pub coordinates: Vec<usize>,
-    /// Their position coordinates.
+    /// The position coordinates that belong to these.
     positions: Vec<usize>,
-    /// Where its own begin in y and in ẏ.
+    /// The places where its own coordinates begin in y and in ẏ.
     first: [usize; 2],
 }
 
@@ -203,11 +203,11 @@ pub struct TreeMotion<'a, R: Real, const Q: usize, const V: usize> {
     motions: Vec<Motion<R>>,
     /// The tree's coordinates of linkages, with sines and cosines of the linkages' own.
     pub turns: Vec<(usize, JointCoordinate<R>)>,
-    /// q of the tree.
+    /// The positions q of the tree.
     pub q: [R; Q],
-    /// q̇.
+    /// The velocities q̇ of the tree.
     pub qd: [R; V],
-    /// q̈.
+    /// The accelerations q̈ of the tree.
     pub qdd: [R; V],
 }
 

@@ -7,7 +7,7 @@ use dynamics_core::model::Model;
 
 use crate::model::{Counts, General, Models};
 
-/// The most loops.
+/// The greatest number of loops of a robot.
 pub const MOST_LOOPS: usize = 8;
 
 /// The most directions that they constrain: those of as many fixed joints.
@@ -30,7 +30,7 @@ pub struct AnyLoops {
     filled: Box<dyn Any + Send + Sync>,
     /// The actuated coordinates, as indices in q̇.
     pub actuated: Vec<usize>,
-    /// How many directions the loops constrain.
+    /// The number of directions that the loops constrain.
     pub rows: usize,
 }
 
@@ -59,7 +59,7 @@ impl AnyLoops {
         actuated: &[usize],
         damped_below: f64,
     ) -> Result<Self, LoopModelError> {
-        // What fills the model up has motors, so that it is free to move.
+        // The bodies that fill the model up have motors, so that they are free to move.
         let motors: Vec<usize> = actuated.iter().copied().chain(counts.v..V).collect();
         let filled = Filled::<V>::try_filled(model, joints, &motors);
         let filled = filled.map_err(|error| of_robot(error, V - counts.v))?;
@@ -79,7 +79,7 @@ impl AnyLoops {
         }
     }
 
-    /// How many coordinates are actuated.
+    /// The number of actuated coordinates.
     pub fn motors(&self) -> usize {
         self.actuated.len()
     }

@@ -14,14 +14,14 @@ use robot_import::tree;
 
 use crate::lanes::Lanes;
 
-/// How many there are.
+/// The numbers of a robot's bodies and coordinates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Counts {
-    /// Bodies.
+    /// The number of bodies.
     pub bodies: usize,
-    /// Position coordinates.
+    /// The number of position coordinates.
     pub q: usize,
-    /// Velocity coordinates.
+    /// The number of velocity coordinates.
     pub v: usize,
 }
 
@@ -41,7 +41,7 @@ pub enum Fast<R: Real> {
     Chain(Box<Model<R, 8, 8, 8>>),
     /// Up to 16 revolute joints.
     Revolute(Box<Model<R, 16, 16, 16>>),
-    /// Others.
+    /// The robot has joints of other kinds, or too many.
     None,
 }
 
@@ -49,7 +49,7 @@ pub enum Fast<R: Real> {
 pub enum General<R: Real> {
     /// Up to 16 velocity coordinates.
     Small(Box<Model<R, 28, 32, 28>>),
-    /// Up to 64.
+    /// Up to 64 velocity coordinates.
     Large(Box<Model<R, 76, 80, 76>>),
 }
 
@@ -109,14 +109,14 @@ struct Described {
 
 /// The bodies of a robot as the library describes them.
 pub struct Bodies {
-    /// Parents first.
+    /// The bodies, parents before their children.
     bodies: Vec<Described>,
     /// The links of a model that is known already, in place of those of the bodies.
     links: Option<Vec<Link<f64>>>,
 }
 
 impl Bodies {
-    /// Of a tree that was read.
+    /// The bodies of a tree that was read from a file.
     pub fn of(tree: &tree::Tree) -> Self {
         Self {
             bodies: tree.bodies.iter().enumerate().map(|(i, body)| described(i, body)).collect(),
@@ -124,7 +124,7 @@ impl Bodies {
         }
     }
 
-    /// Of a model that is known at compile time.
+    /// The bodies of a model that is known at compile time.
     pub fn of_model<const B: usize, const Q: usize, const V: usize>(
         model: &Model<f64, B, Q, V>,
     ) -> Self {
@@ -136,7 +136,7 @@ impl Bodies {
         Self { bodies: bodies.collect(), links: Some(model.links.to_vec()) }
     }
 
-    /// How many there are.
+    /// The numbers of bodies and coordinates.
     pub fn counts(&self) -> Counts {
         let mut counts = Counts { bodies: self.bodies.len(), q: 0, v: 0 };
         for kind in self.kinds() {
@@ -158,7 +158,7 @@ impl Bodies {
         parents.map(|parent| (parent != BASE).then_some(parent))
     }
 
-    /// The models.
+    /// The models of the robot in a scalar.
     ///
     /// # Errors
     /// More coordinates than [`MOST_COORDINATES`], or numbers that the library refuses.

@@ -14,7 +14,7 @@ use dynamics_core::spatial::{Force, Motion, SpatialInertia};
 /// The most harmonics of cogging.
 pub const HARMONICS: usize = 8;
 
-/// An effect at joints.
+/// An effect that acts at joints.
 pub trait AtJoint<R: Real> {
     /// Adds its torque at a joint.
     fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R);
@@ -36,7 +36,7 @@ impl<R: Real, E: Effect<R, 1, V>, const V: usize> AtJoint<R> for At<E, V> {
     }
 }
 
-/// An effect at bodies.
+/// An effect that acts at bodies.
 pub enum AtBody<R: Real> {
     Body(BodyWrench<R>),
     World(WorldWrench<R>),
@@ -47,9 +47,9 @@ pub enum AtBody<R: Real> {
 pub struct Parts<R: Real, const V: usize> {
     /// g, m/s²; zero where gravity is not named.
     pub gravity: R::Vec3,
-    /// At joints.
+    /// The effects that act at joints.
     pub joints: Vec<Box<dyn AtJoint<R>>>,
-    /// Inertia of the motors.
+    /// The inertia of the motors, at each joint.
     pub armature: Option<[R; V]>,
     /// Rotors that spin on parent links.
     pub rotors: Option<GyroscopicRotors<R, V>>,
@@ -57,9 +57,9 @@ pub struct Parts<R: Real, const V: usize> {
     pub base: Option<(Motion<R>, Motion<R>)>,
     /// Loads, with the numbers of their bodies.
     pub payloads: Vec<(usize, SpatialInertia<R>)>,
-    /// Wrenches and contacts.
+    /// The wrenches and contacts at bodies.
     pub wrenches: Vec<AtBody<R>>,
-    /// Friction of gears.
+    /// The friction of the gears.
     pub gears: Option<LoadFriction<R, V>>,
 }
 

@@ -31,19 +31,19 @@ impl std::fmt::Display for BodyRef {
 pub type List = Vec<f64>;
 /// Numbers for each velocity coordinate.
 pub type Table = Vec<List>;
-/// A number.
+/// A number without conditions.
 pub type Number = f64;
 /// A number by which the library divides.
 pub type Nonzero = f64;
 /// A width of the library, by which it divides.
 pub type Wide = f64;
-/// A vector.
+/// A vector of three coordinates.
 pub type Three = [f64; 3];
 /// A vector of length 1.
 pub type Unit = [f64; 3];
 /// A spatial vector, angular part first.
 pub type Six = [f64; 6];
-/// Points of bodies.
+/// Points in the frames of bodies.
 pub type Points = Vec<(BodyRef, Three)>;
 
 /// Gives a macro all effects but those of rigid bodies: the documentation, the name, and the
@@ -185,7 +185,7 @@ macro_rules! spec {
     ($($(#[$doc:meta])* $name:ident {
         $($field:ident: $kind:ident $(= $default:expr)?),*
     })*) => {
-        /// An effect.
+        /// An effect as Python describes it.
         #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
         pub enum Spec {
             Gravity([f64; 3]),
@@ -195,7 +195,7 @@ macro_rules! spec {
         }
 
         impl Spec {
-            /// Its name.
+            /// The name of its class in Python.
             pub fn name(&self) -> &'static str {
                 match self {
                     Self::Gravity(_) => "Gravity",
@@ -231,9 +231,9 @@ effects!(spec);
 /// An effect that does not fit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Unfit {
-    /// The effect.
+    /// The name of the effect.
     pub effect: &'static str,
-    /// Why not.
+    /// The reason why it does not fit.
     pub problem: String,
 }
 
@@ -443,7 +443,7 @@ pub(crate) fn parts<R: Real, const V: usize>(
     parts
 }
 
-/// An effect at joints.
+/// The joint effect that a description stands for; `None` if it acts elsewhere.
 fn of_joints<R: Real, const V: usize>(spec: &Spec) -> Option<Box<dyn AtJoint<R>>> {
     macro_rules! at_joints {
         ($($name:ident { $($field:ident: $by:ident),* })*) => {

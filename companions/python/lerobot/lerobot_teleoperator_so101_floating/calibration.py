@@ -22,8 +22,10 @@ RADIANS = math.tau / COUNTS
 MOST_OFFSET = 2047
 """The greatest magnitude that the servo's register of the offset holds."""
 
-# How far a range may be off that of the description, as a share of it, and its middle off the middle of the turn, in counts. The
-# ranges of a person's recording end a little before the ends of the joint, and the trigger of a leader opens less than the jaw.
+# The least and greatest range that is accepted, as a share of that of the description, and the most
+# by which its middle may be off the middle of the turn, in counts. The ranges of a person's
+# recording end a little before the ends of the joint, and the trigger of a leader opens less than
+# the jaw.
 NARROWEST = np.array([0.75, 0.75, 0.75, 0.75, 0.75, 0.3])
 WIDEST = 1.2
 OFF_MIDDLE = 512
@@ -63,7 +65,7 @@ def check(calibration: dict[str, MotorCalibration], advice: str = "run lerobot-c
 
 
 class Angles:
-    """Joint angles from counts."""
+    """The conversion of counts into joint angles."""
 
     def __init__(self, calibration: dict[str, MotorCalibration]):
         middles = [(calibration[joint].range_min + calibration[joint].range_max) / 2.0 for joint in JOINTS]

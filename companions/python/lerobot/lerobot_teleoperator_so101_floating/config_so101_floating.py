@@ -34,9 +34,9 @@ class So101FloatingConfig(TeleoperatorConfig):
     """Factors of each joint's gravity torque, for a leader whose handle is heavier or lighter than the model's."""
 
     rate: float = 200.0
-    """Ticks per second."""
+    """The number of ticks per second."""
     bandwidth: float = 30.0
-    """Of the observer that estimates velocities, rad/s."""
+    """The bandwidth of the observer that estimates velocities, rad/s."""
     friction_share: float = 0.87
     """The share σ of the modelled friction that is compensated, at most 1/(1 + friction_error); 0 compensates gravity alone."""
     friction_error: float = 0.1
@@ -67,21 +67,22 @@ class So101FloatingConfig(TeleoperatorConfig):
 
     most_speed: float = 10.0
     beyond_limits: float = 0.2
-    """How far a joint may be beyond its limits, rad."""
+    """The most that a joint may be beyond its limits, rad."""
     most_misses: int = 3
     """Ticks in a row in which a servo may fail to reply."""
     reply_time: float = 0.01
-    """How long a tick waits for the servos' replies."""
+    """The time that a tick waits for the servos' replies, s."""
     most_age: float = 0.15
     """The oldest measurement that may still be acted on."""
     stale_time: float = 0.15
-    """How long a servo may contradict itself or its commands."""
+    """The time for which a servo may contradict itself or its commands, s."""
     check_load: bool = True
     """Whether the load that a servo reports must follow the duty that it is commanded, as Feetech's memory table states."""
     load_tolerance: float = 0.02
     most_temperature: int = 65
     release_time: float = 1.0
-    """How long it is tried to switch the torque off before the error is raised; the guardian goes on after that."""
+    """The time, s, for which the loop tries to switch the torque off before it raises the error;
+    the guardian goes on after that."""
     guardian: bool = True
     """A second process that switches the torque off if this one ends without having done so, killed for instance."""
     background: bool = True

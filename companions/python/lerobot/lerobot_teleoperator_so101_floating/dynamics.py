@@ -12,7 +12,8 @@ Dynamics = Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]
 
 
 def floating_dynamics(motors: Motors, urdf: str | None) -> Dynamics:
-    """Of the library's SO-101, or of the description in this file, with friction as that of the scene `so101_teach`."""
+    """The dynamics of the library's SO-101, or of the description in this file, with friction as
+    that of the scene `so101_teach`."""
     import robot_dynamics as rd
 
     try:

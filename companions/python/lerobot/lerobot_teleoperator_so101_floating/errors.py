@@ -1,5 +1,5 @@
-"""What goes wrong, by type. Each error that reaches the caller comes after the torque was switched off, or its attribute
-`released` says that the servos did not confirm it."""
+"""The errors of this package, by type. Each error that reaches the caller comes after the torque
+was switched off, or its attribute `released` says that the servos did not confirm it."""
 
 
 class FloatingError(RuntimeError):

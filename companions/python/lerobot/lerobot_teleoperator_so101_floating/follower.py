@@ -27,7 +27,8 @@ class FollowerLoad:
         self._dead_band = dead_band
 
     def of(self, action: dict[str, float], observation: dict[str, float]) -> dict[str, float]:
-        """What `send_feedback` takes, from the action that the follower was sent and the observation that came after it."""
+        """The feedback that `send_feedback` takes, computed from the action that the follower was
+        sent and the observation that came after it."""
         goal, present = self._angles(action), self._angles(observation)
         motor = np.clip(self._stiffness * (goal - present), -self._most, self._most)
         gravity, _ = self._dynamics(present, np.zeros(6))

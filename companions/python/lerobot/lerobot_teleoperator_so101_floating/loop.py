@@ -54,7 +54,7 @@ class Loop:
         self._command(now, q, qd, ticks)
 
     def _ticks(self, now: float) -> int:
-        """How many ticks the last good reading is old."""
+        """The age of the last good reading, in ticks."""
         before, self._last = self._last, now
         if before is None:
             self._started = now

@@ -1,4 +1,4 @@
-"""What is checked of every reading before a torque is computed from it."""
+"""The checks that every reading passes before a torque is computed from it."""
 
 from collections import deque
 

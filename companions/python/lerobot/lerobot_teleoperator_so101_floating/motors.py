@@ -25,7 +25,8 @@ JOINTS = ("shoulder_pan", "shoulder_lift", "elbow_flex", "wrist_flex", "wrist_ro
 
 SCENE_GEAR = 345.0
 LEADER_GEARS = (191.0, 345.0, 191.0, 147.0, 147.0, 147.0)
-"""Of a leader: LeRobot's page on the SO-101. A follower has 345 at all joints."""
+"""The reductions of a leader's gears, from LeRobot's page on the SO-101. A follower has 345 at all
+joints."""
 
 TORQUE_CONSTANT = 1.2116414
 RESISTANCE = 2.6761663
@@ -94,6 +95,6 @@ class DutyRounder:
     def round(self, duties: np.ndarray, most: int) -> np.ndarray:
         wanted = DUTY_STEPS * duties + self._rest
         steps = np.clip(np.rint(wanted), -most, most)
-        # What is cut off at the limit is not owed.
+        # The part that the limit cuts off is not owed to the next tick.
         self._rest = np.clip(wanted - steps, -0.5, 0.5)
         return steps.astype(int)

@@ -113,7 +113,8 @@ class So101Floating(Teleoperator):
         self._connected = True
 
     def _translated(self, call):
-        """What LeRobot's bus returns, and its errors as those of this package."""
+        """Returns the result of a call of LeRobot's bus, and raises its errors as those of this
+        package."""
         try:
             return call()
         except FloatingError:
@@ -231,7 +232,8 @@ class So101Floating(Teleoperator):
     def send_feedback(self, feedback: dict[str, Any]) -> None:
         """Lets the user feel the follower's load: the torque with which its surroundings act on a joint, N·m.
 
-        What is sent is felt by `feedback_gain` beyond the dead band, and forgotten after `feedback_timeout`.
+        The load is felt by `feedback_gain` beyond the dead band, and forgotten after
+        `feedback_timeout`.
         """
         self._raise_if_failed()
         torque = np.zeros(6)

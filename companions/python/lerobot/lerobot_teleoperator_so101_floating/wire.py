@@ -1,9 +1,10 @@
 """The bytes of the Feetech bus that the loop needs, on a port that LeRobot's `FeetechMotorsBus` has opened.
 
-The SDK under `FeetechMotorsBus` reads one register of all servos and stops at the first that does not reply, without saying
-which; it drops the status that a reply carries, and takes replies that came late for those to the next request. The loop needs
-six registers at once, from every servo that replies, and the reason of each that did not. What is done once, at connection, is
-left to `FeetechMotorsBus`.
+The SDK under `FeetechMotorsBus` reads one register of all servos and stops at the first that does
+not reply, without saying which; it drops the status that a reply carries, and takes replies that
+came late for those to the next request. The loop needs six registers at once, from every servo that
+replies, and the reason of each that did not. Everything that is done once, at connection, is left
+to `FeetechMotorsBus`.
 
 Source: Feetech, "Communication Protocol User Manual", and the memory table of the magnetic STS servos. Signs are one bit above
 the magnitude: bit 15 of position and speed, bit 10 of duty and load.
@@ -20,7 +21,8 @@ try:
 except ImportError:  # Not a POSIX system.
     termios = None
 
-# What a port raises whose adapter is gone: `termios.error` is no `OSError`, and pyserial lets it pass.
+# The errors that a port raises when its adapter is gone: `termios.error` is no `OSError`, and
+# pyserial lets it pass.
 PORT_ERRORS = (OSError, serial.SerialException) + ((termios.error,) if termios else ())
 
 HEADER = b"\xff\xff"

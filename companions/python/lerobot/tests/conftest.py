@@ -18,7 +18,8 @@ install()
 
 JOINTS = ("shoulder_pan", "shoulder_lift", "elbow_flex", "wrist_flex", "wrist_roll", "gripper")
 RANGES = ((796, 3298), (910, 3184), (946, 3148), (966, 3128), (0, 4095), (1500, 2751))
-"""What a person records: the joints' ends, a full turn of the wrist, and the jaw's 110°."""
+"""The ranges that a person records: the joints' ends, a full turn of the wrist, and the jaw's
+110°."""
 OFFSETS = (-800, 1200, 40, -1500, 300, 900)
 REPOSITORY = Path(__file__).parents[4]
 SCENE_GEARS = (345.0,) * 6
@@ -26,7 +27,7 @@ TICK = 0.005
 
 
 def run(teleoperator, ticks):
-    """So many ticks."""
+    """Runs so many ticks of the loop."""
     for _ in range(ticks):
         teleoperator.tick()
 
@@ -60,7 +61,7 @@ def calibration():
 
 
 class Bench:
-    """What a test needs: a clock, buses and teleoperators that are closed after it."""
+    """The bench of a test: a clock, buses and teleoperators that are closed after it."""
 
     def __init__(self, folder: Path, clock: Clock | None = None):
         self.folder, self.clock = folder, clock or Clock()
@@ -132,7 +133,7 @@ def at_rest():
 
 @pytest.fixture(scope="session")
 def scene():
-    """What the firmware's scene commands, from the bin so101_floating of ../bits."""
+    """The commands of the firmware's scene, recorded by the bin so101_floating of ../bits."""
     path = os.environ.get("SO101_FLOATING_SCENE")
     if not path:
         pytest.fail("SO101_FLOATING_SCENE names the record of the scene: run check --full")

@@ -15,7 +15,7 @@ def warm(bench, at_rest):
 
 
 def felt(teleoperator, feedback, ticks=20):
-    """How much the torque changes, N·m."""
+    """The change of the torque under this feedback, N·m."""
     before = teleoperator.loop.torque.copy()
     for _ in range(ticks):
         teleoperator.send_feedback(feedback)
@@ -94,7 +94,8 @@ def test_a_hand_moves_the_arm_with_less_effort(bench):
 
 @pytest.mark.parametrize("push", [0.0, 0.6, -0.6])
 def test_a_push_on_the_follower_is_felt_at_the_leader(tmp_path, push):
-    """Of LeRobot's own follower, from its positions alone; its joints move, and the hand pushes one."""
+    """The load of LeRobot's own follower comes from its positions alone; its joints move, and the
+    hand pushes one."""
     from conftest import Bench
     from lerobot.robots.so_follower import SOFollower, SOFollowerRobotConfig
 

@@ -1,4 +1,4 @@
-//! Joints that are elastic.
+//! The methods for robots with elastic joints.
 
 use pyo3::prelude::*;
 use robot_dynamics_kernels::Which;
@@ -17,10 +17,10 @@ impl Robot {
     /// links with four derivatives: q (…, nq), q̇, q̈, jerk, rad/s³ or m/s³, and snap (…, nv),
     /// rad/s⁴ or m/s⁴.
     ///
-    /// Of each joint, (nv,): the stiffness of the transmission, N·m/rad or N/m, the inertia of the
-    /// rotor, kg·m² or kg, and the viscous friction of the motor, N·m·s/rad or N·s/m, reflected.
-    /// Effects act on the links; wrenches, rotors that spin, friction of gears and a moving base
-    /// have no place.
+    /// The arguments of each joint, (nv,), are the stiffness of the transmission, N·m/rad or N/m,
+    /// the inertia of the rotor, kg·m² or kg, and the viscous friction of the motor, N·m·s/rad or
+    /// N·s/m, reflected. Effects act on the links; wrenches, rotors that spin, friction of gears
+    /// and a moving base have no place.
     ///
     /// Raises MultiDofJoint for a joint of several coordinates.
     #[pyo3(signature = (q, qd, qdd, jerk, snap, stiffness, rotor, friction, effects = None))]

@@ -64,8 +64,8 @@ impl Robot {
         self.inverse_dynamics(py, (form, EngineScene::Bias), effects, keeps, &given)
     }
 
-    /// The torques (…, nv), N·m or N, that hold the robot against gravity at q (…, nq). Of the
-    /// effects only Gravity and loads act.
+    /// The torques (…, nv), N·m or N, that hold the robot against gravity at q (…, nq). No other
+    /// effects than Gravity and loads act.
     #[pyo3(signature = (q, effects = None, form = "core"))]
     fn gravity<'py>(
         &self,
@@ -127,7 +127,7 @@ methods! {
     /// accelerated (…, nv).
     hybrid_dynamics(q: q, qd: v, given: v, accelerated: v; under effects with_inertia) = several(Hybrid): [v], [v];
 
-    /// What of the motors' torques τ (…, nv) arrives behind the friction of the gears
+    /// The part of the motors' torques τ (…, nv) that arrives behind the friction of the gears
     /// (`LoadFriction`), (…, nv).
     transmitted_torque(q: q, qd: v, tau: v; under effects) = one(Transmitted): [v];
 

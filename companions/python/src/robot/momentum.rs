@@ -1,4 +1,4 @@
-//! Energy and momentum.
+//! The methods for energy and momentum.
 
 use super::{Robot, without_rotors};
 use crate::methods::methods;

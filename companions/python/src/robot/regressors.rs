@@ -1,4 +1,4 @@
-//! What torques are linear in: inertial parameters, and coefficients of friction.
+//! The regressors: torques are linear in inertial parameters and in coefficients of friction.
 
 use pyo3::prelude::*;
 use robot_dynamics_kernels::Which;

@@ -19,7 +19,7 @@ pub struct PyAdvice {
     topic: String,
     /// The line of the file; None if none is concerned.
     line: Option<u32>,
-    /// The link or joint.
+    /// The name of the link or joint.
     name: String,
     /// A sentence with the reason.
     text: String,
@@ -40,7 +40,7 @@ impl PyAdvice {
 #[pyclass(frozen, get_all, module = "robot_dynamics", name = "Coupling")]
 #[derive(Clone, Serialize, Deserialize)]
 pub struct PyCoupling {
-    /// The joint that follows.
+    /// The name of the joint that follows.
     joint: String,
     /// The joint that it follows.
     leader: String,

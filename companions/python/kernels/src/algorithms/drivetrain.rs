@@ -1,4 +1,4 @@
-//! Joints that are elastic.
+//! The algorithms for robots with elastic joints.
 
 use dynamics_core::drivetrain::{ElasticJoints, ElasticReference, elastic_inverse_dynamics};
 use dynamics_core::model::RobotModel;

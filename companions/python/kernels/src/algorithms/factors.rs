@@ -103,7 +103,7 @@ algorithm! {
 }
 
 algorithm! {
-    /// M⁻¹ of q.
+    /// The inverse M(q)⁻¹ of the inertia matrix.
     InverseMass, matrix, |this, robot, counts, scene, row| {
         let q = filled::<R, Q>(row, 0, counts.q);
         let factors = factors::<R, D, B, Q, V, X>(robot, &q, parts_of(scene), counts)?;

@@ -1,4 +1,4 @@
-//! Links that bend.
+//! The algorithms for robots whose links bend.
 
 use dynamics_core::effects::Elasticity;
 use dynamics_core::flexible::{self, ModalFeedforward};

@@ -1,4 +1,4 @@
-//! Loops of closed form.
+//! The algorithms for robots with linkages: loops that have a closed form.
 
 use dynamics_core::algorithms;
 use dynamics_core::model::RobotModel;

@@ -1,4 +1,4 @@
-//! Kinematic loops.
+//! The algorithms for robots with kinematic loops.
 
 use dynamics_core::loops::{self, Drive, Moving, Stabilisation};
 use dynamics_core::model::RobotModel;
@@ -55,7 +55,7 @@ algorithm! {
                 row.put(0, i * motors + j, g);
             }
         }
-        // What fills the model up moves freely.
+        // The bodies that fill the model up move freely, and do not count.
         row.put(1, 0, count(map.degrees_of_freedom() + counts.v - V));
     }
 }

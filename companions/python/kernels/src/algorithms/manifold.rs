@@ -7,7 +7,7 @@ use dynamics_core::state::manifold;
 use super::*;
 
 algorithm! {
-    /// q ⊕ δ.
+    /// The configuration q ⊕ δ that a step δ leads to.
     Integrate, none, |this, robot, counts, scene, row| {
         let (q, delta) = (filled::<R, Q>(row, 0, counts.q), filled::<R, V>(row, 1, counts.v));
         let found = manifold::integrate(robot, &q, &delta);
@@ -25,7 +25,7 @@ algorithm! {
 }
 
 algorithm! {
-    /// q₁ ⊖ q₀.
+    /// The step q₁ ⊖ q₀ between two configurations.
     Difference, none, |this, robot, counts, scene, row| {
         let (from, to) = (filled::<R, Q>(row, 0, counts.q), filled::<R, Q>(row, 1, counts.q));
         let found = manifold::difference(robot, &from, &to);

@@ -172,7 +172,7 @@ fn fillers<R: Real, const V: usize>(counts: Counts) -> [R; V] {
     std::array::from_fn(|i| if i < counts.v { R::ZERO } else { R::ONE })
 }
 
-/// The factors of M.
+/// The factors of the inertia matrix M.
 #[inline(always)]
 fn factors<
     R: Real,
@@ -196,7 +196,7 @@ fn factors<
 /// A frame that is known at run time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AnyFrame {
-    /// The body's own.
+    /// The axes and the origin of the body.
     Local,
     /// The base's, about its origin.
     World,
@@ -259,7 +259,7 @@ algorithm! {
 }
 
 algorithm! {
-    /// M of q.
+    /// The inertia matrix M(q).
     Crba, matrix, |this, robot, counts, scene, row| {
         let m = algorithms::crba(robot, &filled::<R, Q>(row, 0, counts.q), scene);
         put_matrix(row, 0, &m, counts.v);
@@ -365,7 +365,7 @@ algorithm! {
 }
 
 algorithm! {
-    /// T.
+    /// The kinetic energy T.
     KineticEnergy, rigid, |this, robot, counts, scene, row| {
         let energy = algorithms::kinetic_energy(robot, &state(row, counts, 2), scene);
         row.put(0, 0, energy);
@@ -373,7 +373,7 @@ algorithm! {
 }
 
 algorithm! {
-    /// U.
+    /// The potential energy U.
     PotentialEnergy, rigid, |this, robot, counts, scene, row| {
         let q = filled::<R, Q>(row, 0, counts.q);
         let energy = algorithms::potential_energy(robot, &q, scene);
@@ -439,7 +439,7 @@ algorithm! {
 }
 
 algorithm! {
-    /// C(q, q̇).
+    /// The Coriolis matrix C(q, q̇).
     CoriolisMatrix, rigid, |this, robot, counts, scene, row| {
         let c = algorithms::coriolis_matrix(robot, &state(row, counts, 2), scene);
         put_rows(row, 0, &c[..counts.v], counts.v);
@@ -458,7 +458,7 @@ algorithm! {
 }
 
 algorithm! {
-    /// Λ⁻¹ of a body.
+    /// The inverse Λ⁻¹ of the operational-space inertia of a body.
     OsimInverse { body: usize, frame: AnyFrame }, unspun, |this, robot, counts, scene, row| {
         let q = filled::<R, Q>(row, 0, counts.q);
         let found = in_frame!(this.frame, frame => {

@@ -1,4 +1,4 @@
-//! What torques are linear in: inertial parameters, and coefficients of friction.
+//! The regressors: torques are linear in inertial parameters and in coefficients of friction.
 
 use dynamics_core::algorithms;
 use dynamics_core::effects::Width;
@@ -31,7 +31,7 @@ algorithm! {
 }
 
 algorithm! {
-    /// φ of all bodies.
+    /// The inertial parameters φ of all bodies.
     InertialParameters, rigid, |this, robot, counts, scene, row| {
         let found = algorithms::inertial_parameters(robot, scene);
         put(row, 0, 0, found[..counts.bodies].as_flattened());

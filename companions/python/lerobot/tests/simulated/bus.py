@@ -39,13 +39,13 @@ class Bus:
         self.duties: list[dict[int, int]] = []
         """The synchronous writes of duties, as the bytes say, by servo."""
         self.mute = False
-        """Replies get lost."""
+        """Whether all replies get lost."""
         self.deaf = False
-        """Requests get lost."""
+        """Whether all requests get lost."""
         self.corrupt: set[int] = set()
         """Servos of which each reply has a wrong bit."""
         self.noise = b""
-        """Bytes before each reply."""
+        """Bytes that come before each reply."""
         self._buffer, self._replies = b"", b""
         self._terminal = terminal
         self._stop = threading.Event()

@@ -24,7 +24,7 @@ LINES: dict = {}
 
 
 class Port:
-    """What the SDK and the plug-in use of a `serial.Serial`."""
+    """The part of a `serial.Serial` that the SDK and the plug-in use."""
 
     def __init__(self, line, timeout: float):
         self.line, self.timeout, self.clock = line, timeout, line.clock

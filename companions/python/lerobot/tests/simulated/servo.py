@@ -102,7 +102,7 @@ class Servo:
         self.frozen = bytes(self.registers)
 
     def move(self, angle: float, speed: float) -> None:
-        """Where the joint is, rad, and how fast it moves."""
+        """Sets the joint's angle, rad, and its speed, rad/s."""
         self.angle, self.speed = angle, speed
         self.refresh()
 

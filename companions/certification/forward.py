@@ -3,11 +3,13 @@
 
     venv/bin/python companions/certification/forward.py
 
-reads the robots' bodies and the states from forward.json, which `certify --write forward` writes, and adds the accelerations,
-rounded from 50 digits to f64. With --check it writes nothing and fails if the file would change.
+reads the robots' bodies and the states from forward.json, which `certify --write forward` writes,
+and adds the accelerations, rounded from 50 digits to f64. With --check it writes nothing and fails
+if the file would change.
 
-Torques are those of precise.py, in base coordinates. M has the torques of unit accelerations as columns; M q̈ = τ − b is solved by
-mpmath's LU decomposition with pivoting: neither LᵀDL nor the inverse of the search.
+Torques are those of precise.py, in base coordinates. M has the torques of unit accelerations as
+columns; M q̈ = τ − b is solved by mpmath's LU decomposition with pivoting: neither LᵀDL nor the
+inverse of the search.
 """
 
 import json

@@ -1,4 +1,5 @@
-"""The cases: a robot, its states, and why it is hard. Numbers up to 70 are those of docs/hard-cases.md."""
+"""The cases: a robot, its states, and why it is hard. Numbers up to 70 are those of
+docs/hard-cases.md."""
 
 import math
 import random

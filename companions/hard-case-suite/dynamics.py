@@ -1,8 +1,9 @@
-"""Dynamics of a tree of rigid bodies in 50 digits, in plain mpmath and without any library of dynamics.
+"""Dynamics of a tree of rigid bodies in 50 digits, in plain mpmath and without any library of
+dynamics.
 
-Inverse dynamics is the recursive Newton-Euler algorithm (Featherstone, "Rigid Body Dynamics Algorithms", 2008,
-table 5.1), written with vectors of three numbers in the frame of each link. The mass matrix is a column a unit
-acceleration, and forward dynamics is Cholesky's factorisation of it.
+Inverse dynamics is the recursive Newton-Euler algorithm (Featherstone, "Rigid Body Dynamics
+Algorithms", 2008, table 5.1), written with vectors of three numbers in the frame of each link. The
+mass matrix is a column a unit acceleration, and forward dynamics is Cholesky's factorisation of it.
 """
 
 from mpmath import mp, mpf
@@ -102,7 +103,8 @@ class Tree:
             self.world.append((product(up, e), add(at, apply(up, p))) if up else (e, p))
 
     def torques(self, qd, qdd, gravity=True):
-        """Inverse dynamics, and the size of what adds up to each torque: the same sums of norms, so that no term cancels."""
+        """Inverse dynamics, and the size of what adds up to each torque: the same sums of norms, so
+        that no term cancels."""
         zero, motion, loads, norms, own = [mpf(0)] * 3, [], [], [], []
         for i, link in enumerate(self.links):
             down = transposed(self.attitude[i])
@@ -155,7 +157,8 @@ class Tree:
         return sums
 
     def mass_matrix(self):
-        """M and the sizes of what adds up to its entries: columns of torques of unit accelerations."""
+        """M and the sizes of what adds up to its entries: columns of torques of unit
+        accelerations."""
         still, one = [mpf(0)] * self.n, lambda j: [mpf(i == j) for i in range(self.n)]
         columns, sizes = zip(*[self.torques(still, one(j), gravity=False) for j in range(self.n)])
         return columns, [[max(sizes[i][j], sizes[j][i]) for i in range(self.n)] for j in range(self.n)]

@@ -54,7 +54,8 @@ SO101 = [
     (-0.174533, 1.74533, 10.0),
 ]
 
-# States at which a search over a million found the worst errors of the first four torques, by `certify --json`.
+# States at which a search over a million found the worst errors of the first four torques, by
+# `certify --json`.
 UR5E_WORST = [
     (
         [-0.6715471148490906, 5.787980079650879, -0.2891339361667633, 4.119882583618164, -1.2044637203216553, -3.880908966064453],
@@ -162,7 +163,8 @@ def found():
     dust = changed(
         ur5e(), 5, mass=single(1e-38), inertia=[single(x) for x in (2e-42, 0, 0, 2e-42, 0, 3e-42)], com=[0.0, 0.0, 0.0]
     )
-    # The reciprocal of the last pivot exceeds f32: a solver that uses it refuses rather than divide.
+    # The reciprocal of the last pivot exceeds f32: a solver that uses it refuses rather than
+    # divide.
     yield Case(
         80, "subnormal-inertia", "UR5e, last link of 10⁻³⁸ kg and 3·10⁻⁴² kg·m²",
         "The last pivot is subnormal in f32: a flush to zero makes M singular.", dust, COMMON,

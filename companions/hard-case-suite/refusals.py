@@ -1,4 +1,5 @@
-"""The check of the suite refuses what its scripts do not write: a changed digit, a file too many, and one that is missing."""
+"""The check of the suite refuses what its scripts do not write: a changed digit, a file too many,
+and one that is missing."""
 
 import tempfile
 from pathlib import Path

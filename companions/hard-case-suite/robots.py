@@ -1,4 +1,5 @@
-"""The robots of the cases: links as the suite writes them, every number one that f32 has (but rotations and axes)."""
+"""The robots of the cases: links as the suite writes them, every number one that f32 has (but
+rotations and axes)."""
 
 import math
 import struct
@@ -12,7 +13,8 @@ def single(x):
 
 
 def neighbour(x, step):
-    """The number of f32 that is `step` units in the last place above x > 0 or further from zero if x < 0."""
+    """The number of f32 that is `step` units in the last place above x > 0 or further from zero if
+    x < 0."""
     return struct.unpack("<f", struct.pack("<i", struct.unpack("<i", struct.pack("<f", x))[0] + step))[0]
 
 
@@ -111,7 +113,8 @@ def ur5e():
 
 
 def panda():
-    """Franka Emika Panda without a hand: the numbers of dynamics-core/src/robots/imported/panda.rs."""
+    """Franka Emika Panda without a hand: the numbers of
+    dynamics-core/src/robots/imported/panda.rs."""
     return [
         link(
             -1, Z, (0, 0, 0.333), None, 4.970684, (0.003875, 0.002081, -0.04762),
@@ -145,7 +148,8 @@ def panda():
 
 
 def so101():
-    """SO-101: the numbers of dynamics-core/src/robots/imported/so101.rs, quarter turns made exact."""
+    """SO-101: the numbers of dynamics-core/src/robots/imported/so101.rs, quarter turns made
+    exact."""
     shoulder = (8.3759e-5, 7.55525e-8, -1.16342e-6, 8.10403e-5, 1.54663e-7, 2.39783e-5)
     upper = (4.08002e-5, -1.97819e-5, -4.03016e-8, 0.000147318, 8.97326e-9, 0.000142487)
     lower = (2.87438e-5, 7.41152e-6, 1.26409e-6, 0.000159844, -4.90188e-8, 0.00014529)
@@ -225,7 +229,8 @@ def general():
 
 
 def seesaw():
-    """Five rods of 1 kg and 1 m, and on the other side of the first joint what balances them stretched."""
+    """Five rods of 1 kg and 1 m, and on the other side of the first joint what balances them
+    stretched."""
     return [link(-1, Y, (0, 0, 0), None, 17.5, (-1, 0, 0), (1, 0, 0, 1, 0, 1))] + [
         rod(i, 1.0, 1.0, Y, 0.02) for i in range(1, 6)
     ]

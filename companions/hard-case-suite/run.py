@@ -2,8 +2,8 @@
 
     python companions/hard-case-suite/run.py [--write]
 
-needs `pip install pin`. The columns of this library are from its test, by cargo. --write replaces the table of results.md. Another
-library needs a class as this one's.
+needs `pip install pin`. The columns of this library are from its test, by cargo. --write replaces
+the table of results.md. Another library needs a class as this one's.
 """
 
 import json

@@ -1,9 +1,11 @@
-"""Compares the answers of the suite with a second computation in many digits, that of host-tests/oracle/hard.py.
+"""Compares the answers of the suite with a second computation in many digits, that of
+host-tests/oracle/hard.py.
 
     python companions/hard-case-suite/second.py
 
-It shares no line with dynamics.py: bodies are followed in base coordinates, all moments about the base's origin. Prints the
-largest difference of each case, relative to the scale of its bound; more than 10⁻⁴⁵ is an error.
+It shares no line with dynamics.py: bodies are followed in base coordinates, all moments about the
+base's origin. Prints the largest difference of each case, relative to the scale of its bound; more
+than 10⁻⁴⁵ is an error.
 """
 
 import json
@@ -27,7 +29,8 @@ def turned_to_z(axis):
 
 
 class Body(hard.Body):
-    """A link of the suite in a frame whose z is the joint's axis; `before` is that rotation of its parent."""
+    """A link of the suite in a frame whose z is the joint's axis; `before` is that rotation of its
+    parent."""
 
     def __init__(self, link, before):
         exact = [mpf(x) for x in link["axis"]]

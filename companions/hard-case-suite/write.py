@@ -16,15 +16,17 @@ from robots import single
 
 OUT = Path(__file__).parent / "cases"
 MATRICES = 8  # Up to this many joints M is written; that of 64 rods is 4096 numbers a state.
-# The error of a sum of n rounded terms grows as √n (Higham and Mary, 2019). The factor is for what is rounded before
-# the sum: placements, inertias about the origin of a frame, and sines, which in f32 have errors of two units.
+# The error of a sum of n rounded terms grows as √n (Higham and Mary, 2019). The factor is for what
+# is rounded before the sum: placements, inertias about the origin of a frame, and sines, which in
+# f32 have errors of two units.
 FACTOR = 3
 UNIT = {"f32": 2.0**-24, "f64": 2.0**-53}
 SCALE = "the scale of the same state and joint, or entry of M"
 
 
 def digits(row, sizes):
-    """Fifty digits of each number; what is left where terms cancel to zero, of 90 digits, is zero."""
+    """Fifty digits of each number; what is left where terms cancel to zero, of 90 digits, is
+    zero."""
     return [
         mp.nstr(x, DIGITS, strip_zeros=False) if abs(x) > size * mpf(10) ** -75 else "0" for x, size in zip(row, sizes)
     ]
@@ -100,7 +102,8 @@ def lines(value):
 
 
 def stale(wanted):
-    """The names of the files that are not those of the scripts: of other text, missing, or of no case."""
+    """The names of the files that are not those of the scripts: of other text, missing, or of no
+    case."""
     other = [path.name for path, text in wanted.items() if not path.exists() or path.read_text() != text]
     return other + [path.name for path in OUT.glob("*.json") if path not in wanted]
 

@@ -4,8 +4,9 @@
     python bench.py --write  # rewrites the page
     python bench.py --check  # says whether the page is older than the code that it measured
 
-All functions take turns in one process, on the same cores; a figure is the median of five turns, a ratio the median of
-the ratios of the turns. Pinocchio is the wheel `pin`, whose loop over states, `rneaInParallel`, is C++.
+All functions take turns in one process, on the same cores; a figure is the median of five turns, a
+ratio the median of the ratios of the turns. Pinocchio is the wheel `pin`, whose loop over states,
+`rneaInParallel`, is C++.
 """
 
 from __future__ import annotations
@@ -65,7 +66,8 @@ def measure() -> dict:
     for name, shape in shapes.items():
         text = urdf(**(shape or shapes["arm of 6"]))
         robot = rd.Robot(name) if shape is None else rd.Robot.from_text(text, exact=False)
-        # Pinocchio's time depends on the tree and the kinds of joints alone: those of a UR5e are the arm's of six.
+        # Pinocchio's time depends on the tree and the kinds of joints alone: those of a UR5e are
+        # the arm's of six.
         peer = Peer(text)
         q, v, a, tau = states(robot, STATES)
         single = [x.astype(np.float32) for x in (q, v, a, tau)]
@@ -106,7 +108,8 @@ def measure() -> dict:
         robot.rnea(*one)
         for _ in range(TURNS):
             calls.append(seconds(lambda: robot.rnea(*one), CALLS) * 1e6)
-            # Seven states in one call are computed one after the other: more of them is the library's own time.
+            # Seven states in one call are computed one after the other: more of them is the
+            # library's own time.
             few, more = [seconds(lambda n=n: robot.rnea(q[:n], v[:n], a[:n]), CALLS // 4) for n in (1, 7)]
             library.append((more - few) / 6 * 1e6)
         single_state[own] = {
@@ -177,7 +180,8 @@ def missed(found: dict) -> list[str]:
 
 
 def check() -> None:
-    """Says whether the page is older than the code: times of one machine are no test of another, as on docs/peers.md."""
+    """Says whether the page is older than the code: times of one machine are no test of another, as
+    on docs/peers.md."""
     page = PAGE.read_text(encoding="utf-8")
     if BEGIN not in page or END not in page:
         sys.exit(f"{PAGE.name} has no markers")

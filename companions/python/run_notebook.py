@@ -1,4 +1,5 @@
-"""Runs the code of a notebook in this process, without jupyter: `python run_notebook.py five_minutes.ipynb`.
+"""Runs the code of a notebook in this process, without jupyter: `python run_notebook.py
+five_minutes.ipynb`.
 
 A cell that raises ends the program with its number; `--write` stores what the cells print.
 """

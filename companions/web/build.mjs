@@ -1,4 +1,5 @@
-// Writes the page: one file without any other, from the sources in page/, the library as WebAssembly and recorded figures.
+// Writes the page: one file without any other, from the sources in page/, the library as
+// WebAssembly and recorded figures.
 // node companions/web/build.mjs [--out FOLDER]
 import { execFileSync } from "node:child_process";
 import { mkdirSync, readFileSync, writeFileSync, statSync } from "node:fs";

@@ -1,4 +1,5 @@
-// The recorded figures that the page shows: read from the generated pages of docs/, none typed here.
+// The recorded figures that the page shows: read from the generated pages of docs/, none typed
+// here.
 import { readFileSync, readdirSync } from "node:fs";
 import { join } from "node:path";
 
@@ -111,7 +112,8 @@ export function recorded(root) {
   };
 }
 
-/// The hard cases: a list of their files, by name; an answer has the fewest digits from which f64, in which errors are measured, reads the same number.
+/// The hard cases: a list of their files, by name; an answer has the fewest digits from which f64,
+/// in which errors are measured, reads the same number.
 export function cases(root) {
   const folder = join(root, "companions/hard-case-suite/cases");
   const files = readdirSync(folder).filter((name) => name.endsWith(".json")).sort();

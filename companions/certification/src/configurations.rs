@@ -7,7 +7,8 @@
 //! another expression. The distance of two expressions, their literals taken as they are, is a
 //! trigonometric polynomial too, and is bounded by the same grid; then
 //!
-//!   |error| ≤ |computed − the model's expression| + |that − the whole expression| + |that − the whole model|,
+//!   |error| ≤ |computed − the model's expression| + |that − the whole expression|
+//!             + |that − the whole model|,
 //!
 //! by operations and sines, by the distance, and by the literals of the whole expression.
 

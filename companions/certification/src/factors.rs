@@ -8,9 +8,10 @@
 //! carried outwards and what is known to the compiler is computed: rounding to nearest knows no
 //! order and no sign, so that all expressions of a normal form have one value.
 //!
-//! With the unit roundoff u = 2⁻²⁴ and 1 + θ_m for a product of m factors (1 + δ)^±1, |δ| ≤ u, |θ_m| ≤ γ_m = m u / (1 − m u) (Higham, Accuracy
-//! and Stability of Numerical Algorithms, 2002, lemma 3.1), let d_k be the exact reciprocal of the computed 1/D_k. Each entry of M̂ is a
-//! sum of what was subtracted from it and what is left,
+//! With the unit roundoff u = 2⁻²⁴ and 1 + θ_m for a product of m factors (1 + δ)^±1, |δ| ≤ u,
+//! |θ_m| ≤ γ_m = m u / (1 − m u) (Higham, Accuracy and Stability of Numerical Algorithms, 2002,
+//! lemma 3.1), let d_k be the exact reciprocal of the computed 1/D_k. Each entry of M̂ is a sum of
+//! what was subtracted from it and what is left,
 //!
 //!   M̂_ij = Σ_k d_k l_ki l_kj (1 + θ_f),   (τ − b̂)_i = Σ_j Σ_k d_k l_ki l_kj (1 + θ_s) q̈_j,
 //!

@@ -249,7 +249,8 @@ def test_singular_inertia_names_joint_and_state():
 
 @pytest.mark.parametrize("lane", range(8))
 def test_a_singular_state_among_eight_is_named(lane):
-    """float32 computes eight states at once, and those of a block with a singular one again one by one."""
+    """float32 computes eight states at once, and those of a block with a singular one again one by
+    one."""
     robot, state, scene = rd.Robot("ur5e"), 16 + lane, rd.RIGID_BODY
     q, v, _, tau = (x.astype(np.float32) for x in states(robot, 40))
     # All but one stretch out, and have more inertia about the vertical axis than the upright one.

@@ -1,4 +1,5 @@
-"""float32 has the bits of the host's and so of the target's programs, which agree by the tests of the library."""
+"""float32 has the bits of the host's and so of the target's programs, which agree by the tests of
+the library."""
 
 import os
 import subprocess
@@ -36,7 +37,8 @@ def test_single_precision_has_the_bits_of_core(name, quantity):
     rows = [x.astype(np.float32) for x in states(robot, 1000)]
     expected = firmware(robot, f"core {quantity}", rows)
     found = ours(robot, quantity, rows).ravel()
-    # Bits, but that zeros have no sign: a scene without gravity adds a zero where firmware adds nothing.
+    # Bits, but that zeros have no sign: a scene without gravity adds a zero where firmware adds
+    # nothing.
     assert (found + np.float32(0)).tobytes() == (expected + np.float32(0)).tobytes()
     if quantity in ("rnea", "crba", "aba", "forward_dynamics"):
         assert found.tobytes() == expected.tobytes()

@@ -105,7 +105,8 @@ def test_joints_that_follow_others_are_told():
     assert found == {
         ("f1", "lead"): (-1.5, 0.25),
         ("slide", "lead"): (0.02, 0.01),
-        # It follows f1, which follows: 2 (−1.5 lead + 0.25) is not what the file says; it says lead.
+        # It follows f1, which follows: 2 (−1.5 lead + 0.25) is not what the file says; it says
+        # lead.
         ("f2", "lead"): (2.0, 0.0),
     }
     assert rd.Robot.from_text(PENDULUM).couplings == [] and rd.Robot("ur5e").couplings == []

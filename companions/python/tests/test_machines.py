@@ -1,4 +1,5 @@
-"""Kinematic loops, linkages and links that bend: against each other, against numpy, and what is refused."""
+"""Kinematic loops, linkages and links that bend: against each other, against numpy, and what is
+refused."""
 
 import numpy as np
 import pytest
@@ -23,7 +24,8 @@ def closed(kind, seed=28, bodies=("link0", "link7")):
     rotations, positions = (x[ends] for x in robot.poses(q))
     point = np.array([0.3, -0.2, 0.1])
     xyz = [turn.T @ (point - at) for turn, at in zip(rotations, positions)]
-    # Axes of the frame on the successor are those of the base; on the predecessor those that coincide with them.
+    # Axes of the frame on the successor are those of the base; on the predecessor those that
+    # coincide with them.
     rpy = [angles(turn.T) for turn in rotations]
     joint = rd.LoopJoint("loop", kind, bodies, xyz, rpy)
     return robot, joint, (q, v, a, tau), (ends, point)

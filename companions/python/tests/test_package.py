@@ -77,14 +77,16 @@ def algorithms():
             found += [f"{module}.{name}" for name in all_names if re.match(r"[a-z]", name) and name != "frame"]
     for module, files in (("clusters", "clusters/*.rs"), ("flexible", "flexible/f[er]e[dq]*.rs"), ("manifold", "state/manifold.rs")):
         for path in sorted(CORE.glob(files)):
-            # Functions of a cluster's motion, and what says whether numbers are finite, are no algorithms.
+            # Functions of a cluster's motion, and what says whether numbers are finite, are no
+            # algorithms.
             named = re.findall(r"^ {0,4}pub fn (\w+)", path.read_text(), re.M) if path.name != "cluster.rs" else []
             found += [f"{module}.{name}" for name in named]
     return list(dict.fromkeys(found))
 
 
 def missing(names, without):
-    """Those that the wheel has not and no reason is given for, and reasons without an algorithm that the wheel lacks."""
+    """Those that the wheel has not and no reason is given for, and reasons without an algorithm
+    that the wheel lacks."""
     def has(name):
         module, function = name.split(".")
         return hasattr(getattr(rd, CLASSES[module]), function)

@@ -1,4 +1,5 @@
-"""float64 against Pinocchio, on robots of random shape: fixed and floating base, chains and trees."""
+"""float64 against Pinocchio, on robots of random shape: fixed and floating base, chains and
+trees."""
 
 import numpy as np
 import pytest
@@ -229,7 +230,8 @@ def test_hybrid_dynamics_agrees_with_both(pair):
 
 
 def test_rotors_that_spin_are_bodies_of_pinocchio():
-    """A rotor is a body of its own on the link before its joint, whose inertia counts it as locked."""
+    """A rotor is a body of its own on the link before its joint, whose inertia counts it as
+    locked."""
     text = urdf(seed=8, joints=6, kinds=("revolute", "prismatic"))
     robot, peer = rd.Robot.from_text(text, exact=False), Peer(text)
     q, v, a, tau = states(robot, 20)

@@ -1,4 +1,5 @@
-"""Robots of random shape as URDF, and the same state in the order of this package and of Pinocchio."""
+"""Robots of random shape as URDF, and the same state in the order of this package and of
+Pinocchio."""
 
 from __future__ import annotations
 

@@ -1,4 +1,5 @@
-// Torques as bars: for each joint a row in which the effects' parts are stacked to both sides, and a line at the sum.
+// Torques as bars: for each joint a row in which the effects' parts are stacked to both sides, and
+// a line at the sum.
 import { EFFECTS } from "./state.js";
 import { digits, inMemory } from "./words.js";
 
@@ -73,7 +74,8 @@ export class Bars {
     }
   }
 
-  /// A scale of 1, 2 or 5 times a power of ten that all bars fit in; it shrinks late, so that it does not flicker.
+  /// A scale of 1, 2 or 5 times a power of ten that all bars fit in; it shrinks late, so that it
+  /// does not flicker.
   fit({ parts, single }) {
     let most = 1e-6;
     single.forEach((sum, joint) => {

@@ -6,7 +6,8 @@ import { by, digits, element, write } from "./words.js";
 const gallery = { all: null, rows: [] };
 const QUANTITIES_OF = ["τ", "M", "q̈ by M", "q̈ by bodies"];
 
-/// Figures that are known to be beyond their bounds, by case, and why: as in README.md and docs/decisions/0002-bars.md.
+/// Figures that are known to be beyond their bounds, by case, and why: as in README.md and
+/// docs/decisions/0002-bars.md.
 const KNOWN = {
   87: "Beyond its bound in f32, as is known: at 20,000 rad/s the accelerations that articulated bodies (aba) add are 2·10⁴ m/s², of which f32 keeps seven digits. "
     + "The joints' accelerations by M (forward_dynamics) take a ninth of the bound.",

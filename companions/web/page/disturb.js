@@ -1,4 +1,5 @@
-// The tab "Disturb me": a scene's plant and control loop at 1 kHz, which the page pushes and spoils.
+// The tab "Disturb me": a scene's plant and control loop at 1 kHz, which the page pushes and
+// spoils.
 import { minus } from "./camera.js";
 import { say, state } from "./state.js";
 import { by, colours, digits, element, grouped, inMemory, write } from "./words.js";

@@ -7,7 +7,8 @@ const RIGID = { "gravity inertia coriolis": "full", "gravity coriolis": "bias", 
 /// The ways of the robot's front that this page can compute.
 export const front = () => (state.robot?.key && state.data.fronts[state.robot.key]) || null;
 
-/// Cycles and code of the effects that are on, with where they are from; null where something is not recorded.
+/// Cycles and code of the effects that are on, with where they are from; null where something is
+/// not recorded.
 export function price(on, way) {
   const { key } = state.robot;
   const costs = state.data.costs[key];

@@ -1,4 +1,5 @@
-// The tab "Real arm": positions of an SO-101 over Web Serial. The library makes the request and reads the replies.
+// The tab "Real arm": positions of an SO-101 over Web Serial. The library makes the request and
+// reads the replies.
 import { state } from "./state.js";
 import { by, element, write } from "./words.js";
 

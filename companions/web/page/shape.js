@@ -1,4 +1,5 @@
-// The robot as cylinders and balls: links from joint to joint, a drum along each joint's axis, a ball at the hand.
+// The robot as cylinders and balls: links from joint to joint, a drum along each joint's axis, a
+// ball at the hand.
 import { length, minus, plus } from "./camera.js";
 
 export class Shape {
@@ -30,8 +31,8 @@ export class Shape {
     this.parts.push(...this.arrow);
   }
 
-  /// Puts all where the poses say: a ball at `a`, a cylinder from `a` to `b`. Loads are the shares of each joint's torque of
-  /// its limit; `push` is the arrow's start and end, or none.
+  /// Puts all where the poses say: a ball at `a`, a cylinder from `a` to `b`. Loads are the shares
+  /// of each joint's torque of its limit; `push` is the arrow's start and end, or none.
   place(poses, loads, push) {
     const axes = ([, , , ...columns], v) => [0, 1, 2].map((i) => columns[i] * v[0] + columns[3 + i] * v[1] + columns[6 + i] * v[2]);
     const point = ({ body, at }) => {

@@ -1,5 +1,6 @@
-// The picture by the processor alone, where there is no graphics processor: convex faces with a depth for each sample, four
-// samples for each pixel. A browser's software for WebGL takes ten times as long.
+// The picture by the processor alone, where there is no graphics processor: convex faces with a
+// depth for each sample, four samples for each pixel. A browser's software for WebGL takes ten
+// times as long.
 import { along, dot, minus, plus, scaled, unit } from "./camera.js";
 import { tint } from "./shape.js";
 import { inMemory } from "./words.js";
@@ -31,7 +32,8 @@ export class Soft {
     this.fit(GRAIN, GRAIN);
   }
 
-  /// Gives the canvas a size, pixels: that of the robot rather than of the view, since every pixel of it is copied.
+  /// Gives the canvas a size, pixels: that of the robot rather than of the view, since every pixel
+  /// of it is copied.
   fit(width, height) {
     const { canvas } = this;
     Object.assign(canvas, { width, height });
@@ -67,7 +69,8 @@ export class Soft {
     return [this.wide / 2 + dot(d, this.axes[0]) * scale, this.high / 2 - dot(d, this.axes[1]) * scale, inverse];
   }
 
-  /// The colour of a face of this normal, whose light is that of `gl.js`; `half` is between the sun and the eye.
+  /// The colour of a face of this normal, whose light is that of `gl.js`; `half` is between the sun
+  /// and the eye.
   lit(n, half) {
     const shade = 0.45 + 0.125 * (1 + n[2]) + 0.45 * Math.max(0, dot(n, SUN));
     const gloss = 0.35 * Math.max(0, dot(n, half)) ** 40;
@@ -107,7 +110,8 @@ export class Soft {
     }
   }
 
-  /// Colours the samples of a convex face that nothing nearer covers; its corners go round against the clock.
+  /// Colours the samples of a convex face that nothing nearer covers; its corners go round against
+  /// the clock.
   face(corners, colour) {
     let [area, low, high] = [0, Infinity, -Infinity];
     for (let i = 0, j = corners.length - 1; i < corners.length; j = i++) {

@@ -1,4 +1,5 @@
-// The view of the robot: it draws, turns, and says which body a pointer or the keyboard drags where.
+// The view of the robot: it draws, turns, and says which body a pointer or the keyboard drags
+// where.
 import { Orbit, length, minus } from "./camera.js";
 import { Gl, hasGraphics } from "./gl.js";
 import { Ground } from "./ground.js";
@@ -10,13 +11,15 @@ import { by, colours, element } from "./words.js";
 /// than a mouse.
 const NEAR = { mouse: 26, pen: 30, touch: 44 };
 
-/// Frames that take longer than SLOW, ms, on average get fewer pixels, those that take less than QUICK more.
+/// Frames that take longer than SLOW, ms, on average get fewer pixels, those that take less than
+/// QUICK more.
 const [SLOW, QUICK] = [22, 18];
 /// The fewest pixels for each of the page's, and what more or fewer is.
 const [LEAST, FEWER] = [0.5, 0.75];
 
 export class View {
-  /// `dragged(body, point)` is called as a body is dragged to a point, and with a point of null at its end.
+  /// `dragged(body, point)` is called as a body is dragged to a point, and with a point of null at
+  /// its end.
   constructor(at, dragged) {
     this.at = at;
     this.dragged = dragged;
@@ -86,8 +89,9 @@ export class View {
     return [p[0], p[1], p[2]];
   }
 
-  /// Draws with fewer pixels where frames take long, and after some calm seconds with more, later each time that was too
-  /// much; what is still slow with the fewest is drawn by the processor. `interval` is what the last frame took, ms.
+  /// Draws with fewer pixels where frames take long, and after some calm seconds with more, later
+  /// each time that was too much; what is still slow with the fewest is drawn by the processor.
+  /// `interval` is what the last frame took, ms.
   adapt(interval) {
     this.pace = 0.95 * this.pace + 0.05 * Math.min(200, interval);
     this.calm = this.pace < QUICK ? this.calm + interval / 1000 : 0;
@@ -199,7 +203,8 @@ export class View {
     this.stale = true;
   }
 
-  /// Arrows move the hand across the view, with shift away from it; plus, minus and the letters a and d turn and zoom.
+  /// Arrows move the hand across the view, with shift away from it; plus, minus and the letters a
+  /// and d turn and zoom.
   key(event) {
     const ways = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
     const way = ways[event.key];

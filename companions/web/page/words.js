@@ -41,6 +41,6 @@ export function colours() {
   return (name) => style.getPropertyValue(`--${name}`).trim();
 }
 
-/// The context of a canvas that the processor draws: small pictures that change in every frame are slower in textures, and ten
-/// times as slow where software stands in for a graphics processor.
+/// The context of a canvas that the processor draws: small pictures that change in every frame are
+/// slower in textures, and ten times as slow where software stands in for a graphics processor.
 export const inMemory = (canvas) => canvas.getContext("2d", { willReadFrequently: true });

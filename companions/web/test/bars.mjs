@@ -1,4 +1,5 @@
-// The bars of the page, each a function that throws if it is missed: the test calls it on the page, and on one that is wrong.
+// The bars of the page, each a function that throws if it is missed: the test calls it on the page,
+// and on one that is wrong.
 import { gzipSync } from "node:zlib";
 
 export const BARS = {
@@ -9,14 +10,16 @@ export const BARS = {
   /// A frame's work, ms: the mean, and that of one in twenty.
   work: 8,
   workOfOneIn20: 16,
-  /// The processor time of all of the browser's processes for a frame, ms: two cores, sixty times a second.
+  /// The processor time of all of the browser's processes for a frame, ms: two cores, sixty times a
+  /// second.
   processor: 33,
   /// The least number of frames a second.
   rate: 55,
-  /// The share of the machine's processors that other programs may have where times on the wall are held to their bars: with more
-  /// they say nothing of the page.
+  /// The share of the machine's processors that other programs may have where times on the wall are
+  /// held to their bars: with more they say nothing of the page.
   others: 0.1,
-  /// The share of the robot's pixels in which the picture without WebGL may differ from that with it: edges, and highlights.
+  /// The share of the robot's pixels in which the picture without WebGL may differ from that with
+  /// it: edges, and highlights.
   pixels: 0.1,
 };
 
@@ -91,8 +94,9 @@ export function alone(requests) {
   miss(others.length === 0, `loaded from elsewhere: ${others.join(", ")}`);
 }
 
-/// By how many pixels something on a page is wider than the viewport that the test set. Not `innerWidth`: a phone's grows
-/// with what is too wide; nor `screen`: its width on a desktop is that of the browser's own screen.
+/// By how many pixels something on a page is wider than the viewport that the test set. Not
+/// `innerWidth`: a phone's grows with what is too wide; nor `screen`: its width on a desktop is
+/// that of the browser's own screen.
 export const excess = (page) => page.evaluate((width) => document.documentElement.scrollWidth - width, page.viewport().width);
 
 /// Whether nothing is wider than the screen.

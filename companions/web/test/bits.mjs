@@ -35,8 +35,8 @@ export async function bits(spoilt = false) {
   return new TextDecoder().decode(new Uint8Array(exports.memory.buffer, exports.lines(), length)).trim().split("\n");
 }
 
-/// The same digests by the page's own module, of the quantities that its ways to compute a torque are: its lines. `spoilt` has one
-/// bit of a torque wrong.
+/// The same digests by the page's own module, of the quantities that its ways to compute a torque
+/// are: its lines. `spoilt` has one bit of a torque wrong.
 export async function pageBits(page, spoilt = false) {
   const lines = [];
   for (const robot of ["ur5e", "panda"]) {

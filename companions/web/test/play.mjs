@@ -52,7 +52,8 @@ async function closed(page, problems) {
   await page.close();
 }
 
-/// Three seconds of frames: processor time for each, ms, their rate, and the share of the machine that others had.
+/// Three seconds of frames: processor time for each, ms, their rate, and the share of the machine
+/// that others had.
 async function span(browser, page) {
   await page.evaluate(() => void (play.times.work.length = play.times.frames.length = 0));
   const { result: frames, processor, others } = await during(browser.process().pid, async () => {
@@ -91,7 +92,8 @@ const tests = {
     const there = hostBits();
     const here = await bits();
     say("equal bits", `${sameBits(here, there)} digests of recorded states (201 of each of four robots) and hard cases`);
-    // The page's own module, after `wasm-opt`, has no states inside: it is asked for the torques of the recorded ones.
+    // The page's own module, after `wasm-opt`, has no states inside: it is asked for the torques of
+    // the recorded ones.
     const { page } = await opened(browser, file);
     const own = await pageBits(page);
     say("equal bits of the page's own module", `${ownBits(own, there)} digests of 201 states`);
@@ -103,7 +105,8 @@ const tests = {
     refused("sameBits of fewer", () => sameBits(here.slice(1), there));
   },
 
-  /// Frames with the UR5e and its plant at 1 kHz in the loop, as Chromium draws them without a graphics processor.
+  /// Frames with the UR5e and its plant at 1 kHz in the loop, as Chromium draws them without a
+  /// graphics processor.
   async frames({ file, say }) {
     const browser = await launched();
     const { page } = await opened(browser, file);
@@ -334,7 +337,8 @@ const tests = {
     const { page, problems } = await opened(browser, file);
     await page.click("#tab-disturb");
     const shown = () => page.evaluate(() => play.state.shown);
-    /// Lets so many ticks of the plant pass, and so the page's words; returns the largest tracking error of them.
+    /// Lets so many ticks of the plant pass, and so the page's words; returns the largest tracking
+    /// error of them.
     const run = async (ticks) => {
       await page.evaluate((frames) => play.work(frames), Math.ceil((ticks * 60) / 1000));
       return page.evaluate((ticks) => Math.max(...play.disturb.errors.slice(-ticks)), ticks);
@@ -390,13 +394,15 @@ const tests = {
         const all = await events();
         return { ...after, seen: all.slice(0, all.length - before) };
       };
-      // Longer than a fault is ridden through, and shorter than a hold: the arm is held, and goes on.
+      // Longer than a fault is ridden through, and shorter than a hold: the arm is held, and goes
+      // on.
       const held = await inject("encoder", "30");
       must(held.mode === "Full" && held.seen.some((one) => one.includes("Hold")), `${key}: an encoder error of 30 ms: ${held.mode}, ${held.seen}`);
       for (const what of ["encoder", "nan", "stop", "over_torque", "stale"]) {
         const after = await inject(what, "300");
         const seen = after.seen.slice(0, 3).join(" ← ");
-        // An encoder that is stuck is found as the arm moves: the Panda rests then while its gripper closes.
+        // An encoder that is stuck is found as the arm moves: the Panda rests then while its
+        // gripper closes.
         must(/, /.test(seen) || (what === "stale" && key === "panda"), `${key}, ${what}: the supervisor saw nothing`);
         if (["encoder", "nan", "stop"].includes(what)) must(after.mode === "Stopped" && after.brake, `${key}, ${what}: ${after.mode}, brake ${after.brake}`);
         say(`fault, ${key}, ${what}`, `${after.mode}: ${seen || "nothing is seen of it"}`);
@@ -417,7 +423,8 @@ const tests = {
     await closed(page, problems);
   },
 
-  /// The Rust that the page gives compiles, for several robots, effects and ways, and for a file's robot.
+  /// The Rust that the page gives compiles, for several robots, effects and ways, and for a file's
+  /// robot.
   async rust({ browser, file, say }) {
     const { page } = await opened(browser, file);
     const texts = await page.evaluate(() => {

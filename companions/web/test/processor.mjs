@@ -1,4 +1,5 @@
-// The processor time of a browser and all its processes, and of the whole machine, from Linux's /proc.
+// The processor time of a browser and all its processes, and of the whole machine, from Linux's
+// /proc.
 import { existsSync, readFileSync, readdirSync } from "node:fs";
 
 /// Milliseconds of one of the kernel's ticks, whose rate every Linux gives as 100 a second.
@@ -23,15 +24,16 @@ function spent(root) {
   return tree.reduce((sum, pid) => sum + (all.get(pid)?.time ?? 0), 0);
 }
 
-/// The time in which the machine's processors were busy so far, and all of it, both in ticks of the kernel.
+/// The time in which the machine's processors were busy so far, and all of it, both in ticks of the
+/// kernel.
 function machine() {
   const fields = readFileSync("/proc/stat", "utf8").split("\n")[0].split(/\s+/).slice(1, 9).map(Number);
   const all = fields.reduce((a, b) => a + b, 0);
   return { busy: all - fields[3] - fields[4], all };
 }
 
-/// Runs something and returns what it returns, the processor time that the process `root` and its descendants took for it, ms, and
-/// the share of the machine's processors that something else had.
+/// Runs something and returns what it returns, the processor time that the process `root` and its
+/// descendants took for it, ms, and the share of the machine's processors that something else had.
 export async function during(root, run) {
   if (!measurable) return { result: await run(), processor: NaN, others: NaN };
   const [time, before] = [spent(root), machine()];

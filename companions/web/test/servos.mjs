@@ -1,5 +1,5 @@
-// A simulated SO-101 for the page: an object as Web Serial's ports are, whose servos speak Feetech's protocol byte by byte. It
-// runs in the page, and is given to it as text.
+// A simulated SO-101 for the page: an object as Web Serial's ports are, whose servos speak
+// Feetech's protocol byte by byte. It runs in the page, and is given to it as text.
 export function simulatedPort(counts, { silent = null, wrongChecksum = null } = {}) {
   const asked = [];
   let reply;

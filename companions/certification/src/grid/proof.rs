@@ -40,7 +40,7 @@ struct Subject<'a> {
 
 impl Program {
     /// Bounds the error over all angles, from a grid of at most so many points; `None` if they are
-    /// too few. Where `known` has a lesser bound of a value in the box, that one counts.
+    /// too few. If `known` has a lesser bound of a value in the box, that one counts.
     pub fn prove(
         &self,
         graph: &Graph,

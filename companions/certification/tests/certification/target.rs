@@ -34,7 +34,8 @@ fn straight_code_takes_what_was_counted_by_hand() {
     // each and `bx lr`.
     for (code, cycles) in [
         (&[0xfbb0, 0xf0f1, 0xbf00][..], 13), // udiv r0, r0, r1; nop
-        (&[0xee30, 0x0a20, 0xee30, 0x0a20, 0xee30, 0x0a20, 0xee10, 0x0a10], 7), // vadd s0, s0, s1 thrice; vmov r0, s0
+        // vadd s0, s0, s1 thrice; vmov r0, s0
+        (&[0xee30, 0x0a20, 0xee30, 0x0a20, 0xee30, 0x0a20, 0xee10, 0x0a10], 7),
         (&[0x6800, 0x6800], 5), // ldr r0, [r0], twice
     ] {
         let whole: Vec<u16> = code.iter().copied().chain([0x4770]).collect();
@@ -79,7 +80,8 @@ fn a_table_of_branches_ends_before_its_padding() {
 
 #[test]
 fn a_byte_in_memory_is_known_until_something_may_reach_it() {
-    // push {r7, lr}; movs r2, #3; strb.w r2, [sp]; str r1, [r0] or [sp]; ldrb.w r2, [sp]; subs r2, #1; bne; pop {r7, pc}
+    // push {r7, lr}; movs r2, #3; strb.w r2, [sp]; str r1, [r0] or [sp]; ldrb.w r2, [sp]; subs r2,
+    // #1; bne; pop {r7, pc}
     let of = |store: u16| {
         bound(&[0xb580, 0x2203, 0xf88d, 0x2000, store, 0xf89d, 0x2000, 0x3a01, 0xd1fd, 0xbd80])
     };
@@ -94,7 +96,8 @@ fn what_has_no_bound_is_declined_with_its_address() {
     assert_eq!(turns, Err(Declined::Loop { at: BASE + 2 }));
     assert_eq!(bound(&[0x4798, 0x4770]), Err(Declined::IndirectCall { at: BASE })); // blx r3
     assert_eq!(bound(&[0x469f]), Err(Declined::IndirectJump { at: BASE })); // mov pc, r3
-    assert_eq!(bound(&[0xee30, 0x0b01]), Err(Declined::UnknownInstruction { at: BASE })); // vadd.f64
+    // vadd.f64
+    assert_eq!(bound(&[0xee30, 0x0b01]), Err(Declined::UnknownInstruction { at: BASE }));
     let recursive = bound(&[0xf7ff, 0xfffe, 0x4770]); // bl to itself
     assert_eq!(recursive, Err(Declined::Recursion { at: BASE }));
     let json = serde_json::to_string(&Declined::Loop { at: 2 }).expect("JSON");

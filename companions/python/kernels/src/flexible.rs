@@ -36,7 +36,7 @@ impl AnyModes {
     /// The modes of links, of which there are up to [`MOST_MODES`].
     ///
     /// # Errors
-    /// What the library refuses.
+    /// The library's reason for its refusal.
     pub fn of(bodies: &Bodies, links: &[FlexibleLink]) -> Result<Self, NoModes> {
         match bodies.is_small() {
             true => Self::on::<28, 32>(bodies, links),

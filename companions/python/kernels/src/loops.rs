@@ -38,7 +38,7 @@ impl AnyLoops {
     /// Loops on a robot, of which up to [`MOST_LOOPS`] are given.
     ///
     /// # Errors
-    /// What the library refuses.
+    /// The library's reason for its refusal.
     pub fn of(
         models: &Models<f64>,
         counts: Counts,

@@ -1,4 +1,5 @@
-"""An SO-101 leader arm that floats, as a teleoperator of LeRobot: `--teleop.type=so101_floating`."""
+"""An SO-101 leader arm that floats, as a teleoperator of LeRobot:
+`--teleop.type=so101_floating`."""
 
 from .config_so101_floating import So101FloatingConfig
 from .errors import (

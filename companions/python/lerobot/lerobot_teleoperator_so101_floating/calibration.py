@@ -1,8 +1,9 @@
 """Whether a calibration can be that of this arm, and joint angles from encoder counts.
 
-LeRobot's calibration puts count 2047 at the middle of each joint's range, and its degrees count from there. So do the angles
-of the description that this project imports (`so101.urdf`, "new calibration"), which LeRobot's own kinematics takes degrees
-for. The jaw's ends are the ends of its range.
+LeRobot's calibration puts count 2047 at the middle of each joint's range, and its degrees count
+from there. So do the angles of the description that this project imports (`so101.urdf`, "new
+calibration"), which LeRobot's own kinematics takes degrees for. The jaw's ends are the ends of its
+range.
 """
 
 import math
@@ -89,7 +90,8 @@ class Angles:
 
 
 def check_posture(calibration: dict[str, MotorCalibration], readings: dict[int, Reading], margin: int = 120) -> None:
-    """Raises `WrongCalibration` if a joint stands outside the range of its own calibration by more than these counts."""
+    """Raises `WrongCalibration` if a joint stands outside the range of its own calibration by more
+    than these counts."""
     for joint in JOINTS:
         of = calibration[joint]
         position = readings[of.id].position

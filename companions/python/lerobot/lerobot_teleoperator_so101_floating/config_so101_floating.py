@@ -1,4 +1,5 @@
-"""The configuration of the floating leader. On LeRobot's command line each field is `--teleop.FIELD=…`."""
+"""The configuration of the floating leader. On LeRobot's command line each field is
+`--teleop.FIELD=…`."""
 
 import math
 from dataclasses import dataclass, field, fields
@@ -18,7 +19,8 @@ class So101FloatingConfig(TeleoperatorConfig):
     """
 
     port: str
-    """The serial port; one under /dev/serial/by-id stays the same when the adapter is plugged in again."""
+    """The serial port; one under /dev/serial/by-id stays the same when the adapter is plugged in
+    again."""
     use_degrees: bool = True
     """Actions in degrees, as LeRobot's so101_leader; otherwise from −100 to 100."""
 
@@ -31,18 +33,21 @@ class So101FloatingConfig(TeleoperatorConfig):
     urdf: str | None = None
     """A description of the arm in place of the SO-101's, with the same six joints."""
     gravity_scale: tuple[float, float, float, float, float, float] = field(default=(1.0,) * 6)
-    """Factors of each joint's gravity torque, for a leader whose handle is heavier or lighter than the model's."""
+    """Factors of each joint's gravity torque, for a leader whose handle is heavier or lighter than
+    the model's."""
 
     rate: float = 200.0
     """The number of ticks per second."""
     bandwidth: float = 30.0
     """The bandwidth of the observer that estimates velocities, rad/s."""
     friction_share: float = 0.87
-    """The share σ of the modelled friction that is compensated, at most 1/(1 + friction_error); 0 compensates gravity alone."""
+    """The share σ of the modelled friction that is compensated, at most 1/(1 + friction_error); 0
+    compensates gravity alone."""
     friction_error: float = 0.1
     """The share ε by which the modelled friction exceeds the true one at most."""
     gravity_error: float = 0.03
-    """The share by which the modelled gravity may be off: by so much less is friction compensated."""
+    """The share by which the modelled gravity may be off: by so much less is friction
+    compensated."""
     rest_speed: float = 0.03
     most_friction: float = 0.5
 
@@ -77,16 +82,19 @@ class So101FloatingConfig(TeleoperatorConfig):
     stale_time: float = 0.15
     """The time for which a servo may contradict itself or its commands, s."""
     check_load: bool = True
-    """Whether the load that a servo reports must follow the duty that it is commanded, as Feetech's memory table states."""
+    """Whether the load that a servo reports must follow the duty that it is commanded, as Feetech's
+    memory table states."""
     load_tolerance: float = 0.02
     most_temperature: int = 65
     release_time: float = 1.0
     """The time, s, for which the loop tries to switch the torque off before it raises the error;
     the guardian goes on after that."""
     guardian: bool = True
-    """A second process that switches the torque off if this one ends without having done so, killed for instance."""
+    """A second process that switches the torque off if this one ends without having done so, killed
+    for instance."""
     background: bool = True
-    """A thread runs the loop. Without it whoever holds the teleoperator calls `tick()` at the rate."""
+    """A thread runs the loop. Without it whoever holds the teleoperator calls `tick()` at the
+    rate."""
 
     def __post_init__(self):
         for name in ("gears", "gravity_scale"):

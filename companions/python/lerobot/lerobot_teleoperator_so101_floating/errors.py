@@ -5,8 +5,9 @@ was switched off, or its attribute `released` says that the servos did not confi
 class FloatingError(RuntimeError):
     """Base of all errors of this package.
 
-    `joint` is the joint concerned, or None. `released` is True once all six servos have confirmed that their torque is off,
-    False if at least one has not, and None if the torque had not been switched on.
+    `joint` is the joint concerned, or None. `released` is True once all six servos have confirmed
+    that their torque is off, False if at least one has not, and None if the torque had not been
+    switched on.
     """
 
     def __init__(self, message: str, joint: str | None = None):
@@ -26,7 +27,8 @@ class BusLost(FloatingError, ConnectionError):
 
 
 class WrongServos(FloatingError):
-    """At connection a servo is missing, is of another model, or has another firmware than the others."""
+    """At connection a servo is missing, is of another model, or has another firmware than the
+    others."""
 
 
 class ServoSilent(FloatingError):
@@ -38,11 +40,13 @@ class CorruptReplies(FloatingError):
 
 
 class StaleServo(FloatingError):
-    """A servo replies, but with old values: they contradict each other, or do not follow what it is commanded."""
+    """A servo replies, but with old values: they contradict each other, or do not follow what it is
+    commanded."""
 
 
 class ServoFault(FloatingError):
-    """A servo reports a fault; `status` has a bit for each: 0 voltage, 1 encoder, 2 temperature, 3 current, 5 load."""
+    """A servo reports a fault; `status` has a bit for each: 0 voltage, 1 encoder, 2 temperature, 3
+    current, 5 load."""
 
     def __init__(self, joint: str, status: int):
         names = {0: "voltage", 1: "encoder", 2: "temperature", 3: "current", 5: "load"}

@@ -1,8 +1,9 @@
 """The load of a follower, from what LeRobot's so101_follower observes: positions alone.
 
-The servo of a joint gives the duty P · 0.166 per radian by which its position is off its goal (0.166 and the motor's numbers: the
-source of `motors.py`). At rest that torque and the surroundings' carry the joint's weight, of which the model is known. While
-the arm moves, the error also has friction and lag in it: `dead_band` leaves them out. Not tried on hardware.
+The servo of a joint gives the duty P · 0.166 per radian by which its position is off its goal
+(0.166 and the motor's numbers: the source of `motors.py`). At rest that torque and the
+surroundings' carry the joint's weight, of which the model is known. While the arm moves, the error
+also has friction and lag in it: `dead_band` leaves them out. Not tried on hardware.
 """
 
 import numpy as np
@@ -14,10 +15,12 @@ DUTY_PER_GAIN = 0.166
 
 
 class FollowerLoad:
-    """Estimates the torques with which its surroundings load each joint of a follower that uses degrees."""
+    """Estimates the torques with which its surroundings load each joint of a follower that uses
+    degrees."""
 
     def __init__(self, gain: float = 16.0, supply: float = 7.4, dead_band: float = 0.15):
-        """`gain` is the servos' P_Coefficient, which so101_follower sets to 16; `supply` in V, `dead_band` in N·m."""
+        """`gain` is the servos' P_Coefficient, which so101_follower sets to 16; `supply` in V,
+        `dead_band` in N·m."""
         from .dynamics import floating_dynamics
 
         motors = Motors((SCENE_GEAR,) * 6)

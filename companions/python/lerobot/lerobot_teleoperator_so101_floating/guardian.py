@@ -1,7 +1,8 @@
 """A second process that switches the torque off if the first ends without having done so.
 
-It waits at a pipe whose other end the first process holds: however that one ends, the pipe closes. The byte `d` before the end
-says that the torque is off; anything else, or none, makes the guardian open the port and send until the servos confirm.
+It waits at a pipe whose other end the first process holds: however that one ends, the pipe closes.
+The byte `d` before the end says that the torque is off; anything else, or none, makes the guardian
+open the port and send until the servos confirm.
 
     python -m lerobot_teleoperator_so101_floating.guardian PORT BAUD_RATE SECONDS ID…
 """

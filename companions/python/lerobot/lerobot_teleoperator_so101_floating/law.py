@@ -1,8 +1,10 @@
-"""The law of an arm that floats: observer, friction that is compensated in part, walls, and the follower's load.
+"""The law of an arm that floats: observer, friction that is compensated in part, walls, and the
+follower's load.
 
-Observer and friction are those of the firmware's `Observer` and `HandGuiding` (motion-control), of which the guide has the
-reasons and the measurements: with a share σ of at most 1/(1 + ε) the compensation never exceeds the friction that there is,
-and by the errors of gravity it is smaller still, so that an arm that is released comes to rest.
+Observer and friction are those of the firmware's `Observer` and `HandGuiding` (motion-control), of
+which the guide has the reasons and the measurements: with a share σ of at most 1/(1 + ε) the
+compensation never exceeds the friction that there is, and by the errors of gravity it is smaller
+still, so that an arm that is released comes to rest.
 """
 
 import math
@@ -19,7 +21,8 @@ class Observer:
         self.qd = np.zeros(0)
 
     def update(self, measured: np.ndarray, ticks: int = 1) -> tuple[np.ndarray, np.ndarray]:
-        """Positions and velocities after a measurement that comes `ticks` ticks after the one before."""
+        """Positions and velocities after a measurement that comes `ticks` ticks after the one
+        before."""
         if self.q is None:
             self.q, self.qd = measured.copy(), np.zeros_like(measured)
             return self.q, self.qd
@@ -42,7 +45,8 @@ class Guiding:
         self.lower, self.upper = lower, upper
 
     def compensation(self, qd: np.ndarray, gravity: np.ndarray, friction: np.ndarray) -> np.ndarray:
-        """max(σ |F̂| − e, 0), in the direction of F̂ while that is the one of the motion, and zero at rest."""
+        """max(σ |F̂| − e, 0), in the direction of F̂ while that is the one of the motion, and zero
+        at rest."""
         errors = np.abs(self.gravity_error * gravity)
         shared = self.share * friction
         torque = shared - np.clip(shared, -errors, errors)
@@ -61,7 +65,8 @@ class Guiding:
 
 
 class Feedback:
-    """The follower's load as it is felt: a gain beyond a dead band, limited, and forgotten when it is old."""
+    """The follower's load as it is felt: a gain beyond a dead band, limited, and forgotten when it
+    is old."""
 
     def __init__(self, config):
         self.gain, self.dead_band = config.feedback_gain, config.feedback_dead_band

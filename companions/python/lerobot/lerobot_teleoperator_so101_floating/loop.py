@@ -1,4 +1,5 @@
-"""One tick of the loop: read, check, compute, limit, send. Whoever calls it switches the torque off if it raises."""
+"""One tick of the loop: read, check, compute, limit, send. Whoever calls it switches the torque off
+if it raises."""
 
 import numpy as np
 
@@ -11,7 +12,8 @@ from .wire import Wire
 
 
 class Loop:
-    """The loop of six servos; `dynamics(q, qd)` gives the torques of gravity and of friction, N·m."""
+    """The loop of six servos; `dynamics(q, qd)` gives the torques of gravity and of friction,
+    N·m."""
 
     def __init__(self, config, wire: Wire, angles: Angles, dynamics):
         self.config, self.wire, self.angles, self.dynamics = config, wire, angles, dynamics
@@ -36,7 +38,8 @@ class Loop:
         return self._last
 
     def tick(self, now: float) -> None:
-        """Raises a `FloatingError`, or an error of the port, after which no torque may be left on."""
+        """Raises a `FloatingError`, or an error of the port, after which no torque may be left
+        on."""
         readings, replies = self.wire.present()
         if not self.misses.record(replies):
             return  # The servos keep their duties for the few ticks that may be missed.
@@ -67,7 +70,8 @@ class Loop:
         wanted = self._wanted(now, q, qd)
         step = self.config.torque_rate * ticks * self.tick_time
         self.torque = np.clip(wanted, self.torque - step, self.torque + step)
-        # The back-EMF is the motor's own and no torque at the joint; its part follows the speed without a limit of its rate.
+        # The back-EMF is the motor's own and no torque at the joint; its part follows the speed
+        # without a limit of its rate.
         command = self.torque + self._ramp(now) * self.motors.back_emf * qd
         most = int(self.config.most_duty * DUTY_STEPS)
         steps = self.rounder.round(command / self.motors.stall(self.plausibility.supply), most)

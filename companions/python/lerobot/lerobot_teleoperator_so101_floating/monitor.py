@@ -39,7 +39,8 @@ class Misses:
 
 
 class Plausibility:
-    """Checks what the servos say against itself, against the past and against what they were commanded."""
+    """Checks what the servos say against itself, against the past and against what they were
+    commanded."""
 
     def __init__(self, config):
         self.config = config

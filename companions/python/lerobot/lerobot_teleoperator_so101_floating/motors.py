@@ -1,19 +1,20 @@
 """The servos STS3215 as motors: torque from the duty of the supply's voltage.
 
-With the torque constant k (also that of the back-EMF) and the resistance R, both at the joint, a servo in its PWM mode that is
-commanded the duty d of the supply U gives
+With the torque constant k (also that of the back-EMF) and the resistance R, both at the joint, a
+servo in its PWM mode that is commanded the duty d of the supply U gives
 
     τ = k (d U − k q̇) / R.
 
 A command is therefore u = τ + k² q̇ / R, the torque of a duty at rest, and d = u R / (k U).
 
-Source of the numbers: PyPI better-actuator-models 1.0.2 (Apache-2.0), `params/feetech_sts3215_7_4V/m1.json` and the M3 of the
-MX-106 for the load-dependent friction, which were identified on a pendulum with the gear 1:345. They are those of the scene
-`so101_teach` of this project's firmware.
+Source of the numbers: PyPI better-actuator-models 1.0.2 (Apache-2.0),
+`params/feetech_sts3215_7_4V/m1.json` and the M3 of the MX-106 for the load-dependent friction,
+which were identified on a pendulum with the gear 1:345. They are those of the scene `so101_teach`
+of this project's firmware.
 
-Assumed, and not measured on a leader: the servos with the gears 1:191 and 1:147 have the same motor, so that torque constant and
-dry friction grow with the reduction, and armature and viscous friction with its square; the share of the load that a gear
-takes is the same.
+Assumed, and not measured on a leader: the servos with the gears 1:191 and 1:147 have the same
+motor, so that torque constant and dry friction grow with the reduction, and armature and viscous
+friction with its square; the share of the load that a gear takes is the same.
 """
 
 from dataclasses import dataclass
@@ -44,7 +45,8 @@ DUTY_STEPS = 1000
 
 @dataclass(frozen=True)
 class Motors:
-    """Six servos of these reductions; arrays have one number for each joint, in SI units at the joint."""
+    """Six servos of these reductions; arrays have one number for each joint, in SI units at the
+    joint."""
 
     gears: tuple[float, ...] = LEADER_GEARS
 
@@ -87,7 +89,8 @@ class Motors:
 
 
 class DutyRounder:
-    """Duties as whole thousandths, whose errors of rounding are carried to the next tick: their mean has no step."""
+    """Duties as whole thousandths, whose errors of rounding are carried to the next tick: their
+    mean has no step."""
 
     def __init__(self, joints: int = 6):
         self._rest = np.zeros(joints)

@@ -28,7 +28,8 @@ logger = logging.getLogger(__name__)
 
 
 class So101Floating(Teleoperator):
-    """An SO-101 leader whose servos carry its weight and most of its friction, and which can feel the follower's load."""
+    """An SO-101 leader whose servos carry its weight and most of its friction, and which can feel
+    the follower's load."""
 
     config_class = So101FloatingConfig
     name = "so101_floating"
@@ -76,9 +77,10 @@ class So101Floating(Teleoperator):
     def connect(self, calibrate: bool = True) -> None:
         """Opens the port, checks servos and calibration, and lets the arm float.
 
-        With `calibrate` and without a calibration that the servos have, LeRobot's own is run, which asks the user.
-        Without, as `lerobot-calibrate` connects, an arm that is not calibrated stays without torque, and so does an arm of which
-        the calibration is wrong: that raises `WrongCalibration`.
+        With `calibrate` and without a calibration that the servos have, LeRobot's own is run, which
+        asks the user. Without, as `lerobot-calibrate` connects, an arm that is not calibrated stays
+        without torque, and so does an arm of which the calibration is wrong: that raises
+        `WrongCalibration`.
         """
         self._error, self._ended = None, threading.Event()
         self._open()
@@ -140,7 +142,8 @@ class So101Floating(Teleoperator):
     def calibrate(self) -> None:
         """LeRobot's calibration of a leader, without torque, and then the check of what it found.
 
-        It asks the user; where nobody can answer, `WrongCalibration` is raised. The arm floats after the next `connect`.
+        It asks the user; where nobody can answer, `WrongCalibration` is raised. The arm floats
+        after the next `connect`.
         """
         self._stop_thread()
         if self._torque_may_be_on:
@@ -167,7 +170,8 @@ class So101Floating(Teleoperator):
             if self.bus.read("Operating_Mode", joint) != wires.PWM_MODE or self.bus.read("Goal_Time", joint) != 0:
                 raise WrongConfiguration(f"the servo {servo} of {joint} did not take the PWM mode with duty zero", joint)
             phase = int(self.bus.read("Phase", joint))
-            # Bit 0 reverses the drive, bit 7 the position, and bit 4 makes the position count on over turns.
+            # Bit 0 reverses the drive, bit 7 the position, and bit 4 makes the position count on
+            # over turns.
             if phase & 0b1001_0001:
                 raise WrongConfiguration(
                     f"the servo of {joint} has the phase {phase:#04x}: its direction is reversed, or it counts turns", joint
@@ -185,7 +189,8 @@ class So101Floating(Teleoperator):
             self.clock.start(self._thread)
 
     def _run(self) -> None:
-        """The thread: ticks at the rate until the end or an error, which the next call of the user gets."""
+        """The thread: ticks at the rate until the end or an error, which the next call of the user
+        gets."""
         due = self.clock.now()
         while not self._ended.is_set():
             due = max(due + self.loop.tick_time, self.clock.now() - self.loop.tick_time)
@@ -198,7 +203,8 @@ class So101Floating(Teleoperator):
                 return
 
     def tick(self) -> None:
-        """One tick of the loop; after an error the torque is off, and each further call raises the same error."""
+        """One tick of the loop; after an error the torque is off, and each further call raises the
+        same error."""
         if self._error is not None:
             raise self._error
         if self.loop is None:
@@ -230,7 +236,8 @@ class So101Floating(Teleoperator):
 
     @check_if_not_connected
     def send_feedback(self, feedback: dict[str, Any]) -> None:
-        """Lets the user feel the follower's load: the torque with which its surroundings act on a joint, N·m.
+        """Lets the user feel the follower's load: the torque with which its surroundings act on a
+        joint, N·m.
 
         The load is felt by `feedback_gain` beyond the dead band, and forgotten after
         `feedback_timeout`.
@@ -279,7 +286,8 @@ class So101Floating(Teleoperator):
             self._error.released = released
 
     def _release(self) -> bool:
-        """Whether all servos confirm that their torque is off; if not, the guardian goes on trying."""
+        """Whether all servos confirm that their torque is off; if not, the guardian goes on
+        trying."""
         with self._lock:
             released = False
             until = self.clock.now() + self.config.release_time
@@ -315,7 +323,8 @@ class So101Floating(Teleoperator):
 
     @check_if_not_connected
     def disconnect(self) -> None:
-        """Switches the torque off and closes the port. Raises `BusLost` if the servos do not confirm, once the port is closed."""
+        """Switches the torque off and closes the port. Raises `BusLost` if the servos do not
+        confirm, once the port is closed."""
         self._stop_thread()
         released = self._release() if self._torque_may_be_on else True
         if released and self._error is None:

@@ -1,4 +1,5 @@
-"""The bytes of the Feetech bus that the loop needs, on a port that LeRobot's `FeetechMotorsBus` has opened.
+"""The bytes of the Feetech bus that the loop needs, on a port that LeRobot's `FeetechMotorsBus` has
+opened.
 
 The SDK under `FeetechMotorsBus` reads one register of all servos and stops at the first that does
 not reply, without saying which; it drops the status that a reply carries, and takes replies that
@@ -6,8 +7,9 @@ came late for those to the next request. The loop needs six registers at once, f
 replies, and the reason of each that did not. Everything that is done once, at connection, is left
 to `FeetechMotorsBus`.
 
-Source: Feetech, "Communication Protocol User Manual", and the memory table of the magnetic STS servos. Signs are one bit above
-the magnitude: bit 15 of position and speed, bit 10 of duty and load.
+Source: Feetech, "Communication Protocol User Manual", and the memory table of the magnetic STS
+servos. Signs are one bit above the magnitude: bit 15 of position and speed, bit 10 of duty and
+load.
 """
 
 import time
@@ -139,18 +141,21 @@ class Replies:
 
 
 class Wire:
-    """Exchanges with all servos on a serial port, an open `serial.Serial`; `now` gives the time, s."""
+    """Exchanges with all servos on a serial port, an open `serial.Serial`; `now` gives the time,
+    s."""
 
     def __init__(self, port, servos: list[int], reply_time: float, now: Callable[[], float] = time.monotonic):
         self.port, self.servos, self.reply_time, self.now = port, servos, reply_time, now
-        # The SDK polls; a read that waits for its bytes leaves the processor to LeRobot's other threads.
+        # The SDK polls; a read that waits for its bytes leaves the processor to LeRobot's other
+        # threads.
         port.timeout = reply_time / 4.0
 
     def send(self, data: bytes) -> None:
         self.port.write(data)
 
     def read_all(self, address: int, length: int) -> Replies:
-        """Asks all servos for the same registers, and waits until all have replied or the time is over."""
+        """Asks all servos for the same registers, and waits until all have replied or the time is
+        over."""
         replies = Replies(self.servos, length)
         # A reply to an earlier request would be taken for a new one.
         self.port.reset_input_buffer()
@@ -172,7 +177,8 @@ class Wire:
         self.send(sync_write(GOAL_DUTY, {servo: encode(value, DUTY_SIGN) for servo, value in steps.items()}))
 
     def release(self, rounds: int) -> bool:
-        """Switches the torque off until every servo confirms it, at most this often. Whether all did."""
+        """Switches the torque off until every servo confirms it, at most this often. Whether all
+        did."""
         for _ in range(rounds):
             self.send(release(self.servos))
             replies = self.read_all(TORQUE_ENABLE, 1)

@@ -1,8 +1,10 @@
-"""Stand-ins for what LeRobot imports on the way to its teleoperators and never uses there, above all torch.
+"""Stand-ins for what LeRobot imports on the way to its teleoperators and never uses there, above
+all torch.
 
-PyPI's torch for Linux takes several gigabytes with its libraries, which no test here needs: LeRobot's base classes, its bus, its
-plug-in discovery and its teleoperation loop are the real ones, and name torch in annotations and as base classes alone. Each
-stand-in accepts any attribute; a program that computed with one would fail. A package that is installed has no stand-in.
+PyPI's torch for Linux takes several gigabytes with its libraries, which no test here needs:
+LeRobot's base classes, its bus, its plug-in discovery and its teleoperation loop are the real ones,
+and name torch in annotations and as base classes alone. Each stand-in accepts any attribute; a
+program that computed with one would fail. A package that is installed has no stand-in.
 """
 
 import importlib.abc

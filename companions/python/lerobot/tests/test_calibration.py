@@ -89,7 +89,8 @@ def test_without_calibration_there_is_neither_torque_nor_action(bench, at_rest):
 
 def test_a_posture_outside_the_calibrated_ranges_is_refused(bench, at_rest):
     bus = bench.bus(at_rest)
-    # The horn was mounted anew: the joint's zero is an eighth of a turn from where it was calibrated.
+    # The horn was mounted anew: the joint's zero is an eighth of a turn from where it was
+    # calibrated.
     bus.servos[2].mounting -= 900
     bus.servos[2].refresh()
     with pytest.raises(WrongCalibration, match="elbow_flex stands at count"):

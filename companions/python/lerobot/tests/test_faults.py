@@ -1,4 +1,5 @@
-"""Whatever fails while the arm floats ends in an error of its own type, and in servos without torque."""
+"""Whatever fails while the arm floats ends in an error of its own type, and in servos without
+torque."""
 
 import subprocess
 import sys
@@ -53,7 +54,9 @@ def warm(bench, at_rest):
     return bus, teleoperator
 
 
-FAULTS = {  # what happens to the bus, and the error with its joint, words, whether servos confirmed, and in how many ticks
+# For each fault of the bus, the error with its joint and words, whether servos confirmed, and in how
+# many ticks.
+FAULTS = {
     "lost replies": (lambda bus: setattr(bus, "mute", True), BusLost, None, "switch off their supply", False, 3),
     "unplugged": (lambda bus: bus.unplug(), BusLost, None, "", False, 3),
     "silent": (lambda bus: setattr(bus.servos[3], "silent", True), ServoSilent, "wrist_flex", "", None, 3),
@@ -171,7 +174,8 @@ def test_a_servo_that_froze_at_rest_is_stale_once_its_command_changes(bench, at_
             break
     # Within twice the time that a servo may contradict its commands.
     assert teleoperator._error is not None and sum(off) * 0.005 <= 2.0 * 0.15 + 0.02
-    assert teleoperator._error.released is False  # A servo that replies with old registers cannot confirm it.
+    # A servo that replies with old registers cannot confirm it.
+    assert teleoperator._error.released is False
     no_torque(bus)
 
 
@@ -290,7 +294,8 @@ print("floats", flush=True)
     ],
 )
 def test_however_the_process_ends_the_torque_does(bench, at_rest, end):
-    # The plug-in and its guardian are processes: that one keeps its own time, and the guardian waits until servos confirm.
+    # The plug-in and its guardian are processes: that one keeps its own time, and the guardian
+    # waits until servos confirm.
     bus = bench.bus(at_rest, terminal=True)
     names = {"here": str(Path(__file__).parent), "folder": str(bench.folder), "port": bus.port, "address": bus.listen()}
     with open(bench.folder / "errors", "w") as errors:

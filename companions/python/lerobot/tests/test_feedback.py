@@ -68,7 +68,8 @@ def test_walls_push_back_at_the_ends_of_joints(bench):
 
 
 def test_a_hand_moves_the_arm_with_less_effort(bench):
-    """The torque of a hand that leads the shoulder and the wrist, with and without compensated friction."""
+    """The torque of a hand that leads the shoulder and the wrist, with and without compensated
+    friction."""
 
     def effort(**options):
         arm = Arm([0.0, -0.8, 0.8, 0.5, 0.0, 0.2])

@@ -10,7 +10,8 @@ from lerobot_teleoperator_so101_floating.motors import LEADER_GEARS
 HELD, RAMP, RELEASED = 0.5, 0.3, 2.0
 """A hand holds the arm while the torque rises, and then it is released, s."""
 BAR, FALL = 1.0, 20.0
-"""The greatest drift of any joint with compensation, and the least motion of an arm without, degrees."""
+"""The greatest drift of any joint with compensation, and the least motion of an arm without,
+degrees."""
 SINKS = 10.0
 """The greatest drift of an arm whose bus is lost, degrees."""
 
@@ -20,7 +21,8 @@ def hold(posture):
 
 
 def released(bench, posture, gears, plant=None, moving=None, time=RELEASED, **options):
-    """The largest angle by which a joint moves after the release, and the greatest speed at the end, in degrees."""
+    """The largest angle by which a joint moves after the release, and the greatest speed at the
+    end, in degrees."""
     arm = Arm(posture, gears, **(plant or {}))
     arm.hand = hold(posture)
     bus, teleoperator = bench.floating(arm, gears, ramp=RAMP, **options)
@@ -65,7 +67,8 @@ def test_a_released_arm_stays_and_falls_without(bench, postures, gears):
 
 @pytest.mark.parametrize("sign", [-1.0, 1.0])
 def test_a_released_arm_stays_with_parameters_that_are_off(bench, postures, sign):
-    """Gravity by 3 % and the plant's friction by 10 % less than the model's, as the law's configuration allows."""
+    """Gravity by 3 % and the plant's friction by 10 % less than the model's, as the law's
+    configuration allows."""
     off = {"gravity_scale": (1.0 + 0.03 * sign,) * 6}
     drift = [released(bench, posture, LEADER_GEARS, {"friction": 1.0 / 1.1}, **off)[0] for posture in postures[1::2]]
     assert max(drift) <= 3.0 * BAR, drift
@@ -73,7 +76,8 @@ def test_a_released_arm_stays_with_parameters_that_are_off(bench, postures, sign
 
 
 def test_a_moving_arm_comes_to_rest(bench, postures):
-    """The friction that is left stops an arm that is let go in motion, at whichever wall or before."""
+    """The friction that is left stops an arm that is let go in motion, at whichever wall or
+    before."""
     push = np.array([0.6, -0.3, 0.3, 0.3, 0.6, 0.0])
     _, soon = released(bench, postures[0], LEADER_GEARS, {"friction": 1.0 / 1.1}, push, time=0.1)
     _, late = released(bench, postures[0], LEADER_GEARS, {"friction": 1.0 / 1.1}, push, time=10.0)
@@ -81,7 +85,8 @@ def test_a_moving_arm_comes_to_rest(bench, postures):
 
 
 def test_an_arm_that_loses_its_bus_sinks_slowly(bench, postures):
-    """The servos keep their last duties, which nothing can take from them without a bus: what that means for the arm."""
+    """The servos keep their last duties, which nothing can take from them without a bus: what that
+    means for the arm."""
     ways = []
     for posture in postures:
         arm = Arm(posture, LEADER_GEARS)

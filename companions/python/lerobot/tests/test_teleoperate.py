@@ -1,4 +1,5 @@
-"""LeRobot's own programs run the plug-in: its teleoperation command, on two simulated arms and with the plug-in's thread."""
+"""LeRobot's own programs run the plug-in: its teleoperation command, on two simulated arms and with
+the plug-in's thread."""
 
 import logging
 import sys
@@ -64,7 +65,8 @@ def test_the_thread_keeps_the_rate_and_the_action_is_fresh(bench):
     ticks = len(bus.duties) - first
     teleoperator.disconnect()
     assert set(action) == {f"{joint}.pos" for joint in JOINTS}
-    # 200 Hz for one and a half seconds; the last good reading is that of the last tick or, during a tick, the one before.
+    # 200 Hz for one and a half seconds; the last good reading is that of the last tick or, during a
+    # tick, the one before.
     assert abs(ticks - 300) <= 1 and max(ages) <= 0.01
     assert not any(servo.torque_enabled for servo in bus.servos)
 

@@ -38,7 +38,8 @@ def floats_at(bench, arm, law, **more):
 
 
 def off_at_rest(bench, scene, law, postures, **options):
-    """The largest error of a mean torque as a share of the joint's own, and of one tick's as a share of the arm's largest."""
+    """The largest error of a mean torque as a share of the joint's own, and of one tick's as a
+    share of the arm's largest."""
     arm = Still(angles(postures[0]["counts"]))
     bus, teleoperator = floats_at(bench, arm, law, **options)
     worst, rounding = 0.0, 0.0

@@ -8,7 +8,8 @@ from lerobot_teleoperator_so101_floating import wire
 
 
 def test_packets_are_those_of_the_manual():
-    # Examples 2 and 5 of Feetech's "Communication Protocol User Manual", and the firmware driver's golden frame.
+    # Examples 2 and 5 of Feetech's "Communication Protocol User Manual", and the firmware driver's
+    # golden frame.
     assert wire.packet(1, wire.READ, b"\x38\x02") == bytes.fromhex("ffff0104023802be")
     assert wire.sync_write(0x2C, {1: wire.encode(100, 10), 2: wire.encode(-100, 10)}) == bytes.fromhex(
         "fffffe0a832c0201640002640477"

@@ -1,4 +1,5 @@
-"""The page has the figures of this run and all errors; it comes last, after the tests that measure."""
+"""The page has the figures of this run and all errors; it comes last, after the tests that
+measure."""
 
 import math
 

@@ -1,7 +1,7 @@
 """The errors of this package: each names what is concerned in its fields.
 
-Names are those of the robot. ``state`` is the index of the state in its batch, 0 of a single state, and None where a description is
-concerned; ``coordinate`` is a velocity coordinate.
+Names are those of the robot. ``state`` is the index of the state in its batch, 0 of a single state,
+and None where a description is concerned; ``coordinate`` is a velocity coordinate.
 """
 
 from __future__ import annotations

@@ -48,8 +48,8 @@ impl Robot {
         self.inverse_dynamics(py, (form, EngineScene::RigidBody), effects, |_| true, &given)
     }
 
-    /// The torques (…, nv), N·m or N, at q (…, nq) and q̇ (…, nv) without acceleration: C(q, q̇) q̇ + g(q) and the
-    /// other effects.
+    /// The torques (…, nv), N·m or N, at q (…, nq) and q̇ (…, nv) without acceleration: C(q, q̇)
+    /// q̇ + g(q) and the other effects.
     #[pyo3(signature = (q, qd, effects = None, form = "core"))]
     fn bias<'py>(
         &self,

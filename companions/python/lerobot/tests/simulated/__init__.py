@@ -1,4 +1,5 @@
-"""An SO-101 in simulated time: servos that speak the Feetech protocol byte by byte, and the arm that they move."""
+"""An SO-101 in simulated time: servos that speak the Feetech protocol byte by byte, and the arm
+that they move."""
 
 from .arm import Arm, Still
 from .bus import Bus

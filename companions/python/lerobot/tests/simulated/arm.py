@@ -10,7 +10,8 @@ STEP = 5e-4
 
 
 class Still:
-    """An arm whose positions are prescribed, one row of angles for each step of time; the last one stays."""
+    """An arm whose positions are prescribed, one row of angles for each step of time; the last one
+    stays."""
 
     def __init__(self, rows):
         self.rows = np.atleast_2d(np.asarray(rows, dtype=float))

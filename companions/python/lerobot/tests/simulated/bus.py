@@ -25,9 +25,10 @@ def checksum(body: bytes) -> int:
 class Bus:
     """Six servos behind a port named `port`.
 
-    The arm moves with the clock at each synchronous read of positions, by at most `step` seconds: while LeRobot connects, for
-    a second or two, it stands. Processes of their own have ways that wait for them: `listen` for a plug-in with a simulated clock,
-    and `terminal`, a pseudo-terminal under the name of the port, for one that knows the machine's ports alone.
+    The arm moves with the clock at each synchronous read of positions, by at most `step` seconds:
+    while LeRobot connects, for a second or two, it stands. Processes of their own have ways that
+    wait for them: `listen` for a plug-in with a simulated clock, and `terminal`, a pseudo-terminal
+    under the name of the port, for one that knows the machine's ports alone.
     """
 
     def __init__(self, folder: Path, arm, servos: list[Servo], clock: Clock, step: float, terminal: bool = False):
@@ -64,7 +65,8 @@ class Bus:
             threading.Thread(target=self._serve, args=(master, slave, self.plug), daemon=True).start()
 
     def unplug(self) -> None:
-        """The adapter is gone: the port fails, and nothing reaches the servos, which keep their power."""
+        """The adapter is gone: the port fails, and nothing reaches the servos, which keep their
+        power."""
         self.plug = None
         Path(self.port).unlink(missing_ok=True)
 

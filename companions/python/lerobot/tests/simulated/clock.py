@@ -8,8 +8,9 @@ import threading
 class Clock:
     """A clock that one thread or several sleep by.
 
-    It advances when all of them sleep, to the moment at which the first is due, and that one alone runs on. Nothing else takes
-    time: bytes on a line and waiting for them are sleeps too (`port.py`).
+    It advances when all of them sleep, to the moment at which the first is due, and that one alone
+    runs on. Nothing else takes time: bytes on a line and waiting for them are sleeps too
+    (`port.py`).
     """
 
     def __init__(self):

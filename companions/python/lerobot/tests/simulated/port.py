@@ -1,7 +1,7 @@
 """Serial ports in simulated time, in the place of pyserial's for the SDK under LeRobot.
 
-A byte takes its time on the wire, and a read waits for its bytes until its timeout. The line behind a port is a `Bus` of this
-process, or, over a socket, one of another.
+A byte takes its time on the wire, and a read waits for its bytes until its timeout. The line behind
+a port is a `Bus` of this process, or, over a socket, one of another.
 """
 
 import termios
@@ -63,7 +63,8 @@ class Port:
 
     def reset_input_buffer(self) -> None:
         if self._plug is not self.line.plug:
-            raise termios.error(5, "Input/output error")  # As a terminal's flush does, and pyserial lets it pass.
+            # As a terminal's flush does, and pyserial lets it pass.
+            raise termios.error(5, "Input/output error")
         for _ in range(self.in_waiting):
             self._arriving.popleft()
 
@@ -75,7 +76,8 @@ class Port:
 
 
 class Remote:
-    """The line of another process, which waits for each exchange as long as it takes; time is this process's own."""
+    """The line of another process, which waits for each exchange as long as it takes; time is this
+    process's own."""
 
     def __init__(self, address: str):
         self.clock, self.plug = Clock(), object()
@@ -87,7 +89,8 @@ class Remote:
 
 
 def install() -> None:
-    """From now on the SDK opens a line of `LINES` as a port and counts its timeouts in that line's time."""
+    """From now on the SDK opens a line of `LINES` as a port and counts its timeouts in that line's
+    time."""
 
     def opened(port, timeout=0.0, **settings):
         return Port(LINES[port], timeout) if port in LINES else serial.Serial(port, timeout=timeout, **settings)

@@ -1,7 +1,7 @@
 """One simulated STS3215: its registers, and the motor that they command.
 
-Written from Feetech's protocol manual and memory table, not with the plug-in's code: what the two understand differently, the
-tests find.
+Written from Feetech's protocol manual and memory table, not with the plug-in's code: what the two
+understand differently, the tests find.
 """
 
 import math
@@ -93,7 +93,8 @@ class Servo:
         return bytes(source[address : address + length])
 
     def cut(self) -> None:
-        """The cable to the servo breaks: no bus and no supply, and the registers are what they are after one."""
+        """The cable to the servo breaks: no bus and no supply, and the registers are what they are
+        after one."""
         self.silent, self.powered = True, False
         self.registers[40] = 0
 
@@ -130,7 +131,8 @@ class Servo:
         return max(-limit, min(limit, duty))
 
     def torque(self, speed: float) -> float:
-        """The motor's torque at the joint, N·m; without power the bridge is open and the motor turns free."""
+        """The motor's torque at the joint, N·m; without power the bridge is open and the motor
+        turns free."""
         if not self.torque_enabled:
             return 0.0
         constant = TORQUE_CONSTANT * self.ratio

@@ -8,6 +8,7 @@
 //! of q̇ and q̈.
 
 use core::hint::black_box;
+use core::marker::PhantomData;
 
 use super::Engine;
 use super::acceleration_field::{Inertia, Wrench, along_z};
@@ -39,7 +40,13 @@ impl<T, K> Engine<T, K> {
         scene_is_taken!();
         const { takes_elastic_joints::<CompiledRobot<T, B, Q, V>>() };
         let trig: JointTrig<R, Q> = Self::trig_source().compute(&state.q);
-        Self::call(&trig, effects).torque_rates(state, [jerk, snap])
+        // As forward dynamics: see [`Call`].
+        let call = Call {
+            turns: &trig.coordinates,
+            effects,
+            robot: PhantomData::<CompiledRobot<T, B, Q, V>>,
+        };
+        call.torque_rates(state, [jerk, snap])
     }
 }
 

@@ -35,7 +35,7 @@ pub trait JointEncoders<const V: usize>: EncoderType {
     /// The joints' positions, rad or m, finite.
     ///
     /// # Errors
-    /// That of the first joint without a position. In an array all others have been read
+    /// The error of the first joint without a position. In an array all others have been read
     /// nevertheless.
     async fn read(&mut self) -> Result<[f32; V], JointError<Self::Error>>;
 }

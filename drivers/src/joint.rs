@@ -99,7 +99,7 @@ pub trait JointEncoders<const V: usize>: EncoderType {
     /// The joints' positions, rad or m, finite.
     ///
     /// # Errors
-    /// That of the first joint without a position. In an array all others have been read
+    /// The error of the first joint without a position. In an array all others have been read
     /// nevertheless.
     fn read(&mut self) -> Result<[f32; V], JointError<Self::Error>>;
 }
@@ -170,8 +170,8 @@ pub trait JointDrives<const V: usize> {
     /// Sets the torques of the joints, N·m or N.
     ///
     /// # Errors
-    /// Of the first joint that failed, else of the first that is not ready; the torques of all
-    /// others are set.
+    /// The error of the first joint that failed, else of the first that is not ready; the torques
+    /// of all others are set.
     fn set_torques(&mut self, torques: &[f32; V]) -> Result<(), JointError<Self::Error>>;
 }
 

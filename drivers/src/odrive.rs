@@ -10,8 +10,8 @@
 //! After power-up the position of an axis with an absolute encoder is known within a turn of its
 //! motor; then the axis counts the turns itself.
 //!
-//! Nodes with extended identifiers are not supported. Of the heartbeat only the errors and the
-//! state are decoded, which both versions have in the same place.
+//! Nodes with extended identifiers are not supported. Only the errors and the state of the
+//! heartbeat are decoded, which both versions have in the same place.
 
 use core::f32::consts::TAU;
 

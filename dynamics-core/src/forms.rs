@@ -1,9 +1,10 @@
 //! The choice of a form: which code computes inverse dynamics, M and forward dynamics of a robot.
 //!
-//! The textbook's passes ([`crate::algorithms`]) take every tree and joint. Chains have passes of their
-//! own ([`chains`]), and a model whose joints are known at run time to be all revolute, or revolute
-//! and fixed, is seen through a view whose code asks for no other kind. The choice changes neither
-//! signature nor meaning; what the compiler knows of a robot leaves one form in the machine code.
+//! The textbook's passes ([`crate::algorithms`]) take every tree and joint. Chains have passes of
+//! their own ([`chains`]), and a model whose joints are known at run time to be all revolute, or
+//! revolute and fixed, is seen through a view whose code asks for no other kind. The choice changes
+//! neither signature nor meaning; what the compiler knows of a robot leaves one form in the machine
+//! code.
 
 use core::borrow::Borrow;
 

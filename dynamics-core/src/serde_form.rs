@@ -123,7 +123,7 @@ impl<R: Real, const H: usize, const N: usize> Form<Array<Array<R, H>, N>> for [[
 }
 
 /// The traits of a struct, by a twin whose arrays are [`Array`]s. A field that is missing here does
-/// not compile. What its `check` refuses is not read.
+/// not compile. A value that its `check` refuses is not read.
 #[macro_export]
 #[doc(hidden)]
 #[allow(clippy::crate_in_macro_def, reason = "the struct is of the crate that calls it")]

@@ -41,8 +41,8 @@ def turned(radius, degrees):
     return [radius * math.cos(angle), radius * math.sin(angle), 0.0]
 
 
-# Loops: a point of one body and a point of another, each in its body's own frame. Independent coordinates with the middle and
-# the reach of their range, and the dependent coordinates' guess.
+# Loops: a point of one body and a point of another, each in its body's own frame. Independent
+# coordinates with the middle and the reach of their range, and the dependent coordinates' guess.
 ROBOTS = {
     "four_bar_leg": {
         "loops": [("rod", [0.0, 0.0, -0.3], "shank", [0.05, 0.0, 0.0])],
@@ -90,14 +90,15 @@ ROBOTS = {
 
 # Coordinates of the tree as functions of the independent ones, and how far the latter go from zero.
 EXPLICIT = {
-    # Two motors turn the side gears of a bevel differential, of ratios 1 and 2.5: the carrier takes their mean, its gear
-    # half of their difference.
+    # Two motors turn the side gears of a bevel differential, of ratios 1 and 2.5: the carrier takes
+    # their mean, its gear half of their difference.
     "wrist": {
         "reach": [2.0] * 6,
         "map": lambda y: y[:4] + [(y[4] + y[5]) / 2, (y[4] - y[5]) / 2 / mpmath.mpf("2.5")],
     },
-    # The forearm hangs on a spiral pulley: its angle is a cubic polynomial of the pulley's. Both motors together pitch the
-    # hand and against each other roll it, by half of their angles from offsets; rotors turn nine times as fast.
+    # The forearm hangs on a spiral pulley: its angle is a cubic polynomial of the pulley's. Both
+    # motors together pitch the hand and against each other roll it, by half of their angles from
+    # offsets; rotors turn nine times as fast.
     "geared": {
         "reach": [2.0] * 4,
         "map": lambda y: [

@@ -66,7 +66,8 @@ def symmetric(six):
 class Body:
     def __init__(self, link):
         self.parent, self.slides = link["parent"], link["kind"] == "prismatic"
-        # Given is the rotation of coordinates from the parent's frame: its transpose is the attitude.
+        # Given is the rotation of coordinates from the parent's frame: its transpose is the
+        # attitude.
         self.attitude = [list(row) for row in zip(*rotation(numbers(link["rot"])))]
         self.place = numbers(link["pos"])
         self.mass, self.moment = exact(link["mass"]), numbers(link["moment"])

@@ -1,5 +1,5 @@
-//! The detectors of the scene `ur5e` on its plant. What each of them finds is tested beside them,
-//! in `motion-control`.
+//! The detectors of the scene `ur5e` on its plant. The faults that each of them finds are tested
+//! beside them, in `motion-control`.
 
 use firmware_demo::plant::Rig;
 use firmware_demo::scene::{Full, Noise, STEPS, Scene, TICK, simulated_loop};

@@ -1,6 +1,6 @@
 //! Operational space: press a tool down with 20 N while its horizontal position is held.
 //!
-//! `cargo run -p dynamics-core --example operational_space`
+//! `cargo run -p motion-control --example operational_space`
 
 use dynamics_core::algorithms::{
     Conditioning, Damping, NotPositiveDefinite, frame, operational_space,

@@ -126,8 +126,8 @@ impl<const N: usize> Producer<'_, '_, N> {
     /// before it; drops it if the queue is full. Returns whether it was kept.
     ///
     /// # Cost
-    /// That of two pointers, whatever the number of joints. [`Consumer::pop`] arranges the message
-    /// outside the interrupt.
+    /// The cost of two pointers, whatever the number of joints. [`Consumer::pop`] arranges the
+    /// message outside the interrupt.
     ///
     /// ```
     /// let mut slots = telemetry::Slots::<6, 4>::default();

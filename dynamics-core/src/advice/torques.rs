@@ -2,7 +2,7 @@
 //! what a joint ever needs.
 //!
 //! A bound of the need is the weight of all that the joint moves, at the end of its lever: first
-//! moments add up along the bodies as if these were stretched out horizontally. Where that is
+//! moments add up along the bodies as if these were stretched out horizontally. If that is
 //! beyond the limit, the worst configuration is sought. The torque of gravity is A + B sin qₖ + C
 //! cos qₖ in each angle, and linear in each slide, so that the best value of one coordinate is
 //! exact; in turn they climb to a maximum.

@@ -2,8 +2,8 @@
 //!
 //! Featherstone, RBDA (2008), table 7.1; Featherstone & Orin (2000), section 3.2. A joint of
 //! several degrees of freedom is eliminated a coordinate at a time, which is the same as by its
-//! block D. Where [`hybrid_dynamics`](super::hybrid_dynamics()) prescribes a coordinate's motion,
-//! RBDA section 9.2, nothing is eliminated.
+//! block D. Nothing is eliminated where [`hybrid_dynamics`](super::hybrid_dynamics()) prescribes a
+//! coordinate's motion, RBDA section 9.2.
 
 use heapless::Vec;
 

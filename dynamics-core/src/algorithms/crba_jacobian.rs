@@ -39,7 +39,7 @@ struct Body<'a, R: Real> {
 /// NaN.
 ///
 /// # Cost
-/// That of [`crba`](super::crba()), of which the Jacobian is a by-product.
+/// The cost of [`crba`](super::crba()), of which the Jacobian is a by-product.
 ///
 /// # Source
 /// Lilly & Orin (1991).

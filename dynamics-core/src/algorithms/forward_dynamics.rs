@@ -25,7 +25,7 @@ use crate::state::{Configuration, RobotState};
 /// V.
 ///
 /// # Cost
-/// That of [`rnea`](super::rnea()), [`crba`](super::crba()), [`ltdl`] and [`solve`]: O(V³) on a
+/// The cost of [`rnea`](super::rnea()), [`crba`](super::crba()), [`ltdl`] and [`solve`]: O(V³) on a
 /// chain, with a small factor.
 ///
 /// # Source

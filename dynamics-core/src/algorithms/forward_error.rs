@@ -58,8 +58,8 @@ impl<R: Real, const V: usize> EstimatedAcceleration<R, V> {
 /// ```
 ///
 /// f32 loses digits where M is ill-conditioned: long straight chains, heavy loads on light links,
-/// humanoids. Of the library's robots and of chains of 16 and 64 rods the error of f32 against f64
-/// is at most the estimate, and the largest error of twenty states at least a hundredth of the
+/// humanoids. For the library's robots and for chains of 16 and 64 rods, the error of f32 against
+/// f64 is at most the estimate, and the largest error of twenty states at least a hundredth of the
 /// largest estimate: 10⁻⁵ for an arm, 5·10⁻³ for a humanoid with a free base, 1 or more, thus no
 /// digit, for 64 rods that are stretched out.
 ///
@@ -67,7 +67,8 @@ impl<R: Real, const V: usize> EstimatedAcceleration<R, V> {
 /// V.
 ///
 /// # Cost
-/// That of [`forward_dynamics`](super::forward_dynamics()), and V solutions: 2 V³ flops on a chain.
+/// The cost of [`forward_dynamics`](super::forward_dynamics()), and V solutions: 2 V³ flops on a
+/// chain.
 ///
 /// # Source
 /// Arioli, Demmel & Duff, "Solving sparse linear systems with sparse backward error" (1989).

@@ -49,13 +49,13 @@ where
 }
 
 impl<A: Copy, T: Topology, const B: usize> PerBody<A, T, B> {
-    /// That of the parent of `link`.
+    /// The quantity of the parent of `link`.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn parent<R: Real>(&self, link: &LinkView<'_, R>) -> A {
         if T::CHAIN { self.last } else { *self.all.get(link.parent).unwrap_or(&self.base) }
     }
 
-    /// Adds that of the next body.
+    /// Adds the quantity of the next body.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn push(&mut self, value: A) {
         if T::CHAIN {

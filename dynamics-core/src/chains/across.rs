@@ -9,8 +9,8 @@ use crate::scalar::{Real, Vector};
 use crate::spatial::inertia::{ArticulatedInertia, CompositeInertia, FreeAboutZ};
 use crate::spatial::{AxialScrews, Force, Motion, Xform};
 
-/// A transform across a link. What is kept of it is what the robot and the sines and cosines do not
-/// hold.
+/// A transform across a link. Only the part of it is kept that the robot and the sines and cosines
+/// do not hold.
 pub(super) trait Across<R: Real>: Copy + Mul<Motion<R>, Output = Motion<R>> {
     type Kept: Copy;
     fn of(link: &LinkView<'_, R>, turns: &[JointCoordinate<R>]) -> Self;

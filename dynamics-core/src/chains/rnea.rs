@@ -88,8 +88,7 @@ where
                 *rotor_tau = tau;
             }
         }
-        // That there is no place never happens; to end the loop there leaves no branch that joins
-        // it again.
+        // There is always a place; a branch that ends the loop does not join it again.
         if bodies.push(Body { rot: x.rot, f }).is_err() {
             break;
         }

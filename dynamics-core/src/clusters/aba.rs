@@ -125,7 +125,7 @@ where
     /// [`Clustered::aba`] for the rest.
     ///
     /// # Cost
-    /// That of [`Clustered::aba`] without the motion of the tree.
+    /// The cost of [`Clustered::aba`] without the motion of the tree.
     ///
     /// # Errors
     /// As [`Clustered::aba`], but those of clusters that do not close.

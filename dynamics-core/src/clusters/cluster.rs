@@ -63,7 +63,7 @@ pub trait Cluster<const M: usize, const N: usize>: Copy {
     /// the cluster's joints have limits within ±4π, else 10⁴ rad.
     ///
     /// # Errors
-    /// [`ClusterProblem`] where no configuration belongs to y. Where y and ẏ are finite every
+    /// [`ClusterProblem`] where no configuration belongs to y. If y and ẏ are finite, every
     /// result must be finite; at a singularity of G the results are those of a damped G, and
     /// `singular` is set.
     fn evaluate<R: Real, K: Kernel<R>>(
@@ -83,8 +83,8 @@ pub struct ClusterMotion<R, const M: usize, const N: usize> {
     /// Ġ ẏ, rad/s² or m/s²: the joints' acceleration at ÿ = 0.
     pub bias: [R; M],
     /// Whether y is at or near a singularity, where G and Ġ ẏ are damped and do not close the loop.
-    /// Of the linkages of this module that begins where rounding errors of Ġ ẏ are some thousandths
-    /// of ẏ² in f64, and of its size in f32.
+    /// For the linkages of this module, that begins where rounding errors of Ġ ẏ are some
+    /// thousandths of ẏ² in f64, and as large as ẏ² in f32.
     pub singular: bool,
 }
 

@@ -167,13 +167,13 @@ impl<A> Clustered<A> {
     /// The tree's state at y, ẏ, ÿ, and G, for every algorithm of a tick.
     ///
     /// # Cost
-    /// That of the clusters, and a sine and cosine for each angle in no cluster.
+    /// The cost of the clusters, and a sine and cosine for each angle in no cluster.
     ///
     /// # Errors
     /// [`ClusterError`] names the cluster that no configuration closes at y.
     ///
     /// # Example
-    /// That of [`TreeMotion`].
+    /// See the example of [`TreeMotion`].
     #[inline(never)]
     pub fn motion<
         R,
@@ -206,11 +206,11 @@ impl<A> Clustered<A> {
     /// Y.
     ///
     /// # Cost
-    /// That of the tree's `rnea` without the sines of the dependent angles, that of the clusters,
-    /// and 2 M N flops for each. The same instructions for all data, but at singularities.
-    /// Dependent angles themselves, which only effects of joints read, cost an arc tangent each
-    /// where one does, in the core, and in the engine on trees of more than 16 joints with wrenches
-    /// on bodies.
+    /// The cost of the tree's `rnea` without the sines of the dependent angles, that of the
+    /// clusters, and 2 M N flops for each. The same instructions for all data, but at
+    /// singularities. Dependent angles themselves, which only effects of joints read, cost an arc
+    /// tangent each where one does, in the core, and in the engine on trees of more than 16 joints
+    /// with wrenches on bodies.
     ///
     /// # Errors
     /// [`ClusterError`] names the cluster that no configuration closes at y; and where a torque is
@@ -221,7 +221,7 @@ impl<A> Clustered<A> {
     /// loops' constraints.
     ///
     /// # Example
-    /// That of [the module](super).
+    /// See the example of [the module](super).
     #[inline(never)]
     pub fn rnea<
         R,

@@ -29,8 +29,9 @@ impl<T, K> Clustered<Engine<T, K>> {
     /// Y.
     ///
     /// # Cost
-    /// That of [`Clustered::rnea`], of the tree's [`Engine::crba`] and of [`TreeMotion::inertia`],
-    /// and Y³/3 flops; the same instructions for all data, but at singularities.
+    /// The cost of [`Clustered::rnea`], of the tree's [`Engine::crba`] and of
+    /// [`TreeMotion::inertia`], and Y³/3 flops; the same instructions for all data, but at
+    /// singularities.
     ///
     /// # Source
     /// Featherstone, RBDA (2008), section 8.5.

@@ -19,14 +19,14 @@ impl<A> Clustered<A> {
     /// [`Driven::actuated`](super::Driven::actuated) rows.
     ///
     /// # Cost
-    /// That of the clusters, without what only other coordinates of the tree need, and an arc
+    /// The cost of the clusters, without what only other coordinates of the tree need, and an arc
     /// tangent for each angle of a motor.
     ///
     /// # Errors
     /// [`ClusterError`] names the cluster that no configuration closes at y.
     ///
     /// # Example
-    /// That of [`Clustered::rnea_of_motors`].
+    /// See the example of [`Clustered::rnea_of_motors`].
     #[inline(never)]
     pub fn motors<
         R,
@@ -53,7 +53,7 @@ impl<A> Clustered<A> {
     /// Y, in the places of y.
     ///
     /// # Cost
-    /// That of both, with the clusters evaluated once.
+    /// The cost of both functions, with the clusters evaluated once.
     ///
     /// # Errors
     /// As both: [`ClusterError`] names the cluster that no configuration closes at y, or of which a

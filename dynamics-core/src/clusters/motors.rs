@@ -99,7 +99,7 @@ where
     /// 2 N² flops for each cluster with motors at actuated rows.
     ///
     /// # Example
-    /// That of [`TreeMotion::to_motors`].
+    /// See the example of [`TreeMotion::to_motors`].
     pub fn from_motors(&self, tau: &[R; Y]) -> [R; Y] {
         let (mut out, set) = (*tau, const { T::CLUSTERS });
         for c in 0..<T::Clusters as Set>::SIZES.len() {

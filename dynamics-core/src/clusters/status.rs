@@ -103,7 +103,7 @@ impl<A> Clustered<A> {
     /// without bound.
     ///
     /// # Cost
-    /// That of [`Clustered::rnea`], and a comparison for each entry of G.
+    /// The cost of [`Clustered::rnea`], and a comparison for each entry of G.
     ///
     /// # Errors
     /// As [`Clustered::rnea`].

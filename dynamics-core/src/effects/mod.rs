@@ -141,14 +141,14 @@ use crate::scalar::Real;
 /// A physical effect, or a tuple of them, on a robot of B bodies and V velocity coordinates.
 ///
 /// Every hook has an empty default, which costs nothing; but an effect has at least one constant
-/// hook or the function [`torque`](Effect::torque). (That is found when the default of `torque` is
-/// compiled: the one place where the compiler knows that it was not written. An effect whose only
-/// hook is `inertia` or `advance`, or that is to do nothing, writes an empty `torque`.) Hooks *add*
-/// to their last argument: an effect that returned zero would leave an addition in the machine code
-/// (x + 0.0 is not x for IEEE's −0.0). Sizes are part of the type, so that five friction values on
-/// six joints do not compile. Hooks at joints are functions. Hooks that enable a part of the
-/// algorithms are constants that name their function and what it reads ([`hook`]), so that a hook
-/// and its declaration cannot contradict each other.
+/// hook or the function [`torque`](Effect::torque). (An effect without either is found when the
+/// default of `torque` is compiled: the one place where the compiler knows that it was not written.
+/// An effect whose only hook is `inertia` or `advance`, or that is to do nothing, writes an empty
+/// `torque`.) Hooks *add* to their last argument: an effect that returned zero would leave an
+/// addition in the machine code (x + 0.0 is not x for IEEE's −0.0). Sizes are part of the type, so
+/// that five friction values on six joints do not compile. Hooks at joints are functions. Hooks
+/// that enable a part of the algorithms are constants that name their function and what it reads
+/// ([`hook`]), so that a hook and its declaration cannot contradict each other.
 ///
 /// ```
 /// use dynamics_core::effects::{Effect, JointState};

@@ -258,7 +258,7 @@ impl<R: Real> Add for Inertia<R> {
 }
 
 impl<R: Real> AccelerationField<R> {
-    /// That of a base at rest, in its pose.
+    /// The field of a base at rest, in its pose.
     pub(crate) const RESTING: Self = Self {
         omega: Vec3::ZERO,
         omega_products: Vec3::ZERO,

@@ -47,8 +47,8 @@ impl<T, K> Engine<T, K> {
     /// # Errors
     /// [`ModelError`] names the first body whose placement is not that of the description
     /// ([`Problem::Placement`]), or a moving body whose base parameters are not finite
-    /// ([`Problem::NotFinite`]). That inertias are physical is what [`Calibrated::set_inertia`] and
-    /// [`Calibrated::check`] are for.
+    /// ([`Problem::NotFinite`]). Whether inertias are physical is checked by
+    /// [`Calibrated::set_inertia`] and [`Calibrated::check`].
     ///
     /// # Source
     /// Khalil & Dombre (2002), chapter 9.
@@ -203,8 +203,8 @@ fn along_axis<R: Real>(
     Xform { pos: R::Vec3::new(R::ZERO, R::ZERO, along), ..Xform::IDENTITY }
 }
 
-/// What regrouping leaves to a body behind a joint, in units of length, and what its parent
-/// receives.
+/// The inertia that regrouping leaves to a body behind a joint, in units of length, and the inertia
+/// that its parent receives.
 fn split<R: Real>(
     [mass, hx, hy, hz, xx, xy, yy, xz, yz, zz]: [R; 10],
     motion: JointMotion,

@@ -1,4 +1,5 @@
-//! What all functions of one call of an algorithm share, in place of a list of parameters.
+//! The arguments that all functions of one call of an algorithm share, in place of a list of
+//! parameters.
 
 use core::marker::PhantomData;
 
@@ -36,7 +37,7 @@ impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize> Copy
 }
 
 impl<T, K> Engine<T, K> {
-    /// What computes sines and cosines of a robot of B bodies and V velocity coordinates.
+    /// The source of sines and cosines for a robot of B bodies and V velocity coordinates.
     pub(crate) const fn trig_source<const B: usize, const V: usize>() -> Specialised<T, K, B, V> {
         Specialised(PhantomData)
     }
@@ -71,20 +72,20 @@ impl<'a, R: Real, Tree: Compiled, Effects, const B: usize, const Q: usize, const
         Call::new(self.turns, effects)
     }
 
-    /// How far joint I has moved.
+    /// The displacement of joint I.
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn displacement<const I: usize>(self) -> Displacement<R, Tree, I> {
         Displacement::of(self.turns)
     }
 
-    /// What effects at coordinate I read.
+    /// The position and velocity of coordinate I, which effects at joints read.
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn joint_state<const I: usize>(self, state: &State<R, Q, V>) -> JointState<R> {
         joint_state::<R, Tree, Q, V, I>(state)
     }
 }
 
-/// What effects at coordinate I read.
+/// The position and velocity of coordinate I, which effects at joints read.
 #[cfg_attr(optimised, inline(always))]
 pub(crate) fn joint_state<
     R: Real,

@@ -151,8 +151,8 @@ where
         }
         let turned = body.turned(&at);
         if const { keeps_axis(CompiledJoint::<Tree, I>::MOTION) } {
-            // Of the turned body, so that column I and the composite of the parent share the turn's
-            // products.
+            // The wrench is that of the turned body, so that column I and the composite of the
+            // parent share the turn's products.
             let mut wrench = turned.wrench_of(joint, length_inv);
             if !joint.prismatic {
                 wrench.n.0[2] = body.second.xx + body.second.yy + spin;
@@ -167,8 +167,8 @@ where
     }
 
     /// Column I of M: its diagonal entry, and the wrench of joint I's unit acceleration, in the
-    /// joint's frame, projected on each ancestor. Where it meets `root`, that of the joint on the
-    /// base, their product is the entry of both.
+    /// joint's frame, projected on each ancestor. If it meets `root`, the motion of the joint on
+    /// the base, their product is the entry of both joints.
     #[cfg_attr(optimised, inline(always))]
     fn column<const I: usize>(&mut self, diagonal: Folded<R>, wrench: &Wrench<R>, root: &Twist<R>) {
         let (mut diagonal, mut wrench) = (diagonal.get(), *wrench);
@@ -205,8 +205,8 @@ where
         });
     }
 
-    /// Of the inertia `spin` that joint I's own rotation feels, what those of the children on
-    /// parallel axes do not contain.
+    /// The inertia `spin` that only joint I's own rotation feels, less what is contained in that of
+    /// the children on parallel axes.
     #[cfg_attr(optimised, inline(always))]
     fn own_spin<const I: usize>(spin: Folded<R>) -> Folded<R> {
         if Effects::BASE_PARAMETERS > 0 {

@@ -53,7 +53,7 @@ pub(crate) struct Displacement<R, Tree, const I: usize> {
 }
 
 impl<R: Real, Tree: Compiled, const I: usize> Displacement<R, Tree, I> {
-    /// That of joint I.
+    /// The displacement of joint I.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn of<const Q: usize>(turns: &[JointCoordinate<R>; Q]) -> Self {
         let turn = turns[CompiledJoint::<Tree, I>::Q];

@@ -23,7 +23,7 @@ use crate::spatial::{Force, Motion, SpatialInertia};
 use crate::state::{Configuration, RobotState};
 use crate::trig::Kernel;
 
-/// How many velocity coordinates a free base has: they are the robot's first.
+/// The number of velocity coordinates of a free base, which are the robot's first.
 const BASE_RATES: usize = 6;
 
 impl<T, K> Engine<T, K> {
@@ -40,7 +40,7 @@ impl<T, K> Engine<T, K> {
     /// ```
     ///
     /// # Cost
-    /// That of the momentum, and some 60 flops for each joint and 150.
+    /// The cost of the momentum, and some 150 flops and 60 more for each joint.
     ///
     /// # Source
     /// Umetani & Yoshida (1989), section II.
@@ -92,13 +92,13 @@ impl<T, K> Engine<T, K> {
     /// The torques at which the joints accelerate as q̈ says while no force holds the free base,
     /// and the accelerations of all coordinates, those of the base included.
     ///
-    /// Of the state's q̈ the entries of the base are replaced. The result is that of
+    /// The entries of the base in the state's q̈ are replaced. The result is that of
     /// [`crate::algorithms::hybrid_dynamics`] with the torque zero at the base and accelerations at
     /// the joints; rotor inertias of the base's coordinates are not read, where there is no motor.
     /// A robot whose first joint is not free does not compile.
     ///
     /// # Cost
-    /// That of [`Engine::rnea`], and some 100 flops for each joint and 150.
+    /// The cost of [`Engine::rnea`], and some 150 flops and 100 more for each joint.
     ///
     /// # Source
     /// Featherstone, RBDA (2008), section 9.5.

@@ -1,4 +1,4 @@
-//! What the engine does not take, found while compiling.
+//! The check while compiling that the engine takes a robot and a scene.
 
 use core::marker::PhantomData;
 

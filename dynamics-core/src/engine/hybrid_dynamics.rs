@@ -26,7 +26,7 @@ impl<T, K> Engine<T, K> {
     /// `state.qdd` is not read.
     ///
     /// # Cost
-    /// That of [`Engine::forward_dynamics`], and 4 V² flops for a chain of V joints, less on a
+    /// The cost of [`Engine::forward_dynamics`], and 4 V² flops for a chain of V joints, less on a
     /// tree; the same instructions for all data.
     ///
     /// # Source

@@ -66,8 +66,8 @@ const fn only_if<F: Copy>(condition: bool, function: F) -> Option<F> {
     if condition { Some(function) } else { None }
 }
 
-/// Fails to compile, in the body of the public function that it stands in, for a robot T and Effects
-/// that the engine does not take.
+/// Fails to compile, in the body of the public function that it stands in, for a robot T and
+/// Effects that the engine does not take.
 macro_rules! scene_is_taken {
     () => {
         const { $crate::engine::gate::EngineScene::<T, R, Effects, B, Q, V>::TAKEN }

@@ -29,7 +29,7 @@ pub(super) struct Named<Tree, List, const N: usize, const I: usize, const K: usi
 impl<Tree: Compiled, List: Bodies<N>, const N: usize, const I: usize, const K: usize>
     Named<Tree, List, N, I, K>
 {
-    /// That there are not more than one function can visit.
+    /// Fails to compile if these are more bodies than one function can visit.
     pub(super) const ARE_FEW: () = assert!(
         count_on::<Tree>(&List::NUMBERS, CompiledJoint::<Tree, I>::LAST) <= 32,
         "the engine takes up to 32 named bodies that move with one joint; use `Core`"
@@ -59,7 +59,7 @@ pub(super) const fn joints<Tree: Compiled>(bodies: &[usize]) -> u64 {
     joints
 }
 
-/// How many of these bodies move with joint `i`.
+/// The number of these bodies that move with joint `i`.
 const fn count_on<Tree: Compiled>(bodies: &[usize], i: usize) -> usize {
     let (mut count, mut k) = (0, 0);
     while k < bodies.len() {

@@ -24,7 +24,7 @@ impl<T, K> Engine<T, K> {
     /// [`Frame`], as [`crate::algorithms::operational_space`] computes it.
     ///
     /// # Cost
-    /// That of [`Engine::crba`], [`Engine::ltdl`] and [`Engine::jacobian`], M times
+    /// The cost of [`Engine::crba`], [`Engine::ltdl`] and [`Engine::jacobian`], M times
     /// [`Engine::solve`], 2 M² V flops and [`damped_inverse`](crate::algorithms::damped_inverse());
     /// without damping the same instructions for all data.
     ///
@@ -78,8 +78,8 @@ impl<T, K> Engine<T, K> {
     /// several bodies that are moved together.
     ///
     /// # Cost
-    /// That of [`Engine::crba`] and [`Engine::ltdl`], M times [`Engine::solve`], 2 M² V flops and
-    /// [`damped_inverse`](crate::algorithms::damped_inverse()); without damping the same
+    /// The cost of [`Engine::crba`] and [`Engine::ltdl`], M times [`Engine::solve`], 2 M² V flops
+    /// and [`damped_inverse`](crate::algorithms::damped_inverse()); without damping the same
     /// instructions for all data.
     ///
     /// # Source
@@ -131,7 +131,7 @@ impl<T, K> Engine<T, K> {
     /// [`crate::algorithms::osim_inverse`] computes it.
     ///
     /// # Cost
-    /// That of [`Engine::crba`], [`Engine::ltdl`] and [`Engine::jacobian`]; for each joint that
+    /// The cost of [`Engine::crba`], [`Engine::ltdl`] and [`Engine::jacobian`]; for each joint that
     /// moves the body 60 flops, and 12 for each such joint before it. The same instructions for all
     /// data.
     ///

@@ -1,5 +1,5 @@
-//! What joints on parallel axes feel of the bodies beyond them: four sums in place of a composite
-//! inertia.
+//! The inertia of the bodies beyond joints on parallel axes, as these joints feel it: four sums in
+//! place of a composite inertia.
 //!
 //! Most arms have two or three such joints in a row, perpendicular to the joint on the base. Turns
 //! about their axis z change neither z nor Σ_xx + Σ_yy, so that of Σ no component is turned: only h
@@ -50,7 +50,7 @@ impl<R: Real> Felt<R> {
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn of(body: &Inertia<R>, spin: Folded<R>, root: &Twist<R>) -> Self {
         let (s, [ex, ey, _]) = (&body.second, root.ang.0);
-        // Of a unit vector: u·Σu = Σ_yy + u_x ((Σ_xx − Σ_yy) u_x + 2 Σ_xy u_y).
+        // For a unit vector u, u·Σu = Σ_yy + u_x ((Σ_xx − Σ_yy) u_x + 2 Σ_xy u_y).
         let (ux, uy) = (ey, -ex);
         let of_root = s.yy + s.zz + ux * ((s.xx - s.yy) * ux + (s.xy + s.xy) * uy);
         Self {

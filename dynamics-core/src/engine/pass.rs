@@ -12,13 +12,13 @@ use super::joint_rates::{JointRates, SeveralRates, Twist};
 use crate::model::{BASE, JointCoordinate};
 use crate::scalar::Real;
 
-/// What an algorithm does at each joint of a robot.
+/// The work of an algorithm at each joint of a robot.
 pub(super) trait Pass {
     /// The robot.
     type Tree: Compiled;
-    /// What a body hands to its children.
+    /// The values that a body hands to its children.
     type Outward: Copy;
-    /// What a body returns to its parent.
+    /// The values that a body returns to its parent.
     type Inward: Copy + Add<Output = Self::Inward>;
     /// The sum over no children.
     const NOTHING: Self::Inward;
@@ -32,7 +32,7 @@ pub(super) trait Pass {
     fn leave<const I: usize>(&mut self, body: &Self::Outward, inner: Self::Inward) -> Self::Inward;
 }
 
-/// What a pass without a way inward returns.
+/// The value that a pass returns if it computes nothing on its way inward.
 #[derive(Clone, Copy)]
 pub(super) struct Nothing;
 
@@ -88,7 +88,7 @@ pub(super) struct Motions<'a, R, const Q: usize, const V: usize> {
     pub(super) qd: &'a [R; V],
     pub(super) qdd: &'a [R; V],
     pub(super) velocity: bool,
-    /// Of the velocity, its products.
+    /// Whether the products of velocities are needed.
     pub(super) products: bool,
     pub(super) accel: bool,
 }

@@ -17,9 +17,9 @@ use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::SpatialInertia;
 use glam::DVec3;
 
-/// How many roundings of it a pivot must exceed: up to 3.1 were measured for articulated bodies and
-/// 12 of LᵀDL where M is singular, and no fewer than 51 where it is regular (a rope of ten light
-/// rods with a weight at its end, in f32).
+/// The number of its own roundings that a pivot must exceed: up to 3.1 were measured for
+/// articulated bodies and 12 of LᵀDL where M is singular, and no fewer than 51 where it is regular
+/// (a rope of ten light rods with a weight at its end, in f32).
 const ROUNDINGS: f64 = 16.0;
 
 /// Mass, kg, largest first moment, kg·m, and largest ∫ r² dm, kg·m², of a joint and its
@@ -39,7 +39,7 @@ struct Sizes<Tree, const B: usize, const V: usize>(core::marker::PhantomData<Tre
 impl<Tree: Compiled, const B: usize, const V: usize> Sizes<Tree, B, V> {
     const ALL: [Size; V] = sizes::<B, V>(Tree::LINKS);
 
-    /// That of joint `i`; beyond the last one, zero.
+    /// The size of joint `i`; beyond the last joint, zero.
     const fn of(i: usize) -> Size {
         if i < V { Self::ALL[i] } else { NOTHING }
     }
@@ -234,7 +234,7 @@ where
         size
     }
 
-    /// How far coordinate I has moved its body's origin, m.
+    /// The distance by which coordinate I has moved its body's origin, m.
     #[cfg_attr(optimised, inline(always))]
     fn slide<const I: usize>(self) -> R {
         let joint = CompiledJoint::<Tree, I>::JOINT;

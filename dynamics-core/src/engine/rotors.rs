@@ -50,8 +50,8 @@ where
         }
         Folded::runtime_if(has_rotor, coupling)
     }
-    /// What joint I feels of `carried`: with it the couple ρ I z·x by which the rotor follows a
-    /// motion x of the parent, its ω or α.
+    /// The wrench `carried` as joint I feels it: with the couple ρ I z·x by which the rotor follows
+    /// a motion x of the parent, its ω or α.
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn felt<const I: usize>(self, carried: Wrench<R>, parent: Vec3<R>) -> Wrench<R> {
         let mut felt = carried;
@@ -68,8 +68,8 @@ where
         }
         felt
     }
-    /// What the parent of joint I bears of `carried`: with it a couple on the rotor, in the frame
-    /// of the joint's body.
+    /// The wrench `carried` as the parent of joint I bears it: with a couple on the rotor, in the
+    /// frame of the joint's body.
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn borne(self, carried: Wrench<R>, couple: Vec3<R>) -> Wrench<R> {
         if Effects::GYROSCOPIC_ROTORS {

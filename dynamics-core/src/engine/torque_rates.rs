@@ -2,10 +2,10 @@
 //!
 //! The recursion of [`super::rnea`] on polynomials in time (Buondonno & De Luca, "A recursive
 //! Newton-Euler algorithm for robots with elastic joints", 2015), over base parameters: they give
-//! the same τ along every course of q, hence the same derivatives. What is linear in the field with
-//! constant coefficients, as is the wrench of a body, is computed for each coefficient; ω ωᵀ is the
-//! only product of polynomials, and of a rotation there are its sine and its cosine and the terms
-//! of q̇ and q̈.
+//! the same τ along every course of q, hence the same derivatives. Quantities that are linear in
+//! the field with constant coefficients, such as the wrench of a body, are computed for each
+//! coefficient; ω ωᵀ is the only product of polynomials, and of a rotation there are its sine and
+//! its cosine and the terms of q̇ and q̈.
 
 use core::hint::black_box;
 use core::marker::PhantomData;
@@ -159,7 +159,7 @@ struct Field<R> {
 }
 
 impl<R: Real> Field<R> {
-    /// That of a base at rest, where a = −g.
+    /// The field of a base at rest, where a = −g.
     #[cfg_attr(optimised, inline(always))]
     fn at_rest(a: Vec3<R>) -> Self {
         Self {

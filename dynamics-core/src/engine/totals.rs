@@ -1,5 +1,5 @@
-//! Sums over all bodies in one pass: mass, first moment, momentum and kinetic energy. What a
-//! function does not read of them is not in its machine code.
+//! Sums over all bodies in one pass: mass, first moment, momentum and kinetic energy. Sums that a
+//! function does not read are not in its machine code.
 //!
 //! Regrouping to base parameters moves mass along a joint's axis, where it moves with both links:
 //! it changes none of these sums but by what it leaves to the base.
@@ -107,7 +107,7 @@ where
     }
 }
 
-/// What is fixed to the base.
+/// The inertia that is fixed to the base.
 #[cfg_attr(optimised, inline(always))]
 pub(super) fn fixed<R: Real>(at_base: &'static Distribution) -> Inertia<R> {
     Inertia {

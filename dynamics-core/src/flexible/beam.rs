@@ -78,7 +78,7 @@ impl Beam {
     }
 
     /// With the second moments of mass of a section per length, ρ∫z² dA and ρ∫y² dA, kg·m: the
-    /// inertia of torsion. Of a line they are zero.
+    /// inertia of torsion. For a line they are zero.
     #[must_use]
     pub const fn sections(mut self, moments: [f64; 2]) -> Self {
         self.sections = moments;

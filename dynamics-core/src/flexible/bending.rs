@@ -216,7 +216,7 @@ impl<T, K> Bending<Engine<T, K>> {
     /// link that bends is a point there.
     ///
     /// # Example
-    /// That of [`Bending`]. A joint of several degrees of freedom does not compile:
+    /// See the example of [`Bending`]. A joint of several degrees of freedom does not compile:
     ///
     /// ```compile_fail,E0080
     /// # use dynamics_core::effects::RIGID_BODY;
@@ -269,7 +269,7 @@ impl<T, K> Bending<Engine<T, K>> {
     /// Walker & Orin (1982), method 1, over known zeros.
     ///
     /// # Example
-    /// That of `forward_dynamics` of the same type.
+    /// See the example of `forward_dynamics` of the same type.
     #[inline(never)]
     #[must_use]
     pub fn crba<R: Real, E, const B: usize, const Q: usize, const V: usize, const M: usize>(
@@ -291,7 +291,7 @@ impl<T, K> Bending<Engine<T, K>> {
     /// [`forward_dynamics`](super::forward_dynamics()) computes them.
     ///
     /// # Cost
-    /// That of [`Bending::rnea`] without accelerations, of [`Bending::crba`], and (V + M)³ / 3
+    /// The cost of [`Bending::rnea`] without accelerations, of [`Bending::crba`], and (V + M)³ / 3
     /// flops.
     ///
     /// # Errors
@@ -362,14 +362,14 @@ impl<T, K> Bending<Engine<T, K>> {
     /// [`modal_dynamics`](super::modal_dynamics()) computes them.
     ///
     /// # Cost
-    /// That of [`Bending::rnea`], of the columns of the modes' inertia and of M³/3 flops for its
-    /// factors.
+    /// The cost of [`Bending::rnea`], of the columns of the modes' inertia and of M³/3 flops for
+    /// its factors.
     ///
     /// # Errors
     /// [`FlexibleError::Mode`].
     ///
     /// # Example
-    /// That of [`Bending::tick`].
+    /// See the example of [`Bending::tick`].
     #[inline(never)]
     pub fn modal_dynamics<
         R: Real,

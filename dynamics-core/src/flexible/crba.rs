@@ -74,13 +74,13 @@ impl<R: Real, const V: usize, const M: usize> FlexibleInertia<R, V, M> {
 /// Blocks of V × V, M × V and M × M.
 ///
 /// # Cost
-/// That of [`crba`](crate::algorithms::crba()) of as many joints as there are joints and modes.
+/// The cost of [`crba`](crate::algorithms::crba()) of as many joints as there are joints and modes.
 ///
 /// # Source
 /// Walker & Orin (1982), method 3; Book (1984) for the modes.
 ///
 /// # Example
-/// That of [`forward_dynamics`](super::forward_dynamics()).
+/// See the example of [`forward_dynamics`](super::forward_dynamics()).
 #[cfg_attr(optimised, inline(always))]
 #[must_use]
 pub fn crba<R: Real, D, E, const B: usize, const Q: usize, const V: usize, const M: usize>(

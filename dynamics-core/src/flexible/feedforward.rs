@@ -15,8 +15,8 @@ use crate::state::{Configuration, JointTrig, State, entry};
 /// joints along it.
 ///
 /// The inverse dynamics of the joints' motion: the modes move as those of links whose joints are
-/// clamped, which their damping brings to rest, so that it is sound for any reference. That of the
-/// tip's motion is not; see the [module](super).
+/// clamped, which their damping brings to rest, so that it is sound for any reference. The inverse
+/// dynamics of the tip's motion is not; see the [module](super).
 ///
 /// ```
 /// # use dynamics_core::flexible::{Beam, FlexibleLink, Shape};

@@ -36,7 +36,7 @@ impl core::error::Error for FlexibleError {}
 /// The accelerations of joints and modes, rad/s² or m/s², under these torques of the motors.
 ///
 /// # Cost
-/// That of [`rnea()`] and [`crba()`], and (V + M)³ / 3 flops.
+/// The cost of [`rnea()`] and [`crba()`], and (V + M)³ / 3 flops.
 ///
 /// # Errors
 /// [`FlexibleError`] names a joint or a mode that moves no inertia, or whose acceleration is not
@@ -112,13 +112,13 @@ where
 /// then move as those of links on clamped joints, whatever torques that motion takes.
 ///
 /// # Cost
-/// That of [`forward_dynamics()`] without the entries of joints and their elimination.
+/// The cost of [`forward_dynamics()`] without the entries of joints and their elimination.
 ///
 /// # Errors
 /// [`FlexibleError::Mode`].
 ///
 /// # Example
-/// That of [`ModalFeedforward`](super::ModalFeedforward).
+/// See the example of [`ModalFeedforward`](super::ModalFeedforward).
 #[cfg_attr(optimised, inline(always))]
 pub fn modal_dynamics<
     R: Real,

@@ -19,7 +19,7 @@ pub(super) struct Outer<R: Real> {
 }
 
 impl<R: Real> Outer<R> {
-    /// That of the base, with a₀ = −g.
+    /// The motion of the base, with a₀ = −g.
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn base<E, const B: usize, const V: usize>(effects: &E) -> Self
     where
@@ -99,7 +99,8 @@ where
             if E::ACCELERATIONS {
                 force += trace::<R>(&product) * acceleration;
             }
-            // That of k and k is symmetric.
+            // The integral over the product of mode k with itself is symmetric: its axial vector is
+            // zero.
             if E::VELOCITY_PRODUCTS && l != k {
                 force += omega.dot(axial::<R>(&product)) * (rate * two);
             }

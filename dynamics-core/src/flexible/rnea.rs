@@ -43,8 +43,8 @@ use crate::state::{Configuration, RobotState, State};
 /// rotors do not compile.
 ///
 /// # Cost
-/// That of [`rnea`](crate::algorithms::rnea()), and for each link with N modes some 150 + 130 N +
-/// 40 N² flops.
+/// The cost of [`rnea`](crate::algorithms::rnea()), and some 150 + 130 N + 40 N² flops for each
+/// link with N modes.
 ///
 /// # Source
 /// Book, "Recursive Lagrangian dynamics of flexible manipulator arms" (1984).

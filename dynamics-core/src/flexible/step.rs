@@ -20,7 +20,7 @@ use crate::state::{Configuration, JointTrig, State, entry};
 /// ```
 ///
 /// # Cost
-/// That of [`forward_dynamics`](super::forward_dynamics()).
+/// The cost of [`forward_dynamics`](super::forward_dynamics()).
 ///
 /// # Errors
 /// [`FlexibleError`]; the states are then unchanged.

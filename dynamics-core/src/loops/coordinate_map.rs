@@ -35,7 +35,7 @@ pub enum Drive {
     Singular {
         /// The loop of the coordinate that is damped most.
         name: &'static str,
-        /// That coordinate's index in q̇.
+        /// The index of that coordinate in q̇.
         joint: usize,
     },
 }
@@ -60,7 +60,7 @@ pub struct CoordinateMap<R, const V: usize, const C: usize, const A: usize> {
 /// V × the number of degrees of freedom.
 ///
 /// # Cost
-/// That of [`constraints()`](super::constraints()), and 2 C (V + C) r flops for a rank r of K.
+/// The cost of [`constraints()`](super::constraints()), and 2 C (V + C) r flops for a rank r of K.
 ///
 /// # Source
 /// Featherstone, RBDA (2008), section 8.11.

@@ -12,9 +12,9 @@ use super::elimination::{Elimination, LoopRows, Order, dot, subtract};
 use crate::scalar::Real;
 use crate::state::entry;
 
-/// The factors of K, or T. Of the factors `rows` are those of K over their pivots, without the
-/// columns of earlier ones; `transform` has in the row of a pivot its reciprocal, and how many
-/// times the row was subtracted from each row after it.
+/// The factors of K, or T. If they are the factors, `rows` has the rows of K over their pivots,
+/// without the columns of earlier pivots; `transform` has in the row of a pivot its reciprocal, and
+/// how many times the row was subtracted from each row after it.
 pub(super) struct Factors<'a, R, const V: usize, const C: usize> {
     k: &'a mut Elimination<R, V, C>,
     /// The right-hand side b, eliminated with the rows: x at the pivots.

@@ -37,7 +37,7 @@ pub struct LoopMotion<R: Real, const V: usize, const L: usize, const C: usize> {
 ///
 /// `state.qdd` is not read. The state need not be closed: errors are corrected as `stabilisation`
 /// says, and [`LoopMotion::closure`] says how large they are; [`LoopMotion::closed`] refuses loops
-/// that are open by more than [`OPEN`](super::OPEN) of their sizes. Where rows of K depend on each
+/// that are open by more than [`OPEN`](super::OPEN) of their sizes. If rows of K depend on each
 /// other, those that elimination finds last are left out, and carry no force; [`LoopMotion::rank`]
 /// says whether these are more than usual, as at a change point, where the accelerations jump.
 ///
@@ -45,7 +45,7 @@ pub struct LoopMotion<R: Real, const V: usize, const L: usize, const C: usize> {
 /// V, and C.
 ///
 /// # Cost
-/// That of [`rnea`](crate::algorithms::rnea()), [`crba`](crate::algorithms::crba()),
+/// The cost of [`rnea`](crate::algorithms::rnea()), [`crba`](crate::algorithms::crba()),
 /// [`ltdl`](crate::algorithms::ltdl()), [`constraints`](super::constraints()) and
 /// [`coordinate_map`](super::coordinate_map()); with n degrees of freedom 4 n² V flops for the
 /// motion.

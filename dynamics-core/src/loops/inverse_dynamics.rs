@@ -36,8 +36,8 @@ pub struct LoopTorque<R: Real, const Q: usize, const V: usize, const C: usize, c
 /// The torque of each motor of a robot with closed loops, τ_a = ID(q, ẏ, ÿ), N·m or N, under the
 /// effects of the scene.
 ///
-/// q is that of all coordinates, with closed loops, from [`super::assemble`]. Of q̇ and q̈ the
-/// independent coordinates are read, all of which are actuated; the others follow from them. A
+/// q is that of all coordinates, with closed loops, from [`super::assemble`]. The independent
+/// coordinates of q̇ and q̈ are read, all of which are actuated; the others follow from them. A
 /// coordinate that no motor moves and that does no work, such as the spin of a rod between two ball
 /// joints, is under-actuation: give it a universal joint.
 ///
@@ -50,8 +50,8 @@ pub struct LoopTorque<R: Real, const Q: usize, const V: usize, const C: usize, c
 /// A.
 ///
 /// # Cost
-/// That of [`rnea`](crate::algorithms::rnea()), of [`constraints`](super::constraints()) twice and
-/// of [`coordinate_map`](super::coordinate_map()). Near a dead point V² C + 3 V³ flops more.
+/// The cost of [`rnea`](crate::algorithms::rnea()), of [`constraints`](super::constraints()) twice
+/// and of [`coordinate_map`](super::coordinate_map()). Near a dead point V² C + 3 V³ flops more.
 ///
 /// # Source
 /// Featherstone, RBDA (2008), section 8.12.

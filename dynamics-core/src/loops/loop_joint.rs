@@ -72,9 +72,9 @@ impl BodyFrame {
 
 /// A joint that closes a loop, between a predecessor and a successor.
 ///
-/// Any kind of [`Joint`]; its axes are given in the loop frames. Where the joint's coordinates are
-/// zero, the frame on the successor is where that on the predecessor is. Which of two bodies is the
-/// predecessor matters for the sign of its force, and for the first axis of a universal joint,
+/// Any kind of [`Joint`]; its axes are given in the loop frames. If the joint's coordinates are
+/// zero, the frame on the successor coincides with that on the predecessor. Which of two bodies is
+/// the predecessor matters for the sign of its force, and for the first axis of a universal joint,
 /// which is fixed on the predecessor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LoopJoint {

@@ -159,7 +159,7 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
     /// Whether the machine leaves the configuration at which `joint` moves with all motors held: a
     /// rate of K along one of the motions that the loops allow acts on that motion.
     ///
-    /// `bias` is k of velocities, over the sizes of the loops. Where no rate does, the joint moves
+    /// `bias` is k of velocities, over the sizes of the loops. If no rate does, the joint moves
     /// on to the second order, and no motor holds it: Connelly & Whiteley, "Second-order rigidity
     /// and prestress stability for tensegrity frameworks" (1996).
     #[cold]

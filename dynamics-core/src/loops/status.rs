@@ -29,7 +29,7 @@ const NEARBY: [f64; 4] = [0.05, -0.05, 0.005, -0.005];
 pub struct Closure<R> {
     /// The loop with the largest error of position.
     pub name: &'static str,
-    /// That error relative to the size of the loop: 0 where it is closed.
+    /// The error of position of that loop relative to its size: 0 if it is closed.
     pub position: R,
     /// The largest error of velocity relative to the size of its loop, rad/s: 0 where the joints'
     /// velocities keep the loops closed.
@@ -140,7 +140,7 @@ impl<R: Real, const V: usize, const L: usize, const C: usize> LoopMotion<R, V, L
 /// it.
 ///
 /// # Cost
-/// That of [`assemble`] four times for each degree of freedom: once for a machine, not for the
+/// The cost of [`assemble`] four times for each degree of freedom: once for a machine, not for the
 /// control tick.
 ///
 /// # Example

@@ -50,8 +50,8 @@ impl<R: Real> JointCoordinate<R> {
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn of_all<K: Kernel<R>, const NEAR: bool, const Q: usize>(q: &[R; Q]) -> [Self; Q] {
         // For seven and eight joints, with LLVM 22: in f32 straight-line code of four becomes
-        // vectors, in f64 a loop that is too long to be unrolled. Of other numbers the plain loop
-        // takes less time.
+        // vectors, in f64 a loop that is too long to be unrolled. For other numbers of joints the
+        // plain loop takes less time.
         match (Q, size_of::<R>()) {
             (7 | 8, 4) => return by_fours::<R, K, NEAR, 1, Q>(q),
             (7 | 8, 8) => return by_fours::<R, K, NEAR, 2, Q>(q),

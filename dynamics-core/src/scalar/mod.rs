@@ -158,8 +158,8 @@ macro_rules! real {
             const MIN_POSITIVE: Self = <$r>::MIN_POSITIVE;
             #[cfg_attr(optimised, inline(always))]
             fn rsqrt(self) -> Self {
-                // Halves the exponent, then Newton's iteration for 1/y² = x. Of a NaN's bits
-                // anything may become.
+                // Halves the exponent, then Newton's iteration for 1/y² = x. The bits of a NaN may
+                // become anything.
                 let halved = self.to_bits() >> 1;
                 let mut y = <$r>::from_bits(halved.wrapping_neg().wrapping_add($magic));
                 let half = 0.5 * self;

@@ -33,7 +33,7 @@ impl<R: Real, const Q: usize, const V: usize> Integrator<R, Q, V> for LinearlyIm
 /// pendulum that starts at (0.5, −0.3) rad keeps its energy within 0.3 % for more than an hour, and
 /// one that whirls from (1.5, 0.5) rad loses 6 % in that time, from (2.5, 1) rad 30 %; the drift
 /// falls as h³. In f32 and at steps of 0.25 ms, those of the scenes' plants, it is 0.1 %, 2 % and
-/// 11 %. Where friction depends on the load ([`LoadFriction`](crate::effects::LoadFriction)),
+/// 11 %. If friction depends on the load ([`LoadFriction`](crate::effects::LoadFriction)),
 /// bodies move at q̇.
 ///
 /// Hairer & Wanner, *Solving Ordinary Differential Equations II* (1996), section IV.7; Baraff &

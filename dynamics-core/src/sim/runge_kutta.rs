@@ -59,7 +59,8 @@ impl<R: Real, const Q: usize, const V: usize> Integrator<R, Q, V> for RungeKutta
 /// dry friction. `state.qdd` is left at the mean acceleration; the internal states of effects are
 /// not advanced.
 ///
-/// Cost: four times that of [`aba`](crate::algorithms::aba()), and for quaternions six exponentials.
+/// Cost: four times that of [`aba`](crate::algorithms::aba()), and for quaternions six
+/// exponentials.
 ///
 /// ```
 /// use dynamics_core::{effects::RIGID_BODY, model::Robot, robots::Ur5e, sim::runge_kutta, state::State};

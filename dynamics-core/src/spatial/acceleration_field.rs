@@ -1,6 +1,6 @@
 //! The accelerations of the points of a body: of the one at r from the origin a + U r.
 //!
-//! U = α× + ω× ω×, the tensor of Balafoutis, Patel & Misra (1988). Where the spatial acceleration
+//! U = α× + ω× ω×, the tensor of Balafoutis, Patel & Misra (1988). If the spatial acceleration
 //! of a body is (α, ȧ), a is ȧ + ω × v; the velocity v of the origin does not occur in its
 //! recursion nor in the force of the body, so that it is not computed.
 

@@ -164,8 +164,8 @@ where
 
 /// Brings every quaternion of q to unit length, within two units in the last place, however far it
 /// has drifted, and every turn without end to the same place within ±π, where its last digits are
-/// worth most: a wheel that has turned sixty times has lost seven bits. What lies there already
-/// keeps its bits.
+/// worth most: a wheel that has turned sixty times has lost seven bits. A turn that is there
+/// already keeps its bits.
 ///
 /// # Errors
 /// [`NoAttitude`] names the first that is zero (or so small that its square is) or not a number;

@@ -147,7 +147,7 @@ impl<F: Effect<f32, 6, 6> + Clone> Cell<F> {
 }
 
 impl Sensing {
-    /// What the encoders measure.
+    /// The positions that the encoders measure.
     fn read(&self, q: &[f32; 6]) -> [f32; 6] {
         q.map(|q| libm::roundf(q / self.step) * self.step)
     }

@@ -2,7 +2,7 @@
 //! term by term why they differ. A test counts, and holds each term.
 //!
 //! The published polynomials are sums of whole products of matrices, and the reasons are inferred
-//! from that, not quoted. What fits no operation of the equations is called so.
+//! from that, not quoted. A term that fits no operation of the equations is called so.
 
 pub use crate::polynomial::Polynomial;
 use crate::polynomial::{NONE, poly};

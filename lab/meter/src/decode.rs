@@ -22,14 +22,14 @@ pub fn decode(first: u16, second: u16) -> Insn {
     row.map_or(Insn::new(Class::Unknown, size), |row| row.insn(code, size))
 }
 
-/// What an instruction does: the name and the fields of its row in `decode.txt`.
+/// The operation of an instruction: the name and the fields of its row in `decode.txt`.
 #[derive(Clone, Copy, Debug)]
 pub struct Operation {
     row: &'static Row,
     code: u32,
 }
 
-/// What the instruction made of these halfwords does, if the table says it.
+/// The operation of the instruction made of these halfwords, if the table has it.
 pub fn operation(first: u16, second: u16) -> Option<Operation> {
     let (row, code) = found(first, second);
     let row = row.filter(|row| !row.operation.is_empty())?;

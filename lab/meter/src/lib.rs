@@ -10,13 +10,13 @@
 //! `dbg #2k+1`, a hint that does nothing on silicon. Regions may nest and overlap. When QEMU exits,
 //! the plugin writes a line for each closed region (see [`parse_samples`]). As an ordinary library
 //! it reads that file, and decodes Thumb code for whoever checks a firmware ([`decode()`],
-//! [`operation()`], [`relative()`]). It must be the only plugin that runs, on a machine with one processor, under
-//! QEMU 4.2 or later. It speaks versions 1 to [`NEWEST_INTERFACE`] of QEMU's plugin interface and
-//! looks at the QEMU that loads it to choose one; the environment variable [`INTERFACE`] sets
-//! another version, for a QEMU that refuses that one. QEMU's functions are looked up when the
-//! library is loaded, so it links anywhere.
+//! [`operation()`], [`relative()`]). It must be the only plugin that runs, on a machine with one
+//! processor, under QEMU 4.2 or later. It speaks versions 1 to [`NEWEST_INTERFACE`] of QEMU's
+//! plugin interface and looks at the QEMU that loads it to choose one; the environment variable
+//! [`INTERFACE`] sets another version, for a QEMU that refuses that one. QEMU's functions are
+//! looked up when the library is loaded, so it links anywhere.
 //!
-//! # What is exact
+//! # Counted exactly
 //!
 //! Instructions: each one that QEMU executes between the markers is counted once,
 //! a predicated one whether its condition holds or not, and those of an interrupt
@@ -27,7 +27,7 @@
 //! Floating-point operations: sums, differences, products, quotients and roots one each,
 //! multiply-accumulates two; moves, signs, comparisons and conversions none.
 //!
-//! # What is modelled
+//! # Modelled
 //!
 //! Cycles, after the instruction timings in the Cortex-M4 Technical Reference Manual
 //! (ARM 100166, sections 3.3 and 7.2.3 with their notes), for memory that never waits:
@@ -76,14 +76,14 @@
 //!
 //! `docs/silicon.md` compares the three readings with cycles that others counted on chips.
 //!
-//! # What is not modelled
+//! # Not modelled
 //!
 //! Wait states of flash and their caches, contention on the buses (between literals and
 //! instruction fetch, with DMA), unaligned access, a full write buffer, entry to and return from an
 //! interrupt (12 and 10 cycles at least), waiting in `WFI` and `WFE`, and any other
 //! core: the Cortex-M7 issues two instructions at once and is nothing like this.
 //!
-//! # How
+//! # Method
 //!
 //! Code is decoded once, when QEMU translates a block of it, and its costs are
 //! summed then; at run time there is one call for each block and one for each marker.

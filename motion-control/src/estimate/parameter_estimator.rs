@@ -9,7 +9,7 @@
 //! ```
 //!
 //! With ε = 1 this is least squares. Kulhavý (1987) forgets the share φ in the direction of y
-//! alone: ε = 1 − φ (1 + r) / r. Where that is negative, the information of the direction would
+//! alone: ε = 1 − φ (1 + r) / r. If that is negative, the information of the direction would
 //! shrink, and with it that of directions which noise mixes in. Here it is kept at that point, so
 //! that P never grows; e r / (1 + r) still follows changes. The information is kept in [`factors`],
 //! which need no root and no difference.
@@ -50,8 +50,8 @@ const RATE: f64 = 1.0 / 64.0;
 ///
 /// # Forgetting
 /// Only the direction of the row, and never more than the row adds. No parameter becomes less
-/// certain, so that none drifts when the motion does not show it. What the motion shows follows
-/// changes within some 1/φ rows.
+/// certain, so that none drifts when the motion does not show it. Parameters that the motion shows
+/// follow changes within some 1/φ rows.
 ///
 /// # Faults
 /// The innovation of a row is what the estimate does not explain, divided by the standard deviation

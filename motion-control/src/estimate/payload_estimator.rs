@@ -10,8 +10,8 @@
 //!   [   Y     z  ]   [   0        e   ]
 //! ```
 //!
-//! T is a product of ten Householder reflections. Each eliminates a column y by the row (D, u). Of
-//! another column x it leaves
+//! T is a product of ten Householder reflections. Each eliminates a column y by the row (D, u), and
+//! leaves of another column x
 //!
 //! ```text
 //! D⁺ = D + y·y      u⁺ = u + t / D⁺      x⁺ = x − y (u + t / (D⁺ + √(D D⁺)))      t = y·x − y·y u
@@ -332,7 +332,7 @@ impl<R: Real, const V: usize> PayloadEstimator<R, V> {
     ///
     /// It need not be that of a body:
     /// [`Payload::try_new`](dynamics_core::effects::Payload::try_new) refuses an impossible one.
-    /// Where the motion does not show the moments of inertia, use mass and centre of mass alone.
+    /// If the motion does not show the moments of inertia, use mass and centre of mass alone.
     #[must_use]
     pub fn inertia(&self) -> SpatialInertia<R> {
         let right = self.factors().rows.map(|[.., d]| d);

@@ -88,7 +88,7 @@ impl<R: Real, const V: usize> TipWrench<R, V> {
     /// The wrench fˣ that a body's surroundings exert on it, N·m and N, in the frame and about the
     /// point of its `jacobian`.
     ///
-    /// `external` are the torques of a [`MomentumObserver`](crate::MomentumObserver). Of an arm of
+    /// `external` are the torques of a [`MomentumObserver`](crate::MomentumObserver). For an arm of
     /// fewer than six joints, and at a singular posture, it is the smallest wrench that explains
     /// them.
     ///

@@ -98,8 +98,8 @@ impl<R: Real, const V: usize> PassivityGains<R, V> {
 /// V; the position coordinates are as many, as in every [`State`] of the controller.
 ///
 /// # Cost
-/// That of [`rnea_two_velocities`](dynamics_core::algorithms::rnea_two_velocities()) and 9 flops
-/// for each joint, the same instructions for all data.
+/// The cost of [`rnea_two_velocities`](dynamics_core::algorithms::rnea_two_velocities()) and 9
+/// flops for each joint, the same instructions for all data.
 ///
 /// # Errors
 /// None; a non-finite input gives a non-finite output, which [`crate::MotionController`] rejects.

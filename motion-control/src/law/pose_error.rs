@@ -32,7 +32,7 @@ pub fn pose_error<R: Real>(pose: &Pose<R>, wanted: &Pose<R>) -> Motion<R> {
 /// The shortest rotation from an attitude to the desired one as a vector: 2 sin(θ/2) along its
 /// axis, in base coordinates.
 ///
-/// That is twice the vector part of the unit quaternion whose scalar part is not negative: the
+/// It is twice the vector part of the unit quaternion whose scalar part is not negative: the
 /// angle θ itself within θ³/24. Its length grows up to θ = π, where it is 2; there both directions
 /// are equally short, and it is one of them. With equal stiffnesses its couple is that of the
 /// potential 4 K (1 − cos(θ/2)).

@@ -44,7 +44,7 @@ impl Circles {
     /// The continuous joints of a model whose coordinates are those of the controller.
     ///
     /// A continuous joint that its description limits to a range of more than a turn is a line: the
-    /// limits count turns. Joints with numbers above 127 are lines, too. Where the controller's
+    /// limits count turns. Joints with numbers above 127 are lines, too. If the controller's
     /// coordinates are those of motors, take [`Circles::through`] of this.
     pub const fn of<const B: usize, const Q: usize, const V: usize>(
         model: &Model<f64, B, Q, V>,

@@ -122,7 +122,7 @@ impl<R: Real, const V: usize> ResumeTrajectory<R, V> {
     /// The first one after [`Self::start`], with a share of zero, is the start.
     ///
     /// # Cost
-    /// That of the trajectory and about 40 flops per joint.
+    /// The cost of the trajectory and about 40 flops per joint.
     #[cold]
     #[inline(never)]
     pub(crate) fn at<T: Reference<R, V>>(&mut self, trajectory: &T, share: R) -> State<R, V, V> {

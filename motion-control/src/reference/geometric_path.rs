@@ -34,8 +34,8 @@ pub trait GeometricPath<R: Real, const V: usize> {
     /// The point at s.
     fn point(&self, s: R) -> PathPoint<R, V>;
 
-    /// s of a point of a grid with this number of segments: from 0 to 1, in ascending order. Where
-    /// q″ has a corner, there should be a point.
+    /// s of a point of a grid with this number of segments: from 0 to 1, in ascending order. There
+    /// should be a point wherever q″ has a corner.
     fn grid_point(&self, point: usize, segments: usize) -> R {
         if point < segments { real::<R>(point as u32) / real(segments as u32) } else { R::ONE }
     }

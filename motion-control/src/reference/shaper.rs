@@ -1,9 +1,9 @@
 //! References that leave no vibration: zero-vibration shapers.
 //!
 //! A reference is replaced by a sum of itself at several delays, so that the vibrations that each
-//! part excites cancel: Singer & Seering (1990). Of a vibration of frequency ω and damping ratio ζ,
-//! with T = π / ω√(1 − ζ²) and K = exp(−ζπ/√(1 − ζ²)), ZV has the amplitudes 1 and K over their sum
-//! at 0 and T, ZVD 1, 2K and K² at 0, T and 2T.
+//! part excites cancel: Singer & Seering (1990). For a vibration of frequency ω and damping ratio
+//! ζ, with T = π / ω√(1 − ζ²) and K = exp(−ζπ/√(1 − ζ²)), ZV has the amplitudes 1 and K over their
+//! sum at 0 and T, ZVD 1, 2K and K² at 0, T and 2T.
 
 use core::fmt;
 

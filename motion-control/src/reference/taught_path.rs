@@ -17,8 +17,8 @@ mod tests;
 ///
 /// [`Self::record`] is called in each tick while a hand moves the arm
 /// ([`HandGuiding`](crate::HandGuiding)), [`Self::end`] once after it; [`Self::spline`] then makes
-/// the path that [`TimedPath`](crate::TimedPath) gives a time. How fast and how evenly the hand
-/// moved leaves no trace.
+/// the path that [`TimedPath`](crate::TimedPath) gives a time. The speed and the evenness of the
+/// hand's motion leave no trace.
 ///
 /// ```
 /// use motion_control::{Recorded, TaughtPath};

@@ -41,10 +41,9 @@ pub use limits::{JointFriction, PathLimits};
 ///
 /// The limits hold at the M points of [`GeometricPath::grid_point`], and between them up to what
 /// the coefficients curve in a segment: the excess decreases with the square of M, and the time
-/// that is lost with M. The guide has both for paths of the UR5e. Where a limit of torque or
-/// acceleration is reached, the torques jump: a limit of
-/// [`SafetyLimits::rate`](crate::SafetyLimits::rate) has to admit this. What the feedback needs has
-/// to be left by the limits of torque.
+/// that is lost with M. The guide has both for paths of the UR5e. The torques jump where a limit of
+/// torque or acceleration is reached: a limit of [`SafetyLimits::rate`](crate::SafetyLimits::rate)
+/// has to admit this. The limits of torque have to leave what the feedback needs.
 ///
 /// ```
 /// use motion_control::{GeometricPath, JointFriction, MotionLimits, PathLimits, PathPoint, Reference, TimedPath};

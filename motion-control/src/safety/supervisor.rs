@@ -43,7 +43,7 @@ const JUMP: f64 = 2.0;
 /// Positions beyond this are as good as infinite, in f64 too.
 const FAR: f64 = f32::MAX as f64;
 /// Beyond this, rad, f32 has no sine accurate to 10⁻⁷: positions beyond it are rejected for all
-/// limits. Of a joint that is a circle the angle within a turn is measured,
+/// limits. For a joint that is a circle, the angle within a turn is measured,
 /// `MultiTurnEncoder::within_turn` of `joint-drivers`.
 const RANGE: f64 = 1e4;
 /// The same for the angle of a circle in f64, rad: its turns are subtracted.

@@ -2,8 +2,8 @@
 //!
 //! Both sides of τ(t) = Y(q, q̇, q̈) β are projected on the same harmonics 0 to H of the
 //! excitation: q, q̇ and q̈ are those of the series of H harmonics that is nearest to the
-//! positions, τ and the columns of Y are projected on an orthonormal base of these harmonics. What
-//! the positions lack of faster motion is in neither. This is the parallel filter of Gautier,
+//! positions, τ and the columns of Y are projected on an orthonormal base of these harmonics.
+//! Faster motion, which the positions lack, is in neither. This is the parallel filter of Gautier,
 //! "Dynamic identification of robots with power model" (1997), with a filter that has neither delay
 //! nor transients as the motion is periodic.
 

@@ -36,7 +36,7 @@ const DETERMINED: f64 = 0.1;
 /// The evaluation of a recording of ticks.
 ///
 /// # Example
-/// Of a motion that does not repeat, the friction of a pendulum:
+/// The friction of a pendulum, from a motion that does not repeat:
 /// ```
 /// use dynamics_core::algorithms::rnea;
 /// use dynamics_core::effects::{Coulomb, RIGID_BODY, Viscous, Width};

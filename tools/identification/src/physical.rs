@@ -3,11 +3,11 @@
 //! The pseudo-inertia of a body J = L X Lᵀ, with that of the nominal body L Lᵀ, is positive
 //! definite if X is. X is 1 at the nominal model, and the norm of its change is the
 //! affine-invariant metric there: Lee, Wensing & Park, "Geometric robot dynamic identification: a
-//! convex programming approach" (2020). What is minimised is convex: the squares of the estimate's
-//! errors relative to its covariance and of the changes relative to their stated size, over X ⪰
-//! margin and joints' parameters ≥ margin (Sousa & Cortesão, "Physical feasibility of robot base
-//! inertial parameter identification: a linear matrix inequality approach", 2014). By the
-//! alternating direction method of multipliers: Boyd et al. (2011), (3.2) to (3.4).
+//! convex programming approach" (2020). The function that is minimised is convex: the squares of
+//! the estimate's errors relative to its covariance and of the changes relative to their stated
+//! size, over X ⪰ margin and joints' parameters ≥ margin (Sousa & Cortesão, "Physical feasibility
+//! of robot base inertial parameter identification: a linear matrix inequality approach", 2014). By
+//! the alternating direction method of multipliers: Boyd et al. (2011), (3.2) to (3.4).
 
 use dynamics_core::effects::Effect;
 use dynamics_core::model::RobotModel;

@@ -1,9 +1,9 @@
 //! Cycles of the engine's inverse dynamics on a Cortex-M4F, estimated from what of a tree is not
 //! zero or one.
 //!
-//! The engine folds products with known zeros and ones away. What is left depends on how many
-//! entries of a placement's rotation are neither, in frames whose z is the joint's axis, and on how
-//! many numbers of a body's inertia are not zero.
+//! The engine folds products with known zeros and ones away. The work that is left depends on how
+//! many entries of a placement's rotation are neither, in frames whose z is the joint's axis, and
+//! on how many numbers of a body's inertia are not zero.
 
 use dynamics_core::glam::{DMat3, DQuat, DVec3};
 use serde::Serialize;

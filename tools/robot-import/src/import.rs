@@ -189,7 +189,8 @@ pub struct Imported {
 /// Reads, selects, merges, checks and writes a robot.
 ///
 /// # Errors
-/// Of the file, with line and element; of the selection; [`Problem::Value`] if the check fails.
+/// An error of the file, with line and element, or of the selection; [`Problem::Value`] if the
+/// check fails.
 pub fn import(args: &Args, today: &str) -> Result<Imported> {
     let written = [&args.out, &args.report].into_iter().flatten();
     let written: Vec<&Path> = written.map(PathBuf::as_path).collect();

@@ -22,9 +22,9 @@ pub fn run(command: &mut Command) -> Result<()> {
     succeeded(command, status)
 }
 
-/// Runs a command whose output and errors are the user's, and returns how it ended. Where stdout is
-/// a terminal it stays in the foreground group, whose programs alone may read from the terminal;
-/// elsewhere it ends with xtask.
+/// Runs a command whose output and errors are the user's, and returns how it ended. If stdout is a
+/// terminal, the command stays in the foreground group, whose programs alone may read from the
+/// terminal; elsewhere it ends with xtask.
 pub fn run_for_user(command: &mut Command) -> Result<ExitStatus> {
     let status = if std::io::stdout().is_terminal() {
         command.status()

@@ -182,7 +182,7 @@ pub fn check(bench: &Bench<'_>) -> Result<String> {
 }
 
 /// Rewrites the page's parts that this run has all of, and their pictures; all of them or none.
-/// What is recorded keeps its compiler.
+/// Recorded parts keep the name of their compiler.
 fn write(
     workspace: &Workspace,
     measured: &Measured,

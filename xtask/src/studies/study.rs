@@ -235,7 +235,7 @@ mod tests {
 
     fn study(form: Form) -> Study {
         Study {
-            name: "growth",
+            name: "sample",
             about: "",
             files: &["page.md", "page.svg"],
             held: Held::Bars(""),
@@ -256,7 +256,7 @@ mod tests {
     fn what_a_study_writes_agrees_with_itself_and_nothing_else() {
         let folder = tempfile::tempdir().expect("a folder");
         let workspace = Workspace::at(folder.path());
-        let part = "# By hand\n\n<!-- growth:begin -->\n<!-- growth:end -->\n";
+        let part = "# By hand\n\n<!-- sample:begin -->\n<!-- sample:end -->\n";
         for file in ["page.md", "guide.md"] {
             std::fs::write(folder.path().join(file), part).expect("written");
         }

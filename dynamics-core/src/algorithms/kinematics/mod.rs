@@ -102,8 +102,8 @@ where
 
 /// Pose, velocity and acceleration of every body, on a base that moves as the effects specify.
 ///
-/// `state.qdd` is read. Of the effects, only a given motion v₀, a₀ of the base is included, not
-/// gravity. The results are along the present axes of the base.
+/// `state.qdd` is read. The only effect that is included is a given motion v₀, a₀ of the base;
+/// gravity is not. The results are along the present axes of the base.
 ///
 /// # Shape
 /// B.

@@ -83,7 +83,7 @@ where
 /// V × V.
 ///
 /// # Cost
-/// That of [`spatial_operator_ltdl`], and O(V³) for the product.
+/// The cost of [`spatial_operator_ltdl`], and O(V³) for the product.
 ///
 /// # Source
 /// Rodriguez, Jain & Kreutz-Delgado (1992).

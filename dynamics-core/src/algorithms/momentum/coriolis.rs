@@ -51,7 +51,7 @@ struct Body<R: Real> {
 /// with c = Cᵀ q̇.
 ///
 /// C is any matrix with Ṁ = C + Cᵀ whose product with q̇ is the vector of velocity products, such
-/// as that of the Christoffel symbols: Cᵀ q̇ = Ṁ q̇ − C q̇ is the same for all of them. Where q̇ is
+/// as that of the Christoffel symbols: Cᵀ q̇ = Ṁ q̇ − C q̇ is the same for all of them. If q̇ is
 /// the derivative of q, it is ∂T/∂q, the derivative of the kinetic energy. At spherical, planar and
 /// free joints q̇ is the velocity in the body's frame, not a derivative of q, and Cᵀ q̇ is what the
 /// first equation states: with it, the equation holds for every joint.

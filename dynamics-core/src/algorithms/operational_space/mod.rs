@@ -97,8 +97,8 @@ pub fn jacobian_rows<R: Real, const V: usize>(jacobian: &[Motion<R>; V]) -> [[R;
 /// ```
 ///
 /// # Cost
-/// That of [`super::crba()`], [`super::ltdl()`] and [`super::jacobian`], M solutions of 2 V² flops,
-/// 2 M² V flops and [`damped_inverse()`].
+/// The cost of [`super::crba()`], [`super::ltdl()`] and [`super::jacobian`], M solutions of 2 V²
+/// flops, 2 M² V flops and [`damped_inverse()`].
 ///
 /// # Source
 /// Khatib (1987).

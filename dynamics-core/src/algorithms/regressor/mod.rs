@@ -40,9 +40,9 @@ use crate::state::{Configuration, JointTrig, RobotState, State};
 ///
 /// if body i is on a branch that joint j carries, zero elsewhere. The effects are those of
 /// [`rnea`](crate::algorithms::rnea()): gravity, accelerations, velocity products and the motion of
-/// the base are in Y as far as the scene has them. What does not depend on the bodies' inertias,
-/// such as friction ([`friction_regressor`]), armatures (their column is q̈), spinning rotors and
-/// wrenches, is not. A non-finite input gives a non-finite output.
+/// the base are in Y as far as the scene has them. Effects that do not depend on the bodies'
+/// inertias, such as friction ([`friction_regressor`]), armatures (their column is q̈), spinning
+/// rotors and wrenches, are not. A non-finite input gives a non-finite output.
 ///
 /// # Shape
 /// V × B × 10, 40 B V bytes in f32.

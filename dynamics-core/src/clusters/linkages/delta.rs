@@ -35,12 +35,12 @@ use crate::trig::Kernel;
 /// inertia, m being the mass of a rod and 2 d the vector between the rods.
 ///
 /// # Cost
-/// Some 450 flops, two divisions and five reciprocal roots; sines and cosines of y only. Where an
-/// effect reads the angles of rods themselves, six arc tangents.
+/// Some 450 flops, two divisions and five reciprocal roots; sines and cosines of y only. An effect
+/// that reads the angles of rods themselves adds six arc tangents.
 ///
 /// # Errors
 /// [`ClusterProblem::CannotClose`] where the three rods do not reach one point, or the cranks' ends
-/// are in one line, about which the platform could turn. Where the rods are in one plane, the
+/// are in one line, about which the platform could turn. If the rods are in one plane, the
 /// platform in that of the cranks' ends, or a rod is parallel to its crank's axis,
 /// [`ClusterMotion::singular`] is set: the sine of the angle is below 3·10⁻⁵ in f64 and 6·10⁻³ in
 /// f32, or as much more as the arms reach beyond a rod's length.

@@ -29,12 +29,12 @@ use crate::trig::Kernel;
 /// than π.
 ///
 /// # Cost
-/// Some 130 flops, a division and a reciprocal root; sines and cosines of y. Where an effect reads
-/// the angles q₁ and q₃ themselves, two arc tangents.
+/// Some 130 flops, a division and a reciprocal root; sines and cosines of y. An effect that reads
+/// the angles q₁ and q₃ themselves adds two arc tangents.
 ///
 /// # Errors
-/// [`ClusterProblem::CannotClose`] where the rods do not reach each other. Where they are in line,
-/// [`ClusterMotion::singular`] is set, as of [`FourBar`](super::FourBar).
+/// [`ClusterProblem::CannotClose`] where the rods do not reach each other. If they are in line,
+/// [`ClusterMotion::singular`] is set, as by [`FourBar`](super::FourBar).
 ///
 /// # Source
 /// The intersection of two circles and its derivatives; Cervantes-Sánchez, Hernández-Rodríguez &

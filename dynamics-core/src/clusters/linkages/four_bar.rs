@@ -30,10 +30,10 @@ use crate::trig::Kernel;
 ///
 /// # Cost
 /// Some 85 flops, a division and a reciprocal root; sine and cosine of y, and none of q₁ and q₂.
-/// Where an effect reads the angles q₁ and q₂ themselves, two arc tangents.
+/// An effect that reads the angles q₁ and q₂ themselves adds two arc tangents.
 ///
 /// # Errors
-/// [`ClusterProblem::CannotClose`] of a y that the crank does not reach. Where coupler and rocker
+/// [`ClusterProblem::CannotClose`] for a y that the crank does not reach. If coupler and rocker
 /// are in line, such as at the change points of a Grashof linkage (shortest + longest = sum of the
 /// other two) and in a flat parallelogram, [`ClusterMotion::singular`] is set: the sine of the
 /// angle between them is below √(σ · longest · longer of the two) / rocker. σ is 10⁻⁹ in f64 and

@@ -50,11 +50,11 @@ pub struct Rod {
 /// moves away from it.
 ///
 /// # Cost
-/// Some 400 flops, two divisions and six reciprocal roots; sines and cosines of y only. Where an
-/// effect reads the angles of cranks and rods themselves, six arc tangents.
+/// Some 400 flops, two divisions and six reciprocal roots; sines and cosines of y only. An effect
+/// that reads the angles of cranks and rods themselves adds six arc tangents.
 ///
 /// # Errors
-/// [`ClusterProblem::CannotClose`] where a rod does not reach its crank's circle. Where crank and
+/// [`ClusterProblem::CannotClose`] where a rod does not reach its crank's circle. If crank and
 /// rod are in line, or the rod parallel to y, [`ClusterMotion::singular`] is set.
 ///
 /// # Source

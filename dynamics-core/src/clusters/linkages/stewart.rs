@@ -50,10 +50,10 @@ pub struct Leg {
 ///
 /// # Cost
 /// Some 1,200 flops, six divisions and twelve reciprocal roots; sines and cosines of the attitude
-/// only. Where an effect reads the angles of the legs themselves, twelve arc tangents.
+/// only. An effect that reads the angles of the legs themselves adds twelve arc tangents.
 ///
 /// # Errors
-/// None of a finite y. Where a leg has no length or is parallel to y, [`ClusterMotion::singular`]
+/// None for a finite y. If a leg has no length or is parallel to y, [`ClusterMotion::singular`]
 /// is set: within an angle of 3·10⁻⁵ rad in f64 and 6·10⁻³ rad in f32, and at a length of as much
 /// of the largest leg's reach.
 ///

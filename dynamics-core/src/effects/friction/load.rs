@@ -2,7 +2,7 @@
 //! μ₂) / 2.
 //!
 //! τ is the torque that the motor must supply for all else at the joint, s = s(q̇ / w) the smooth
-//! sign of [`Coulomb`](crate::effects::Coulomb). Where s is ±1 the motor supplies τ (1 + μ₁) while
+//! sign of [`Coulomb`](crate::effects::Coulomb). If s is ±1, the motor supplies τ (1 + μ₁) while
 //! it drives the load, τ q̇ > 0, and τ (1 − μ₂) while the load drives it: the efficiencies of the
 //! gear are 1/(1 + μ₁) and 1 − μ₂. Since |d| ≤ m, F q̇ is never negative. Duclusaud, Passault,
 //! Padois & Ly, "Extended friction models for the physics simulation of servo actuators" (2025),

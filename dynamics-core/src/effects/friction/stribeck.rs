@@ -13,8 +13,8 @@ use crate::state::entry;
 
 /// The friction of each joint at rest in excess of its sliding friction.
 ///
-/// Cost: an exponential, 20 flops, and 12 more per joint. Where it decreases with speed it causes
-/// stick-slip; a step is implicit only where it increases.
+/// Cost: an exponential, 20 flops, and 12 more per joint. The friction causes stick-slip where it
+/// decreases with speed; a step is implicit only where it increases.
 ///
 /// ```
 /// use dynamics_core::effects::{Effect, JointState, Stribeck, Width};

@@ -11,7 +11,8 @@ use crate::engine::acceleration_field::{AccelerationField, Wrench, u_of};
 use crate::engine::folding::{Folded, Mat3, Vec3};
 use crate::scalar::Real;
 
-/// What a joint is placed on: the body before it, or the end of a link that bends.
+/// The acceleration field that a joint stands on: that of the body before it, or of the end of a
+/// link that bends.
 #[derive(Clone, Copy)]
 pub(super) struct Stand<R> {
     pub(super) field: AccelerationField<R>,
@@ -85,7 +86,8 @@ impl<R: Real> End<R> {
         (end, end.moved(field, velocity, products, accel))
     }
 
-    /// What the joints on the end stand on, whose field in the link's axes is `along`.
+    /// The field that the joints on the end stand on; `along` is the field of the end in the link's
+    /// axes.
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn stand<Tree: Bends, const I: usize, const MOVES: bool>(
         &self,

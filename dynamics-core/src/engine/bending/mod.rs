@@ -208,7 +208,7 @@ where
         total.to_parent(&at)
     }
 
-    /// What is on the end of the body of joint I: the wrench that it needs from the body.
+    /// The wrench that the joints and bodies on the end of the body of joint I need from this body.
     #[cfg_attr(optimised, inline(always))]
     fn beyond<const I: usize, const MOVES: bool>(
         &mut self,

@@ -1,4 +1,4 @@
-//! What the engine knows of a robot's modes while compiling.
+//! The constants of a robot's modes, which the engine knows while compiling.
 
 use core::marker::PhantomData;
 
@@ -20,25 +20,26 @@ pub(crate) const MODES: usize = {
     });
     count
 };
-/// What an integral over products of two modes has at most from rounding, of those of the modes
-/// themselves.
+/// The largest rounding error of an integral over the product of two modes, as a share of the
+/// integrals of the two modes themselves.
 const ROUNDING: f64 = 1e-14;
 
-/// A robot whose links bend, compiled, in m. Of each joint, the modes of the body behind it.
+/// A robot whose links bend, compiled, in m: for each joint, the modes of the body behind it.
 pub(crate) trait Bends: Compiled {
-    /// For a base at rest. Of a body that can only turn about z, one integral stands for the sum of
-    /// two that the equations otherwise distinguish.
+    /// The modes for a base at rest. For a body that can only turn about z, one integral stands for
+    /// the sum of two that the equations otherwise distinguish.
     const AT_REST: &'static [BendingLink];
-    /// For any motion of the base.
+    /// The modes for any motion of the base.
     const MOVING: &'static [BendingLink];
     /// The joints with the inertia of what is fixed on the end of each body, without the point that
     /// its mass is.
     const END_JOINTS: &'static [Joint];
-    /// Where bodies are that are fixed on an end, from there; of all others the base.
+    /// The placements of the bodies that are fixed on an end, relative to it; for all others the
+    /// base.
     const END_PLACES: &'static [BodyPlacement];
 }
 
-/// What is fixed on the ends of a robot.
+/// The bodies that are fixed on the ends of a robot's links.
 pub(super) struct Ends<Tree>(PhantomData<Tree>);
 
 impl<Tree: Bends> Compiled for Ends<Tree> {

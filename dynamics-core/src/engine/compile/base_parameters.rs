@@ -21,7 +21,7 @@ use crate::math::const_eval::{add, mul, scale, transpose};
 use crate::model::BASE;
 
 /// From the last joint to the first, moves the parameters to the parent on which the joint's motion
-/// does not depend. Of bodies that bend, `ends` has the ends, on which masses are left.
+/// does not depend. For bodies that bend, `ends` has the ends, on which masses are left.
 pub(super) const fn regroup<const V: usize>(
     joints: &mut [Joint; V],
     ends: &[Option<DVec3>; V],
@@ -66,8 +66,8 @@ pub(super) const fn regroup<const V: usize>(
     }
 }
 
-/// What a parent receives at the joint's origin: a mass, the first moment of a rod along z, and a
-/// second moment.
+/// The parameters that a parent receives at the joint's origin: a mass, the first moment of a rod
+/// along z, and a second moment.
 struct Passed {
     mass: f64,
     rod: f64,

@@ -33,7 +33,7 @@ pub(super) const fn regroup_for_matrix<const V: usize>(joints: &mut [Joint; V]) 
             // Along the axis of a child, Σ is more than a constant in any case: the other axis
             // becomes zero.
             let a = if children_lie_along_x(joints, i) { second.x_axis.x } else { second.y_axis.y };
-            // What the descendants left along z goes on, too.
+            // The entry that the descendants left along z goes on to the parent, too.
             moved = DMat3::from_diagonal(DVec3::new(a, a, second.z_axis.z));
             joints[i].spin = a + a;
         }

@@ -223,7 +223,7 @@ const fn at_once<const V: usize>(
     first: &Joint,
     motion: JointMotion,
 ) -> BodyPlacement {
-    // How many there are, the axis of the first rotation, and the position of the first
+    // The number of coordinates, the axis of the first rotation, and the position of the first
     // translation.
     let (count, turns, shift) = match motion {
         JointMotion::Planar => (3, 2, 1),

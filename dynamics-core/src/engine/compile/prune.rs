@@ -26,7 +26,7 @@ pub(crate) const fn prune<const V: usize>(joints: &mut [Joint; V], share: f64) {
         second = largest_of(&joints[i].second_moment_only, second);
         i += 1;
     }
-    // Where there is none of a kind, this is zero or NaN: then nothing is left out.
+    // If all moments of one kind are zero, this threshold is zero or NaN, and nothing is left out.
     let moment = share / (1.0 / moment + reach(joints) / second);
     let second = share * second;
     i = 0;

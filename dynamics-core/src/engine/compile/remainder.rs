@@ -1,5 +1,5 @@
-//! What regrouping leaves to the base: the mass on which no joint's motion depends, which totals
-//! over all bodies need.
+//! The mass that regrouping leaves to the base: no joint's motion depends on it, but totals over
+//! all bodies need it.
 
 use core::marker::PhantomData;
 

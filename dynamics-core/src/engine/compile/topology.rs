@@ -16,7 +16,7 @@ pub(crate) trait Compiled {
     const LINKS: &'static [Link<f64>];
     /// The moving joints, parents first.
     const JOINTS: &'static [Joint];
-    /// Where each body of the description is.
+    /// The placement of each body of the description.
     const PLACES: &'static [BodyPlacement];
     /// The unit of length, m.
     const LENGTH: f64;
@@ -130,7 +130,7 @@ const fn is_round<Tree: Compiled>(i: usize) -> bool {
     let Joint { moment: h, second, .. } = joint::<Tree>(i);
     let (x, y) = (second.x_axis, second.y_axis);
     let sides = [h.x, h.y, x.y, x.z, y.z, x.x - y.y];
-    // Of a body on the base, Σ is not all that is left if the base moves.
+    // If the base moves, more than this Σ is left to a body on the base.
     let turns = matches!(joint::<Tree>(i).motion, JointMotion::Turn);
     let mut all = turns && joint::<Tree>(i).parent != BASE;
     k = 0;
@@ -214,7 +214,7 @@ const fn root<Tree: Compiled>(i: usize) -> usize {
     k
 }
 
-/// How many of the bodies that are `loaded` move with joint `i`.
+/// The number of `loaded` bodies that move with joint `i`.
 pub(crate) const fn loads<Tree: Compiled>(i: usize, loaded: &[bool]) -> usize {
     let (mut count, mut body) = (0, 0);
     while body < loaded.len() {
@@ -241,7 +241,7 @@ pub(crate) const fn load<Tree: Compiled>(i: usize, k: usize, loaded: &[bool]) ->
     loaded.len()
 }
 
-/// How many bodies move with joint `i` as one.
+/// The number of bodies that move with joint `i` as one.
 const fn bodies_on<Tree: Compiled>(i: usize) -> usize {
     let (mut count, mut body) = (0, 0);
     while body < Tree::PLACES.len() {
@@ -283,7 +283,7 @@ impl<Tree: Compiled, const I: usize> CompiledJoint<Tree, I> {
     pub(crate) const JOINT: &'static Joint = &joint::<Tree>(I);
     /// Whether its velocity is that of a translation.
     pub(crate) const PRISMATIC: bool = Self::JOINT.prismatic;
-    /// How it moves the body.
+    /// The motion that it gives the body.
     pub(crate) const MOTION: JointMotion = Self::JOINT.motion;
     /// Whether it is revolute: only the sine and cosine of its position matter.
     pub(crate) const IS_TURN: bool = matches!(Self::MOTION, JointMotion::Turn);
@@ -292,9 +292,9 @@ impl<Tree: Compiled, const I: usize> CompiledJoint<Tree, I> {
         Self::MOTION,
         JointMotion::Slide | JointMotion::Screw | JointMotion::Planar | JointMotion::Free
     );
-    /// How many coordinates move the body at once.
+    /// The number of coordinates that move the body at once.
     pub(crate) const COUNT: usize = Self::JOINT.count;
-    /// Where their positions begin.
+    /// The index of the first of their positions.
     pub(crate) const Q: usize = Self::JOINT.q;
     /// The position that belongs to the velocity, if any.
     pub(crate) const POSITION: Option<usize> = Self::JOINT.position;
@@ -308,7 +308,7 @@ impl<Tree: Compiled, const I: usize> CompiledJoint<Tree, I> {
     pub(crate) const PARENT: &'static Joint = &joint::<Tree>(Self::JOINT.parent);
     /// Whether its parent is the base.
     pub(crate) const IS_ON_BASE: bool = is_parent::<Tree>(BASE, I);
-    /// How many bodies move with it as one.
+    /// The number of bodies that move with it as one.
     pub(crate) const BODIES: usize = bodies_on::<Tree>(Self::LAST);
     /// Whether it is a last joint, and what regrouping left to its body is the same after any turn.
     pub(crate) const IS_ROUND: bool = is_round::<Tree>(I);
@@ -318,8 +318,8 @@ impl<Tree: Compiled, const I: usize> CompiledJoint<Tree, I> {
     /// Whether CRBA multiplies its wrench by the motion of the joint on the base in the frame of
     /// one of them.
     pub(crate) const MEETS_ROOT: bool = Self::IS_PARALLEL || last_parallel::<Tree>(I) != BASE;
-    /// Of the inertia that only its own rotation feels, what it does not share with children on
-    /// parallel axes.
+    /// The inertia that only its own rotation feels, without the part that it shares with children
+    /// on parallel axes.
     pub(crate) const OWN_SPIN: f64 = own_spin::<Tree>(I);
     /// Whether its parent is the joint on the base.
     pub(crate) const PARENT_ON_BASE: bool =

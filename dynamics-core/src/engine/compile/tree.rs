@@ -5,7 +5,7 @@ use glam::{DMat3, DVec3};
 
 use crate::model::BASE;
 
-/// How a joint moves its body on the parent side.
+/// The motion that a joint gives its body relative to the parent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum JointMotion {
     /// A rotation about z.
@@ -43,7 +43,7 @@ pub(crate) struct Joint {
     pub(crate) prismatic: bool,
     /// The axis of the velocity in the body's frame: 0 for x, 1 for y, 2 for z.
     pub(crate) axis: usize,
-    /// Where the positions of these coordinates begin.
+    /// The index of the first position of these coordinates.
     pub(crate) q: usize,
     /// The position that belongs to the velocity; nothing for ω beside a quaternion.
     pub(crate) position: Option<usize>,
@@ -91,19 +91,19 @@ pub(crate) struct CompiledTree<const B: usize, const V: usize> {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BendingTree<const B: usize, const V: usize> {
     pub(crate) tree: CompiledTree<B, V>,
-    /// What is on the end of the body of each joint.
+    /// The inertia on the end of the body of each joint.
     pub(crate) on_ends: [OnEnd; V],
     /// Whether a body of the description is fixed on an end: its place is that from there.
     pub(crate) is_on_end: [bool; B],
 }
 
-/// What is on the end of a link that bends.
+/// The inertia on the end of a link that bends.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct OnEnd {
     /// The mass of what is fixed there, and that which joints leave at the very end: a point, which
     /// is in the parameters of the link, too.
     pub(crate) mass: f64,
-    /// Of what is fixed there, about the end.
+    /// The first moment, and below it the second moment, of what is fixed there, about the end.
     pub(crate) moment: DVec3,
     pub(crate) second: DMat3,
 }

@@ -104,7 +104,7 @@ impl<R: Real> Mul for Folded<R> {
         let (a, b) = (self.magnitude, o.magnitude);
         let zero = self.is(ZERO) | o.is(ZERO);
         let product = R::either(self.is(ONE), b, R::either(o.is(ONE), a, a * b));
-        // What is not one.
+        // The tags of the factor that is not one.
         let other = either(self.is(ONE), o.tags, either(o.is(ONE), self.tags, 0));
         let minus = (self.tags ^ o.tags) & MINUS;
         Self {

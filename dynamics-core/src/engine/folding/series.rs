@@ -110,7 +110,7 @@ impl<R: Real> Turn<R> {
         v.turn_back(self.sin, self.cos)
     }
 
-    /// Rzᵀ v: into the body's frame. Of y = Rzᵀ x the derivative is Rzᵀ ẋ − q̇ z × y.
+    /// Rzᵀ v: into the body's frame. The derivative of y = Rzᵀ x is Rzᵀ ẋ − q̇ z × y.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn enter(&self, v: Series<Vec3<R>>) -> Series<Vec3<R>> {
         let [a, b, c] = v.0;

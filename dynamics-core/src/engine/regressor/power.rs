@@ -19,7 +19,7 @@ pub(super) struct BodyPower<R> {
 }
 
 impl<R: Real> BodyPower<R> {
-    /// Of the body at `place` on a joint of the field `field`.
+    /// The motion of the body at `place` on a joint whose field is `field`.
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn of(
         field: &AccelerationField<R>,

@@ -134,7 +134,8 @@ where
         let mut by = parent.by.carried(&at);
         for_each_joint!(K, {
             if JointPair::<Tree, I, K>::IS_COORDINATE {
-                // What moves an ancestor does not move this joint: one of the two is zero.
+                // A coordinate that moves an ancestor does not move this joint: one of the two
+                // motions is zero.
                 let rate = Folded::runtime(R::either(self.coordinate == K, R::ONE, R::ZERO));
                 let own = Twist::along(CompiledJoint::<Tree, K>::JOINT, Tree::LENGTH_INV, rate);
                 (by.ang, by.lin) = (by.ang + own.ang, by.lin + own.lin);

@@ -98,7 +98,7 @@ pub enum RejectedRow {
     /// The torques of a joint do not agree with the estimate, which is frozen until they do, or
     /// until that joint rests for long.
     Frozen {
-        /// That joint, which need not be that of the row.
+        /// The joint of these torques, which need not be that of the row.
         joint: usize,
     },
 }

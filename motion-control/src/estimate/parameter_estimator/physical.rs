@@ -3,7 +3,7 @@
 //! A body of density ≥ 0 has a pseudo-inertia J = ∫ (r, 1)(r, 1)ᵀ dm = \[Σ h; hᵀ m\] ⪰ 0, Σ = ½
 //! tr(Ī) 1 − Ī, and each J ≻ 0 is that of a body: Wensing, Kim & Slotine, "Linear matrix
 //! inequalities for physically consistent inertial parameter identification" (2018). These J are a
-//! convex cone. Of two points of a convex set the segment between them is in it, so that bisection
+//! convex cone. The segment between two points of a convex set is in it, so that bisection
 //! finds how far a stored set may follow the estimate; Rucker & Wensing, "Smooth parameterization
 //! of rigid-body inertia" (2022), instead estimate within the cone, which is not linear.
 

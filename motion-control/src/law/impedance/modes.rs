@@ -55,7 +55,7 @@ pub(super) struct Found<R, const M: usize> {
 }
 
 impl<R: Real, const M: usize> Found<R, M> {
-    /// Whether the coupling is within its bound. Of the damping it changes a share of half its
+    /// Whether the coupling is within its bound. It changes the damping by a share of half its
     /// root: 10⁻⁵ at most after one pass in f32, and 10⁻⁶ after more.
     fn is_within_bound(&self) -> bool {
         let single = if self.passes == 1 { 4e-10 } else { 4e-12 };
@@ -182,8 +182,8 @@ impl<R: Real, const M: usize> Modes<R, M> {
     }
 }
 
-/// The pairs p < q of M modes, row by row. Of up to six the numbers are constants, so that the
-/// matrix stays in registers.
+/// The pairs p < q of M modes, row by row. For up to six modes the numbers are constants, so that
+/// the matrix stays in registers.
 macro_rules! each_pair {
     ($m:ident, $p:ident, $q:ident, $work:expr) => {
         if $m <= 6 {

@@ -31,9 +31,9 @@ pub struct PathLimits<R, const V: usize> {
 
 /// Friction of a joint in a motion along a path.
 ///
-/// Friction against the motion counts in full where it makes the torque greater. Where it makes it
+/// Friction against the motion counts in full where it makes the torque greater. If it makes it
 /// smaller, as when the joint brakes, only the share `certain` counts: friction varies with
-/// temperature, and vanishes smoothly near rest. Where the joint reverses within a segment of the
+/// temperature, and vanishes smoothly near rest. If the joint reverses within a segment of the
 /// grid, friction counts in both directions. Viscous friction is linear in ṡ = √x: above, the
 /// tangent of √x takes its place, below a chord, so that torques remain linear in x and their
 /// bounds are never exceeded.

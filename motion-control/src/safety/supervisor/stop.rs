@@ -6,8 +6,8 @@ use crate::safety::stop_category::{Ending, Required, StopCategory, Stopping};
 use dynamics_core::scalar::Real;
 
 impl<R: Real, const V: usize> Stopping<R, V> {
-    /// The state at the end of a stop. What ends category 2 early is what the arm is configured
-    /// for.
+    /// The state at the end of a stop. If a stop of category 2 ends early, the arm does what it is
+    /// configured for.
     pub(super) fn stopped(&self, ending: Option<Ending>) -> State {
         let ending = match ending {
             Some(Ending::Hold) => self.configured,

@@ -13,7 +13,8 @@ const MOST: f64 = 900.0;
 const LEFT: f64 = 64.0;
 const ABOVE: f64 = 46.0;
 const BELOW: f64 = 40.0;
-/// The lines: name, class and width. What lies below is wider, so that none is hidden.
+/// The lines: name, class and width. A line that lies below another is wider, so that none is
+/// hidden.
 const LINES: [(&str, &str, u32); 3] =
     [("measured", "a", 5), ("by the description", "b", 2), ("by what was found", "c", 2)];
 /// Colours on a light and on a dark page; colour-blind readers can distinguish them.

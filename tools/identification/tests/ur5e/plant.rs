@@ -17,7 +17,7 @@ type At = State<f64, 6, 6>;
 /// The friction of the arm.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Friction {
-    /// That of the model.
+    /// The friction of the model.
     Modelled,
     /// Bristles, stiction, and Stribeck's effect.
     Bristles,

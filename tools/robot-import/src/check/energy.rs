@@ -438,7 +438,7 @@ mod tests {
 
     #[test]
     fn the_work_of_a_state_grows_with_the_number_of_joints() {
-        // Of work that grows with the square, eight times as many joints take 64 times as long.
+        // If the work grew with the square, eight times as many joints would take 64 times as long.
         let [few, most] = [17, 136].map(time);
         assert!(most < 24.0 * few, "{few} s, {most} s");
     }

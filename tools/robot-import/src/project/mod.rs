@@ -3,8 +3,8 @@
 //!
 //! The templates are in `template/rust`, `template/c` and `template/board`; the first two are
 //! templates of `cargo generate` as well. A placeholder is replaced by text, nothing else: no
-//! condition, no loop. Of a board's files, lines of joints that the robot does not have are left
-//! out.
+//! condition, no loop. Lines of a board's files are left out if they are for joints that the robot
+//! does not have.
 
 mod board;
 mod choice;

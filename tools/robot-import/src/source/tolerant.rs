@@ -2,8 +2,8 @@
 //! well-formed XML, made well-formed.
 //!
 //! One pass over the text, linear in its length, of which the bounds of a hostile file are part:
-//! nesting and attributes are counted before a tree is built. What is changed keeps its line, and
-//! what is inserted is remembered, so that positions in errors are those of the file. Document
+//! nesting and attributes are counted before a tree is built. Changed text keeps its line, and
+//! inserted text is remembered, so that positions in errors are those of the file. Document
 //! types that could expand something are refused, not tolerated.
 
 use std::borrow::Cow;

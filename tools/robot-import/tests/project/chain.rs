@@ -1,4 +1,5 @@
-//! Six branches of five joints, in every third of which one slides: as many joints as a humanoid has.
+//! Six branches of five joints, in every third of which one slides: as many joints as a humanoid
+//! has.
 
 use dynamics_core::effects::{Armature, Coulomb, Viscous, Width};
 use dynamics_core::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, Robot};

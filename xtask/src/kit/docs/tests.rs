@@ -79,9 +79,9 @@ fn a_picture_of_other_figures_is_refused() {
     let folder = tempfile::tempdir().expect("a folder");
     let workspace = Workspace::at(folder.path());
     let svg = "<svg><circle cx=\"12\" cy=\"3.5\"/><text>RNEA 2,443</text></svg>\n";
-    std::fs::write(folder.path().join("growth.svg"), svg).expect("written");
+    std::fs::write(folder.path().join("drawn.svg"), svg).expect("written");
     let accepted = |fresh: &str, same| {
-        compare_picture(&workspace, "growth.svg", "cargo xtask growth", fresh, same).is_ok()
+        compare_picture(&workspace, "drawn.svg", "cargo xtask drawn", fresh, same).is_ok()
     };
     let moved = svg.replace("12", "1234.25").replace("2,443", "999");
     assert!(accepted(svg, true) && !accepted(&moved, true));

@@ -78,7 +78,7 @@ pub fn front(robot: Robot, points: &[&Point], host: &Host) -> Result<String> {
     let title = robot.names()[1];
     let head = format!("{title}: the cheapest inverse dynamics of each accuracy");
     let default = points.iter().find(|point| point.is_default());
-    // What costs more than the default is in the page's tables.
+    // Points that cost more than the default are in the page's tables.
     let cheap = |point: &&Point| default.is_none_or(|default| point.cycles <= default.cycles);
     let mut shown = fronts::front(points, 0);
     shown.retain(cheap);

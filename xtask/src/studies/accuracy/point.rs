@@ -44,7 +44,7 @@ pub struct Point {
     pub unit: String,
     /// `error_max` as a share of full scale.
     pub relative_max: Option<f64>,
-    /// What no joint's |error| exceeds in any state of the joints' box.
+    /// The bound that no joint's |error| exceeds in any state of the joints' box.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub proven: Option<f64>,
     /// No other one is as accurate for less, in the worst tick or in the mean.

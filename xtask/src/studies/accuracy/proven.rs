@@ -15,7 +15,7 @@ use crate::kit::workspace::{self, Workspace};
 /// The record, which names the machine code that it is of.
 pub const FILE: &str = "docs/accuracy-proven.json";
 
-/// What is proven of a robot, by the keys of configurations.
+/// The proven errors of a robot, by the keys of configurations.
 #[derive(Debug, Default, Deserialize)]
 pub struct Proven {
     robot: String,
@@ -29,7 +29,7 @@ struct Joint {
     acceleration: f64,
 }
 
-/// What a file has, or the record.
+/// The proven errors in a file, or in the record.
 pub fn read(workspace: &Workspace, file: Option<&Path>) -> Result<Vec<Proven>> {
     let record = workspace.root.join(FILE);
     host_bin::parsed(FILE, &workspace::read(file.unwrap_or(&record))?)
@@ -79,7 +79,7 @@ pub fn chosen(all: &[Proven], mut points: Vec<Point>) -> Result<(Vec<Point>, Str
 }
 
 impl Proven {
-    /// Of a robot.
+    /// The proven errors of a robot.
     pub fn of<'a>(all: &'a [Self], robot: &str) -> Option<&'a Self> {
         all.iter().find(|one| one.robot == robot)
     }

@@ -50,8 +50,8 @@ pub fn export(workspace: &Workspace) -> Result<Vec<Robot>> {
     let mut robots: Vec<Robot> = host_bin::json(workspace, "export_robots")?;
     robots.retain(|robot| COMPARED.contains(&&*robot.name));
     for body in robots.iter_mut().flat_map(|robot| &mut robot.bodies) {
-        // The library holds inertias about the link's origin. What comes back to the centre of mass
-        // is off by rounding, and CasADi drops products with exact zeros only.
+        // The library holds inertias about the link's origin. Inertias that are converted back to
+        // the centre of mass are off by rounding, and CasADi drops products with exact zeros only.
         let [xx, _, _, yy, _, zz] = body.inertia_com;
         for entry in &mut body.inertia_com {
             if entry.abs() < 1e-15 * (xx + yy + zz) {

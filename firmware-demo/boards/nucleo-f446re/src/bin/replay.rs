@@ -2,8 +2,9 @@
 //! `docs/boards.md` and `docs/scenes.md`; no encoder and no drive is needed.
 //!
 //! ```text
-//! cargo build --release -p nucleo-f446re --target thumbv7em-none-eabihf
-//! probe-rs run --chip STM32F446RETx target/thumbv7em-none-eabihf/release/replay
+//! cargo build --manifest-path firmware-demo/boards/Cargo.toml --target-dir target/boards \
+//!     --release -p nucleo-f446re --bin replay --target thumbv7em-none-eabihf
+//! probe-rs run --chip STM32F446RETx target/boards/thumbv7em-none-eabihf/release/replay
 //! ```
 #![cfg_attr(target_arch = "arm", no_std, no_main)]
 

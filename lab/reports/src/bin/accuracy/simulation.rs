@@ -3,8 +3,8 @@
 //!
 //! The true motion is Runge and Kutta's in f64 with the oracle's step, on the core; the tests
 //! compare the double pendulum's with Lagrange's equations written out by hand. Trajectory errors
-//! are over the first second, since both robots are chaotic; energy is watched for longer. Where
-//! friction takes energy, it is compared with the true motion's.
+//! are over the first second, since both robots are chaotic; energy is watched for longer. If
+//! friction takes energy, the energy is compared with that of the true motion.
 
 use dynamics_core::Core;
 use dynamics_core::effects::RIGID_BODY;

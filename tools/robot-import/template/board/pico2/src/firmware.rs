@@ -6,7 +6,7 @@
 //!
 //! A PWM slice counts the millisecond, without pins, and its interrupt is at the same time the one
 //! in which the executor runs: nothing has to set the next alarm, and between the period's end and
-//! the tick lie no queue of timers and no second interrupt. What is left of jitter is the entry of
+//! the tick lie no queue of timers and no second interrupt. The jitter that is left is the entry of
 //! an interrupt of the highest priority and the misses of the XIP cache. Embassy's own `Ticker`
 //! sets an alarm for each period, whose interrupt wakes the executor by a second one.
 

@@ -14,6 +14,7 @@ pub mod recordings;
 pub mod stress_robot;
 pub mod tolerances;
 pub mod trees;
+pub mod true_motion;
 pub mod widen;
 
 /// Numbers of states, runs or ticks, or bounds of them: those of an everyday run, or with the

@@ -19,19 +19,3 @@ pub fn files(folder: &Path, extension: &str) -> Vec<PathBuf> {
     }
     found
 }
-
-/// A page without its blocks of code.
-pub fn prose(page: &str) -> String {
-    let mut outside = true;
-    let lines = page.lines().filter(|line| {
-        let is_fence = line.trim_start().starts_with("```");
-        outside ^= is_fence;
-        outside && !is_fence
-    });
-    lines.collect::<Vec<_>>().join("\n")
-}
-
-/// The text between each occurrence of `begin` and the next `end`.
-pub fn between<'a>(text: &'a str, begin: &'a str, end: char) -> impl Iterator<Item = &'a str> {
-    text.split(begin).skip(1).filter_map(move |rest| Some(rest.split_once(end)?.0))
-}

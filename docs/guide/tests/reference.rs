@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::LazyLock;
 
-use crate::files::{between, files, prose, root};
+use crate::files::{files, root};
 
 /// Items of other crates and of written files, options, and parameters.
 const OTHERS: [&str; 10] = [
@@ -133,4 +133,20 @@ fn every_file_and_item_that_the_guide_names_exists() {
     let wrong = "`Gravity::VENUS` and `algorithms::Lost<R>` in `lost.rs`, `Gains` in `rnea.rs`, \
         `cargo -E x.rs`";
     assert_eq!(unknown(wrong, &sources), ["Gravity::VENUS", "Lost", "lost.rs"]);
+}
+
+/// A page without its blocks of code.
+fn prose(page: &str) -> String {
+    let mut outside = true;
+    let lines = page.lines().filter(|line| {
+        let is_fence = line.trim_start().starts_with("```");
+        outside ^= is_fence;
+        outside && !is_fence
+    });
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+/// The text between each occurrence of `begin` and the next `end`.
+fn between<'a>(text: &'a str, begin: &'a str, end: char) -> impl Iterator<Item = &'a str> {
+    text.split(begin).skip(1).filter_map(move |rest| Some(rest.split_once(end)?.0))
 }

@@ -1,8 +1,18 @@
 //! Forward dynamics: the articulated-body algorithm in link coordinates.
 //!
-//! Featherstone, RBDA (2008), table 7.1; Featherstone & Orin (2000), section 3.2. A joint of
-//! several degrees of freedom is eliminated a coordinate at a time, which is the same as by its
-//! block D. Nothing is eliminated where [`hybrid_dynamics`](super::hybrid_dynamics()) prescribes a
+//! Featherstone, RBDA (2008), table 7.1; Featherstone & Orin (2000), section 3.2:
+//!
+//! ```text
+//! c_i  = S̊_i q̇_i + v_i × S_i q̇_i
+//! Iᴬ_i = I_i + Σ_{λ(j)=i} ʲX_iᵀ Iᵃ_j ʲX_i    pᴬ_i = v_i ×* I_i v_i − fˣ_i + Σ_{λ(j)=i} ʲX_iᵀ pᵃ_j
+//! U_i  = Iᴬ_i S_i      D_i = S_iᵀ U_i        u_i  = τ_i − S_iᵀ pᴬ_i
+//! Iᵃ_i = Iᴬ_i − U_i D_i⁻¹ U_iᵀ               pᵃ_i = pᴬ_i + Iᵃ_i c_i + U_i D_i⁻¹ u_i
+//! a′_i = ⁱX_λ(i) a_λ(i) + c_i
+//! q̈_i  = D_i⁻¹ (u_i − U_iᵀ a′_i)             a_i  = a′_i + S_i q̈_i
+//! ```
+//!
+//! A joint of several degrees of freedom is eliminated a coordinate at a time, which is the same as
+//! by its block D. Nothing is eliminated where [`hybrid_dynamics`](super::hybrid_dynamics()) prescribes a
 //! coordinate's motion, RBDA section 9.2.
 
 use heapless::Vec;

@@ -1,7 +1,12 @@
 //! The joint-space inertia matrix: the composite-rigid-body algorithm in link coordinates.
 //!
-//! Walker & Orin (1982); Featherstone & Orin (2000), section 3.3; RBDA (2008), table 6.2. Composite
-//! inertias are accumulated from the tips to the base; column j of M is the force of a unit
+//! Walker & Orin (1982); Featherstone & Orin (2000), section 3.3; RBDA (2008), table 6.2:
+//!
+//! ```text
+//! Iᶜ_i = I_i + Σ_{λ(j)=i} ʲX_iᵀ Iᶜ_j ʲX_i      M_ij = M_ji = S_iᵀ ʲX_iᵀ Iᶜ_j S_j
+//! ```
+//!
+//! Composite inertias are accumulated from the tips to the base; column j of M is the force of a unit
 //! acceleration of joint j on its composite body, projected on every joint between it and the base.
 
 use heapless::Vec;

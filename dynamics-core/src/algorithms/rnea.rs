@@ -1,13 +1,20 @@
 //! Inverse dynamics: the recursive Newton-Euler algorithm in link coordinates.
 //!
-//! Featherstone & Orin (2000), equations (3) to (8), which stand at
-//! [`rnea`](crate::algorithms::rnea()); RBDA (2008), table 5.1. Bias, gravity torque and full
-//! torque are computed by the same function with different effects.
+//! Featherstone & Orin (2000), equations (3) to (8); RBDA (2008), table 5.1:
+//!
+//! ```text
+//! v_i = ⁱX_λ(i) v_λ(i) + S_i q̇_i                                   (3)
+//! a_i = ⁱX_λ(i) a_λ(i) + S_i q̈_i + S̊_i q̇_i + v_i × S_i q̇_i         (4)
+//! f_i = I_i a_i + v_i ×* I_i v_i − fˣ_i + Σ_{λ(j)=i} ʲX_iᵀ f_j     (5), (6), (7)
+//! τ_i = S_iᵀ f_i                                                   (8)
+//! ```
+//!
+//! Bias, gravity torque and full torque are computed by the same function with different effects.
 
 use heapless::Vec;
 
 use super::rotors::rotor;
-use super::tree_pass::{Passed, PerBody, Topology, inward, per_body};
+use super::tree_pass::{PerBody, Topology, inward, over_children, per_body};
 use crate::effects::{
     Declared, Effect, base_motion, body_inertia, body_wrench, joint_torques, load_frictions,
 };
@@ -69,14 +76,13 @@ where
     }
 
     let mut tau = [R::ZERO; V];
-    let mut f_child = Force::ZERO; // of a chain, where a body has one child at most
-    let mut passed = Passed::NONE;
+    let mut children = over_children(robot, Force::ZERO);
     let mut bodies = inward(&mut bodies);
     while let Some((body, inner)) = bodies.next() {
         let Some(link) = robot.link(inner.len()) else {
             break;
         };
-        let f_i = if D::CHAIN { body.f + f_child } else { *passed.onto(&body.f) };
+        let f_i = children.onto(&body.f);
         link.project(turns, f_i, &mut tau); // (8)
         joint_torques(effects, &link, state, &mut tau);
         if E::GYROSCOPIC_ROTORS
@@ -91,11 +97,7 @@ where
         // The origin is a constant of most joints, so that storing it costs more than computing it.
         let (rot, pos) = (body.rot, link.origin(turns));
         let f_parent = Xform { rot, pos }.transpose_mul(f_i); // (7)
-        if D::CHAIN {
-            f_child = f_parent;
-        } else if let (i, Some(parent)) = (inner.len(), inner.get_mut(link.parent)) {
-            passed.add(&link, i, &mut parent.f, f_parent);
-        }
+        children.add(&link, inner, |parent| &mut parent.f, f_parent);
     }
     tau
 }

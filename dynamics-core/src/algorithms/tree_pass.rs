@@ -138,6 +138,57 @@ impl<A: Copy + AddAssign> Passed<A> {
     }
 }
 
+/// The sum over the children of the body that an inward pass has come to: [`Passed`], but of a
+/// chain, in which a body has one child at most, that child's share, which is not stored.
+pub(crate) struct OverChildren<A, T> {
+    child: A,
+    passed: Passed<A>,
+    topology: PhantomData<T>,
+}
+
+/// No child of a body of `robot` yet.
+#[cfg_attr(optimised, inline(always))]
+pub(crate) fn over_children<A, D, R: Real, const B: usize, const Q: usize, const V: usize>(
+    _: &D,
+    zero: A,
+) -> OverChildren<A, Tree<D, R, B, Q, V>>
+where
+    A: Copy + AddAssign,
+    D: RobotModel<R, B, Q, V>,
+{
+    OverChildren { child: zero, passed: Passed::NONE, topology: PhantomData }
+}
+
+impl<A: Copy + AddAssign, T: Topology> OverChildren<A, T> {
+    /// The complete sum of the body that the pass has come to, which has stored its `own`.
+    #[cfg_attr(optimised, inline(always))]
+    pub(crate) fn onto(&mut self, own: &A) -> A {
+        if T::CHAIN {
+            let mut sum = *own;
+            sum += self.child;
+            sum
+        } else {
+            *self.passed.onto(own)
+        }
+    }
+
+    /// Adds what `link` has for the `sum` of its parent, one of the bodies `inner` to it.
+    #[cfg_attr(optimised, inline(always))]
+    pub(crate) fn add<R: Real, Body>(
+        &mut self,
+        link: &LinkView<'_, R>,
+        inner: &mut [Body],
+        sum: impl FnOnce(&mut Body) -> &mut A,
+        value: A,
+    ) {
+        if T::CHAIN {
+            self.child = value;
+        } else if let (i, Some(parent)) = (inner.len(), inner.get_mut(link.parent)) {
+            self.passed.add(link, i, sum(parent), value);
+        }
+    }
+}
+
 /// The inward pass over the results of the outward one.
 pub(crate) struct Inward<'a, A>(&'a mut [A]);
 

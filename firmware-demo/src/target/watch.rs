@@ -142,8 +142,7 @@ pub(super) fn write(mut bytes: &[u8], port: &mut impl Write) {
     }
 }
 
-/// USART1 on PA9. On a board the clock is 168 MHz from a crystal of 8 MHz; QEMU has no clock to
-/// set.
+/// USART1 on PA9. QEMU has no clock to set.
 fn port(part: pac::Peripherals) -> Result<Tx<pac::USART1>, InvalidConfig> {
     let mut clock = clock(part.RCC);
     let pins = part.GPIOA.split(&mut clock);
@@ -151,20 +150,11 @@ fn port(part: pac::Peripherals) -> Result<Tx<pac::USART1>, InvalidConfig> {
     part.USART1.tx(pins.pa9, config, &mut clock)
 }
 
-#[cfg(feature = "board")]
-pub(super) fn clock(rcc: pac::RCC) -> Rcc {
-    use stm32f4xx_hal::time::Hertz;
-    let crystal = stm32f4xx_hal::rcc::Config::hse(Hertz::MHz(8));
-    rcc.freeze(crystal.sysclk(Hertz::MHz(168)))
-}
-
-#[cfg(not(feature = "board"))]
 pub(super) fn clock(rcc: pac::RCC) -> Rcc {
     rcc.constrain()
 }
 
-/// The number behind a name in the command line that the emulator gives; on a board there is none.
-#[cfg(not(feature = "board"))]
+/// The number behind a name in the command line that the emulator gives.
 fn argument(name: &[u8]) -> Option<u32> {
     let mut text = [0_u8; 256];
     let mut block = [text.as_mut_ptr() as usize, text.len()];
@@ -180,11 +170,6 @@ fn argument(name: &[u8]) -> Option<u32> {
     let mut words = text.split(|&byte| byte == b' ' || byte == 0);
     let value = words.find_map(|word| word.strip_prefix(name)?.strip_prefix(b"="))?;
     core::str::from_utf8(value).ok()?.parse().ok()
-}
-
-#[cfg(feature = "board")]
-fn argument(_: &[u8]) -> Option<u32> {
-    None
 }
 
 /// The `main` of a scene that sends its telemetry, as [`scene_main`](crate::scene_main).

@@ -1,12 +1,10 @@
 //! The reference of the simulations that `cargo xtask accuracy` compares.
 
-#[path = "../../../lab/reports/src/bin/accuracy/motion.rs"]
-mod motion;
-
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::robots::Ur5e;
 use fixtures::accuracy::simulation::{DoublePendulum, PassiveMotion};
 use host_tests::measured::largest;
+use host_tests::true_motion::{FINE, SAMPLE, SECOND, true_motion};
 
 /// The double pendulum by Lagrange's equations, angles from the vertical, the second's relative to
 /// the first.
@@ -32,9 +30,9 @@ fn lagrange() -> Vec<[[f64; 2]; 2]> {
     };
     let slope = |at: [[f64; 2]; 2]| [at[1], acceleration(at)];
     let mut at = DoublePendulum::START;
-    let h = f64::from(motion::FINE) * 1e-6;
-    let samples = (0..motion::SECOND).map(|_| {
-        for _ in 0..motion::SAMPLE / motion::FINE {
+    let h = f64::from(FINE) * 1e-6;
+    let samples = (0..SECOND).map(|_| {
+        for _ in 0..SAMPLE / FINE {
             let first = slope(at);
             let second = slope(plus(at, first, h / 2.0));
             let third = slope(plus(at, second, h / 2.0));
@@ -57,10 +55,10 @@ fn true_motions_agree_with_lagrange_and_longer_steps() {
         largest(pairs.map(|(a, b)| (a - b).abs()))
     }
     fn coarser<T: PassiveMotion<N>, const N: usize>() -> f64 {
-        let motion = |step| motion::true_motion::<T, _, N>(&RIGID_BODY, step);
-        apart(&motion(motion::FINE), &motion(2 * motion::FINE))
+        let motion = |step| true_motion::<T, _, N>(&RIGID_BODY, step);
+        apart(&motion(FINE), &motion(2 * FINE))
     }
-    let pendulum = motion::true_motion::<DoublePendulum, _, 2>(&RIGID_BODY, motion::FINE);
+    let pendulum = true_motion::<DoublePendulum, _, 2>(&RIGID_BODY, FINE);
     let errors = [
         ("true motion from Lagrange's", apart(&pendulum, &lagrange())),
         ("true motion of the pendulum at twice the step", coarser::<DoublePendulum, 2>()),

@@ -12,12 +12,3 @@ pub use controller::controller;
 pub use description::description;
 pub use dynamics::dynamics;
 pub use frames::frames;
-
-pub type Target = (&'static str, fn(&[u8]));
-
-pub const TARGETS: [Target; 4] = [
-    ("description", description),
-    ("dynamics", dynamics),
-    ("controller", controller),
-    ("frames", frames),
-];

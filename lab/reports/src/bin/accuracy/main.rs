@@ -13,7 +13,6 @@
 //! Arguments name the robots, and `simulation`; none names all.
 
 mod inverse;
-mod motion;
 mod problem;
 mod simulation;
 mod statistics;

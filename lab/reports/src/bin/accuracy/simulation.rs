@@ -14,9 +14,9 @@ use fixtures::accuracy::simulation::{
     Damped, DoublePendulum, PassiveMotion, Scene, Simulation, Visitor, every,
 };
 use host_tests::measured::largest;
+use host_tests::true_motion::{FINE, SAMPLE, SECOND, true_motion};
 use serde_json::{Value, json};
 
-use super::motion::{FINE, SAMPLE, SECOND, true_motion};
 use super::statistics::{Errors, object};
 
 /// µs; each divides [`SAMPLE`].

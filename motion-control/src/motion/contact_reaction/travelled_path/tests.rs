@@ -166,3 +166,18 @@ fn a_retraction_of_a_short_path_ends_at_its_oldest_point() {
         assert_eq!(path.at(u32::MAX), end);
     }
 }
+
+#[test]
+fn the_retraction_in_f32_is_that_in_f64() {
+    let double = travelled::<16>();
+    let mut single = TravelledPath::<f32, 2, 16>::new(0.99 * DISTANCE as f32);
+    (0..16).rev().for_each(|k| single.record(&double.point(k).map(|q| q as f32)));
+    single.distance = DISTANCE as f32;
+    assert!(single.plan(&single.point(0), TICK as f32, &motion_limits(0.5, 2.0)));
+    assert!(single.ticks().abs_diff(double.ticks()) <= 1);
+    for tick in 0..=double.ticks() {
+        let (a, b) = (single.at(tick), double.at(tick));
+        let off = (0..2).flat_map(|j| [(a.q[j], b.q[j]), (a.qd[j], b.qd[j])]);
+        assert!(most(off.map(|(a, b)| f64::from(a) - b)) < 1e-3, "{tick}");
+    }
+}

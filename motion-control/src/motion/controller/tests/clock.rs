@@ -101,5 +101,9 @@ fn a_reaction_from_outside_begins_in_the_next_tick() {
         controller.react(fault);
         let status = tick(&mut controller, CRUISE.at(50).q[0]).status;
         assert_eq!((status.mode, status.fault), (mode, Some(fault)));
+        // In place of a measurement it acts in its own tick.
+        let mut controller = following::<CurrentTick>(50, 0);
+        let status = controller.tick(Err(fault), &CRUISE, |_, _| [1.0]).status;
+        assert_eq!((status.mode, status.fault), (mode, Some(fault)));
     }
 }

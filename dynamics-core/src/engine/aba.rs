@@ -23,7 +23,7 @@ use crate::scalar::{Real, Vector};
 use crate::state::{Configuration, RobotState, State};
 use crate::trig::Kernel;
 
-impl<T, K> Engine<T, K> {
+impl<Arm, Sines> Engine<Arm, Sines> {
     /// The acceleration of each joint, q̈ = FD(q, q̇, τ), as by [`Engine::forward_dynamics`], with
     /// articulated bodies.
     ///
@@ -41,15 +41,15 @@ impl<T, K> Engine<T, K> {
     #[doc(alias = "ABI")]
     #[doc(alias = "FD")]
     #[inline(never)]
-    pub fn aba<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
-        state: impl RobotState<R, Q, V>,
-        tau: &[R; V],
+    pub fn aba<Scalar: Real, Effects, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<Scalar, Q, V>,
+        tau: &[Scalar; V],
         effects: &Effects,
-    ) -> Result<[R; V], NotPositiveDefinite>
+    ) -> Result<[Scalar; V], NotPositiveDefinite>
     where
-        T: Robot<B, Q, V>,
-        K: Kernel<R>,
-        Effects: Effect<R, B, V>,
+        Arm: Robot<B, Q, V>,
+        Sines: Kernel<Scalar>,
+        Effects: Effect<Scalar, B, V>,
     {
         scene_is_taken!();
         const {
@@ -62,40 +62,40 @@ impl<T, K> Engine<T, K> {
         let call = Call {
             turns: &trig.borrow().coordinates,
             effects,
-            robot: PhantomData::<CompiledRobot<T, B, Q, V>>,
+            robot: PhantomData::<CompiledRobot<Arm, B, Q, V>>,
         };
         call.accelerations_by_bodies(state.state(), tau)
     }
 }
 
 /// The results of the inward pass for the outward pass.
-struct Task<'a, R: Real, Tree, Effects, const B: usize, const Q: usize, const V: usize> {
-    call: Call<'a, R, Tree, Effects, B, Q, V>,
+struct Task<'a, Scalar: Real, Tree, Effects, const B: usize, const Q: usize, const V: usize> {
+    call: Call<'a, Scalar, Tree, Effects, B, Q, V>,
     /// U = Iᴬ S: couple and force.
-    u: &'a mut [[R; 6]; V],
-    d_inv: &'a mut [R; V],
+    u: &'a mut [[Scalar; 6]; V],
+    d_inv: &'a mut [Scalar; V],
     singular: Singular,
     /// The torques without the bias forces of the descendants; then the accelerations.
-    x: &'a mut [R; V],
+    x: &'a mut [Scalar; V],
 }
 
-impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize>
-    Call<'_, R, Tree, Effects, B, Q, V>
+impl<Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize>
+    Call<'_, Scalar, Tree, Effects, B, Q, V>
 where
-    R: Real,
+    Scalar: Real,
     Tree: Compiled,
-    Effects: Effect<R, B, V>,
+    Effects: Effect<Scalar, B, V>,
 {
     #[cfg_attr(optimised, inline(always))]
     fn accelerations_by_bodies(
         self,
-        state: &State<R, Q, V>,
-        tau: &[R; V],
-    ) -> Result<[R; V], NotPositiveDefinite> {
+        state: &State<Scalar, Q, V>,
+        tau: &[Scalar; V],
+    ) -> Result<[Scalar; V], NotPositiveDefinite> {
         // One phase after the other: as one block they would need more registers than there are.
         let mut x = self.remaining(state, tau);
         black_box(&mut x);
-        let (mut u, mut d_inv) = ([[R::ZERO; 6]; V], [R::ZERO; V]);
+        let (mut u, mut d_inv) = ([[Scalar::ZERO; 6]; V], [Scalar::ZERO; V]);
         let mut task = Task {
             call: self,
             u: &mut u,
@@ -117,24 +117,24 @@ where
             CompiledJoint::<Tree, J>::IS_ON_BASE,
             outward = Task::outward::<J> as fn(&mut _, _),
             {
-                outward(&mut task, [R::Vec3::ZERO; 2]);
+                outward(&mut task, [Scalar::Vec3::ZERO; 2]);
             }
         );
         Ok(x)
     }
 }
 
-impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize>
-    Task<'_, R, Tree, Effects, B, Q, V>
+impl<Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize>
+    Task<'_, Scalar, Tree, Effects, B, Q, V>
 where
-    R: Real,
+    Scalar: Real,
     Tree: Compiled,
-    Effects: Effect<R, B, V>,
+    Effects: Effect<Scalar, B, V>,
 {
     /// The inward pass: the articulated inertia of joint I and its bias force, in the parent's
     /// frame.
     #[cfg_attr(optimised, inline(always))]
-    fn inward<const I: usize>(&mut self) -> (Articulated<R>, Wrench<R>) {
+    fn inward<const I: usize>(&mut self) -> (Articulated<Scalar>, Wrench<Scalar>) {
         let joint = CompiledJoint::<Tree, I>::JOINT;
         let length_inv = Folded::constant(Tree::LENGTH_INV);
         let mut ia = Articulated::of(&Inertia::NONE);
@@ -147,7 +147,7 @@ where
         for_each_joint!(
             J,
             JointPair::<Tree, I, J>::IS_PARENT,
-            inward = Self::inward::<J> as fn(&mut _) -> (Articulated<R>, Wrench<R>),
+            inward = Self::inward::<J> as fn(&mut _) -> (Articulated<Scalar>, Wrench<Scalar>),
             {
                 let (inertia, wrench) = inward(self);
                 ia = ia + inertia;
@@ -159,8 +159,8 @@ where
         let mut d = own.along(joint, length_inv).get();
         add_inertia(self.call.effects, I, &mut d);
         let noise = self.call.pivot_noise::<I>();
-        self.singular.note::<R, I>(d, noise);
-        let d_inv = R::ONE / d;
+        self.singular.note::<Scalar, I>(d, noise);
+        let d_inv = Scalar::ONE / d;
         let rest = Folded::runtime(self.x[I]) - push.along(joint, length_inv);
         let ([nx, ny, nz], [fx, fy, fz]) = (n.0, f.0);
         self.u[I] = [nx.get(), ny.get(), nz.get(), fx.get(), fy.get(), fz.get()];
@@ -175,7 +175,7 @@ where
 
     /// The outward pass: the acceleration of joint I, from its parent's α and a.
     #[cfg_attr(optimised, inline(always))]
-    fn outward<const I: usize>(&mut self, [alpha, a]: [R::Vec3; 2]) {
+    fn outward<const I: usize>(&mut self, [alpha, a]: [Scalar::Vec3; 2]) {
         let joint = CompiledJoint::<Tree, I>::JOINT;
         let length_inv = Folded::constant(Tree::LENGTH_INV);
         let (rot, mut p) = (Mat3::constant(&joint.rot), Vec3::constant(joint.pos));

@@ -25,44 +25,44 @@ use crate::scalar::Real;
 
 /// The acceleration field of a body, in its frame.
 #[derive(Clone, Copy)]
-pub(crate) struct AccelerationField<R> {
+pub(crate) struct AccelerationField<Scalar> {
     /// ω, for effects that read the body's velocity.
-    pub(crate) omega: Vec3<R>,
+    pub(crate) omega: Vec3<Scalar>,
     /// ω in the velocity products: zero unless an effect needs them.
-    pub(crate) omega_products: Vec3<R>,
+    pub(crate) omega_products: Vec3<Scalar>,
     /// α.
-    pub(crate) alpha: Vec3<R>,
+    pub(crate) alpha: Vec3<Scalar>,
     /// U = \[α\]× + \[ω\]×\[ω\]×.
-    pub(crate) u: Mat3<R>,
+    pub(crate) u: Mat3<Scalar>,
     /// Acceleration of the origin, in units of length.
-    pub(crate) a: Vec3<R>,
+    pub(crate) a: Vec3<Scalar>,
     /// Velocity of the origin, in units of length; zero unless an effect reads it.
-    pub(crate) v: Vec3<R>,
+    pub(crate) v: Vec3<Scalar>,
     /// Pose of the body; unknown unless an effect reads it.
-    pub(crate) pose: Pose<R>,
+    pub(crate) pose: Pose<Scalar>,
 }
 
 /// The base parameters of a body, or of a body and its descendants: m, h and Σ, in units of length.
 #[derive(Clone, Copy)]
-pub(crate) struct Inertia<R> {
-    pub(crate) mass: Folded<R>,
-    pub(crate) moment: Vec3<R>,
-    pub(crate) second: Sym3<R>,
+pub(crate) struct Inertia<Scalar> {
+    pub(crate) mass: Folded<Scalar>,
+    pub(crate) moment: Vec3<Scalar>,
+    pub(crate) second: Sym3<Scalar>,
 }
 
 /// A force f at the origin and a couple n.
 #[derive(Clone, Copy)]
-pub(crate) struct Wrench<R> {
-    pub(crate) f: Vec3<R>,
-    pub(crate) n: Vec3<R>,
+pub(crate) struct Wrench<Scalar> {
+    pub(crate) f: Vec3<Scalar>,
+    pub(crate) n: Vec3<Scalar>,
 }
 
-impl<R: Real> Wrench<R> {
+impl<Scalar: Real> Wrench<Scalar> {
     pub(crate) const ZERO: Self = Self { f: Vec3::ZERO, n: Vec3::ZERO };
 
     /// The component along a joint's coordinate at the origin: N·m about its axis, or N along it.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn along(&self, joint: &Joint, length_inv: Folded<R>) -> Folded<R> {
+    pub(crate) fn along(&self, joint: &Joint, length_inv: Folded<Scalar>) -> Folded<Scalar> {
         if joint.prismatic {
             self.f.along_axis(joint.axis) * length_inv
         } else if matches!(joint.motion, JointMotion::Screw) {
@@ -74,7 +74,7 @@ impl<R: Real> Wrench<R> {
 
     /// The same in the frame of joint I's parent and about its origin.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn to_parent<Tree, const I: usize>(self, at: &Displacement<R, Tree, I>) -> Self
+    pub(crate) fn to_parent<Tree, const I: usize>(self, at: &Displacement<Scalar, Tree, I>) -> Self
     where
         Tree: Compiled,
     {
@@ -83,7 +83,7 @@ impl<R: Real> Wrench<R> {
 
     /// The same in the joint's frame.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn turned<Tree, const I: usize>(self, at: &Displacement<R, Tree, I>) -> Self
+    pub(crate) fn turned<Tree, const I: usize>(self, at: &Displacement<Scalar, Tree, I>) -> Self
     where
         Tree: Compiled,
     {
@@ -94,17 +94,17 @@ impl<R: Real> Wrench<R> {
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn turned_to_parent<Tree, const I: usize>(
         self,
-        at: &Displacement<R, Tree, I>,
+        at: &Displacement<Scalar, Tree, I>,
     ) -> Self
     where
         Tree: Compiled,
     {
-        let f = rotate_to_parent::<R, Tree, I>(self.f);
-        Self { f, n: rotate_to_parent::<R, Tree, I>(self.n) + offset_cross(f, at) }
+        let f = rotate_to_parent::<Scalar, Tree, I>(self.f);
+        Self { f, n: rotate_to_parent::<Scalar, Tree, I>(self.n) + offset_cross(f, at) }
     }
 }
 
-impl<R: Real> Add for Wrench<R> {
+impl<Scalar: Real> Add for Wrench<Scalar> {
     type Output = Self;
     #[cfg_attr(optimised, inline(always))]
     fn add(self, o: Self) -> Self {
@@ -112,14 +112,14 @@ impl<R: Real> Add for Wrench<R> {
     }
 }
 
-impl<R: Real> Inertia<R> {
+impl<Scalar: Real> Inertia<Scalar> {
     /// No body.
     pub(crate) const NONE: Self =
         Self { mass: Folded::ZERO, moment: Vec3::ZERO, second: Sym3::ZERO };
 
     /// The wrench of a unit acceleration along a joint's coordinate.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn wrench_of(&self, joint: &Joint, length_inv: Folded<R>) -> Wrench<R> {
+    pub(crate) fn wrench_of(&self, joint: &Joint, length_inv: Folded<Scalar>) -> Wrench<Scalar> {
         let (zero, [hx, hy, hz], s) = (Folded::ZERO, self.moment.0, &self.second);
         if joint.prismatic {
             let (m, x, y, z) =
@@ -171,7 +171,7 @@ impl<R: Real> Inertia<R> {
     /// The inertia that loaded base parameters leave to a body, which coordinate `by` moves; what
     /// is zero of every robot is a known zero.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn loaded(body: &RegroupedInertia<R>, by: &Joint, base_moves: bool) -> Self {
+    pub(crate) fn loaded(body: &RegroupedInertia<Scalar>, by: &Joint, base_moves: bool) -> Self {
         let ([x, y, z], [xx, xy, xz, yy, yz]) =
             (body.moment.map(Folded::runtime), body.second.map(Folded::runtime));
         let (zero, mut second) = (Folded::ZERO, Sym3::ZERO);
@@ -201,7 +201,7 @@ impl<R: Real> Inertia<R> {
 
     /// The same in the frame of joint I's parent and about its origin.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn to_parent<Tree, const I: usize>(self, at: &Displacement<R, Tree, I>) -> Self
+    pub(crate) fn to_parent<Tree, const I: usize>(self, at: &Displacement<Scalar, Tree, I>) -> Self
     where
         Tree: Compiled,
     {
@@ -210,7 +210,7 @@ impl<R: Real> Inertia<R> {
 
     /// The same in the frame of joint I.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn turned<Tree, const I: usize>(self, at: &Displacement<R, Tree, I>) -> Self
+    pub(crate) fn turned<Tree, const I: usize>(self, at: &Displacement<Scalar, Tree, I>) -> Self
     where
         Tree: Compiled,
     {
@@ -225,7 +225,7 @@ impl<R: Real> Inertia<R> {
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn turned_to_parent<Tree, const I: usize>(
         self,
-        at: &Displacement<R, Tree, I>,
+        at: &Displacement<Scalar, Tree, I>,
     ) -> Self
     where
         Tree: Compiled,
@@ -235,8 +235,8 @@ impl<R: Real> Inertia<R> {
         if CompiledJoint::<Tree, I>::SHIFTS {
             p = p + at.shift();
         }
-        let h = rotate_to_parent::<R, Tree, I>(self.moment);
-        let second = rotate_symmetric_to_parent::<R, Tree, I>(self.second);
+        let h = rotate_to_parent::<Scalar, Tree, I>(self.moment);
+        let second = rotate_symmetric_to_parent::<Scalar, Tree, I>(self.second);
         Self {
             mass: self.mass,
             moment: h + p.scale(self.mass),
@@ -245,7 +245,7 @@ impl<R: Real> Inertia<R> {
     }
 }
 
-impl<R: Real> Add for Inertia<R> {
+impl<Scalar: Real> Add for Inertia<Scalar> {
     type Output = Self;
     #[cfg_attr(optimised, inline(always))]
     fn add(self, o: Self) -> Self {
@@ -257,7 +257,7 @@ impl<R: Real> Add for Inertia<R> {
     }
 }
 
-impl<R: Real> AccelerationField<R> {
+impl<Scalar: Real> AccelerationField<Scalar> {
     /// The field of a base at rest, in its pose.
     pub(crate) const RESTING: Self = Self {
         omega: Vec3::ZERO,
@@ -273,8 +273,8 @@ impl<R: Real> AccelerationField<R> {
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn across<Tree: Compiled, const I: usize>(
         &self,
-        at: &Displacement<R, Tree, I>,
-        rates: JointRates<R>,
+        at: &Displacement<Scalar, Tree, I>,
+        rates: JointRates<Scalar>,
     ) -> Self {
         let joint = CompiledJoint::<Tree, I>::JOINT;
         match CompiledJoint::<Tree, I>::MOTION {
@@ -290,31 +290,36 @@ impl<R: Real> AccelerationField<R> {
     pub(crate) fn across_revolute<const TURNED: bool>(
         &self,
         joint: &Joint,
-        turn: JointCoordinate<R>,
-        rates: JointRates<R>,
+        turn: JointCoordinate<Scalar>,
+        rates: JointRates<Scalar>,
     ) -> Self {
         let (rot, p) = (Mat3::constant(&joint.rot), Vec3::constant(joint.pos));
-        let omega_products =
-            enter::<R, TURNED>(&rot, turn, self.omega_products) + along_z(rates.omega_products);
+        let omega_products = enter::<Scalar, TURNED>(&rot, turn, self.omega_products)
+            + along_z(rates.omega_products);
         let az = rot.transpose_mul(self.alpha).0[2] + rates.accel;
         // Points on the joint's axis move with both links: U's column along it is the parent's.
-        let along = enter::<R, TURNED>(&rot, turn, self.u.mul(rot.0[2]));
-        let a = enter::<R, TURNED>(&rot, turn, self.a + self.u.mul(p));
+        let along = enter::<Scalar, TURNED>(&rot, turn, self.u.mul(rot.0[2]));
+        let a = enter::<Scalar, TURNED>(&rot, turn, self.a + self.u.mul(p));
         let (ax, ay, u) = complete(omega_products, az, along);
         Self {
-            omega: enter::<R, TURNED>(&rot, turn, self.omega) + along_z(rates.velocity),
+            omega: enter::<Scalar, TURNED>(&rot, turn, self.omega) + along_z(rates.velocity),
             omega_products,
             alpha: Vec3([ax, ay, az]),
             u,
             a,
-            v: enter::<R, TURNED>(&rot, turn, self.v + self.omega.cross(p)),
+            v: enter::<Scalar, TURNED>(&rot, turn, self.v + self.omega.cross(p)),
             pose: Pose::UNKNOWN,
         }
     }
 
     /// The field of a child behind a prismatic joint at q, in units of length.
     #[cfg_attr(optimised, inline(always))]
-    fn across_prismatic(&self, joint: &Joint, q: Folded<R>, rates: JointRates<R>) -> Self {
+    fn across_prismatic(
+        &self,
+        joint: &Joint,
+        q: Folded<Scalar>,
+        rates: JointRates<Scalar>,
+    ) -> Self {
         let rot = Mat3::constant(&joint.rot);
         let p = Vec3::constant(joint.pos) + rot.0[2].scale(q);
         let omega_products = rot.transpose_mul(self.omega_products);
@@ -342,8 +347,8 @@ impl<R: Real> AccelerationField<R> {
     fn across_screw<Tree, const I: usize>(
         &self,
         joint: &Joint,
-        at: &Displacement<R, Tree, I>,
-        rates: JointRates<R>,
+        at: &Displacement<Scalar, Tree, I>,
+        rates: JointRates<Scalar>,
     ) -> Self {
         let turned = self.across_revolute::<true>(joint, at.turn, rates);
         let pitch = Folded::constant(joint.pitch);
@@ -364,8 +369,8 @@ impl<R: Real> AccelerationField<R> {
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn across_several<Tree: Compiled, const I: usize>(
         &self,
-        at: &Displacement<R, Tree, I>,
-        rates: &SeveralRates<R>,
+        at: &Displacement<Scalar, Tree, I>,
+        rates: &SeveralRates<Scalar>,
     ) -> Self {
         let joint = CompiledJoint::<Tree, I>::JOINT;
         let rot = Mat3::constant(&joint.rot);
@@ -390,7 +395,7 @@ impl<R: Real> AccelerationField<R> {
     /// The wrench that accelerates the body's inertia: f = m a + U h, n = h × a + axial(U Σ − Σ
     /// Uᵀ).
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn wrench(&self, body: &Inertia<R>) -> Wrench<R> {
+    pub(crate) fn wrench(&self, body: &Inertia<Scalar>) -> Wrench<Scalar> {
         let (mass, h) = (body.mass, body.moment);
         let ([x, y, z], [wx, wy, wz]) = (self.u.0, self.omega_products.0);
         let (sxx, sxy, sxz) = (body.second.xx, body.second.xy, body.second.xz);
@@ -408,7 +413,7 @@ impl<R: Real> AccelerationField<R> {
 
 /// U = \[α\]× + \[ω\]×\[ω\]×.
 #[cfg_attr(optimised, inline(always))]
-pub(super) fn u_of<R: Real>(alpha: Vec3<R>, omega: Vec3<R>) -> Mat3<R> {
+pub(super) fn u_of<Scalar: Real>(alpha: Vec3<Scalar>, omega: Vec3<Scalar>) -> Mat3<Scalar> {
     let ([ax, ay, az], [wx, wy, wz]) = (alpha.0, omega.0);
     let (xz, yz, xy) = (wx * wz, wy * wz, wx * wy);
     let (xx, yy, zz) = (wx * wx, wy * wy, wz * wz);
@@ -421,11 +426,11 @@ pub(super) fn u_of<R: Real>(alpha: Vec3<R>, omega: Vec3<R>) -> Mat3<R> {
 
 /// α_x, α_y and U from ω, α_z and U's z column.
 #[cfg_attr(optimised, inline(always))]
-fn complete<R: Real>(
-    omega: Vec3<R>,
-    az: Folded<R>,
-    along: Vec3<R>,
-) -> (Folded<R>, Folded<R>, Mat3<R>) {
+fn complete<Scalar: Real>(
+    omega: Vec3<Scalar>,
+    az: Folded<Scalar>,
+    along: Vec3<Scalar>,
+) -> (Folded<Scalar>, Folded<Scalar>, Mat3<Scalar>) {
     let ([wx, wy, wz], [uxz, uyz, uzz]) = (omega.0, along.0);
     let (xz, yz, xy) = (wx * wz, wy * wz, wx * wy);
     let (xx, yy, zz) = (wx * wx, wy * wy, wz * wz);
@@ -441,17 +446,17 @@ fn complete<R: Real>(
 /// Rz(q)ᵀ Rᵀ v: from the parent's frame into the body's, or Rᵀ v. A function, not a closure:
 /// closures are inlined too late for the tags to fold.
 #[cfg_attr(optimised, inline(always))]
-pub(crate) fn enter<R: Real, const TURNED: bool>(
-    rot: &Mat3<R>,
-    turn: JointCoordinate<R>,
-    v: Vec3<R>,
-) -> Vec3<R> {
+pub(crate) fn enter<Scalar: Real, const TURNED: bool>(
+    rot: &Mat3<Scalar>,
+    turn: JointCoordinate<Scalar>,
+    v: Vec3<Scalar>,
+) -> Vec3<Scalar> {
     let v = rot.transpose_mul(v);
     if TURNED { v.turn_back(Folded::runtime(turn.sin), Folded::runtime(turn.cos)) } else { v }
 }
 
 /// A vector along the joint's axis.
 #[cfg_attr(optimised, inline(always))]
-pub(crate) fn along_z<R: Real>(z: Folded<R>) -> Vec3<R> {
+pub(crate) fn along_z<Scalar: Real>(z: Folded<Scalar>) -> Vec3<Scalar> {
     Vec3([Folded::ZERO, Folded::ZERO, z])
 }

@@ -10,22 +10,22 @@ use crate::effects::{Declared, Effect, Scene, base_given, call_hook, field_axes}
 use crate::scalar::{Real, Vector};
 use crate::spatial::Motion;
 
-impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize>
-    Call<'_, R, Tree, Effects, B, Q, V>
+impl<Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize>
+    Call<'_, Scalar, Tree, Effects, B, Q, V>
 where
-    R: Real,
+    Scalar: Real,
     Tree: Compiled,
-    Effects: Effect<R, B, V>,
+    Effects: Effect<Scalar, B, V>,
 {
     /// The base without its acceleration: a = −g, its velocity if it moves, and its pose, in units
     /// of length; all other values are known zeros.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn unaccelerated(self) -> AccelerationField<R> {
+    pub(crate) fn unaccelerated(self) -> AccelerationField<Scalar> {
         let length = Tree::LENGTH;
-        const { Scene::<R, Effects, B, V>::MEANING };
-        let mut g = R::Vec3::ZERO;
+        const { Scene::<Scalar, Effects, B, V>::MEANING };
+        let mut g = Scalar::Vec3::ZERO;
         call_hook!(Effects::GRAVITY_FIELD.add, self.effects, &mut g);
-        let (g, [x, y, z]) = (g.array(), const { field_axes::<R, Effects, B, V>() });
+        let (g, [x, y, z]) = (g.array(), const { field_axes::<Scalar, Effects, B, V>() });
         let up = Folded::constant(-1.0 / length);
         let weight = Vec3([
             Folded::runtime_if(x, g[0]) * up,
@@ -55,7 +55,7 @@ where
     /// The motion of the base: a = −g plus its own acceleration, in units of length. If it is at
     /// rest, all other values are known zeros.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn base(self) -> AccelerationField<R> {
+    pub(crate) fn base(self) -> AccelerationField<Scalar> {
         let length = Tree::LENGTH;
         let mut field = self.unaccelerated();
         if Effects::BASE_MOTION {
@@ -69,7 +69,7 @@ where
     }
     /// The motion of the base without gravity, and its pose: all of it, whatever the effects need.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn carried(self) -> AccelerationField<R> {
+    pub(crate) fn carried(self) -> AccelerationField<Scalar> {
         let length = Tree::LENGTH;
         let mut field = AccelerationField::RESTING;
         if Effects::BASE_MOTION {
@@ -85,12 +85,12 @@ where
 /// The field of a base of the velocity of `field`, with its spatial acceleration, and with the
 /// products of its velocity if they are asked for.
 #[cfg_attr(optimised, inline(always))]
-fn accelerated<R: Real>(
-    mut field: AccelerationField<R>,
-    a: Motion<R>,
+fn accelerated<Scalar: Real>(
+    mut field: AccelerationField<Scalar>,
+    a: Motion<Scalar>,
     products: bool,
     length: f64,
-) -> AccelerationField<R> {
+) -> AccelerationField<Scalar> {
     let (omega, velocity, alpha) = (field.omega, field.v, Vec3::runtime(a.ang));
     let ([ax, ay, az], zero) = (alpha.0, Folded::ZERO);
     field.alpha = alpha;

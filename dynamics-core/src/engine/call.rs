@@ -16,14 +16,14 @@ use crate::state::{JointTrig, State};
 /// Forward dynamics writes its calls as literals. A call that a function returns is an aggregate,
 /// and LLVM splits the sines and cosines that it refers to into values only after it has ordered
 /// the operands of their products; articulated bodies then cost up to 2 % more cycles.
-pub(crate) struct Call<'a, R, Tree, Effects, const B: usize, const Q: usize, const V: usize> {
-    pub(super) turns: &'a [JointCoordinate<R>; Q],
+pub(crate) struct Call<'a, Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize> {
+    pub(super) turns: &'a [JointCoordinate<Scalar>; Q],
     pub(super) effects: &'a Effects,
     pub(super) robot: PhantomData<Tree>,
 }
 
-impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize> Clone
-    for Call<'_, R, Tree, Effects, B, Q, V>
+impl<Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize> Clone
+    for Call<'_, Scalar, Tree, Effects, B, Q, V>
 {
     #[cfg_attr(optimised, inline(always))]
     fn clone(&self) -> Self {
@@ -31,41 +31,42 @@ impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize> Clone
     }
 }
 
-impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize> Copy
-    for Call<'_, R, Tree, Effects, B, Q, V>
+impl<Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize> Copy
+    for Call<'_, Scalar, Tree, Effects, B, Q, V>
 {
 }
 
-impl<T, K> Engine<T, K> {
+impl<Arm, Sines> Engine<Arm, Sines> {
     /// The source of sines and cosines for a robot of B bodies and V velocity coordinates.
-    pub(crate) const fn trig_source<const B: usize, const V: usize>() -> Specialised<T, K, B, V> {
+    pub(crate) const fn trig_source<const B: usize, const V: usize>()
+    -> Specialised<Arm, Sines, B, V> {
         Specialised(PhantomData)
     }
 
-    /// A call of an algorithm for the robot `T`.
+    /// A call of an algorithm for the robot `Arm`.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn call<'a, R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
-        trig: &'a JointTrig<R, Q>,
+    pub(crate) fn call<'a, Scalar: Real, Effects, const B: usize, const Q: usize, const V: usize>(
+        trig: &'a JointTrig<Scalar, Q>,
         effects: &'a Effects,
-    ) -> Call<'a, R, CompiledRobot<T, B, Q, V>, Effects, B, Q, V>
+    ) -> Call<'a, Scalar, CompiledRobot<Arm, B, Q, V>, Effects, B, Q, V>
     where
-        T: Robot<B, Q, V>,
+        Arm: Robot<B, Q, V>,
     {
         Call::new(&trig.coordinates, effects)
     }
 }
 
-impl<'a, R: Real, Tree: Compiled, Effects, const B: usize, const Q: usize, const V: usize>
-    Call<'a, R, Tree, Effects, B, Q, V>
+impl<'a, Scalar: Real, Tree: Compiled, Effects, const B: usize, const Q: usize, const V: usize>
+    Call<'a, Scalar, Tree, Effects, B, Q, V>
 {
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn new(turns: &'a [JointCoordinate<R>; Q], effects: &'a Effects) -> Self {
+    pub(crate) fn new(turns: &'a [JointCoordinate<Scalar>; Q], effects: &'a Effects) -> Self {
         Self { turns, effects, robot: PhantomData }
     }
 
     /// The same under other effects.
     #[cfg_attr(optimised, inline(always))]
-    pub(super) fn under<'b, F>(self, effects: &'b F) -> Call<'b, R, Tree, F, B, Q, V>
+    pub(super) fn under<'b, F>(self, effects: &'b F) -> Call<'b, Scalar, Tree, F, B, Q, V>
     where
         'a: 'b,
     {
@@ -74,31 +75,34 @@ impl<'a, R: Real, Tree: Compiled, Effects, const B: usize, const Q: usize, const
 
     /// The displacement of joint I.
     #[cfg_attr(optimised, inline(always))]
-    pub(super) fn displacement<const I: usize>(self) -> Displacement<R, Tree, I> {
+    pub(super) fn displacement<const I: usize>(self) -> Displacement<Scalar, Tree, I> {
         Displacement::of(self.turns)
     }
 
     /// The position and velocity of coordinate I, which effects at joints read.
     #[cfg_attr(optimised, inline(always))]
-    pub(super) fn joint_state<const I: usize>(self, state: &State<R, Q, V>) -> JointState<R> {
-        joint_state::<R, Tree, Q, V, I>(state)
+    pub(super) fn joint_state<const I: usize>(
+        self,
+        state: &State<Scalar, Q, V>,
+    ) -> JointState<Scalar> {
+        joint_state::<Scalar, Tree, Q, V, I>(state)
     }
 }
 
 /// The position and velocity of coordinate I, which effects at joints read.
 #[cfg_attr(optimised, inline(always))]
 pub(crate) fn joint_state<
-    R: Real,
+    Scalar: Real,
     Tree: Compiled,
     const Q: usize,
     const V: usize,
     const I: usize,
 >(
-    state: &State<R, Q, V>,
-) -> JointState<R> {
+    state: &State<Scalar, Q, V>,
+) -> JointState<Scalar> {
     let q = match CompiledJoint::<Tree, I>::POSITION {
         Some(position) => state.q[position],
-        None => R::ZERO,
+        None => Scalar::ZERO,
     };
     JointState::new(q, state.qd[I])
 }

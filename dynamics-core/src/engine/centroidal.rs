@@ -22,7 +22,7 @@ use crate::spatial::Force;
 use crate::state::{Configuration, RobotState};
 use crate::trig::Kernel;
 
-impl<T, K> Engine<T, K> {
+impl<Arm, Sines> Engine<Arm, Sines> {
     /// The centre of mass of all bodies and a payload, m, its velocity, m/s, and their mass, kg, as
     /// [`crate::algorithms::center_of_mass`] computes them.
     ///
@@ -42,17 +42,17 @@ impl<T, K> Engine<T, K> {
     #[doc(alias = "CoM")]
     #[inline(never)]
     #[must_use]
-    pub fn center_of_mass<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
-        state: impl RobotState<R, Q, V>,
+    pub fn center_of_mass<Scalar: Real, Effects, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<Scalar, Q, V>,
         effects: &Effects,
-    ) -> CenterOfMass<R>
+    ) -> CenterOfMass<Scalar>
     where
-        T: Robot<B, Q, V>,
-        K: Kernel<R>,
-        Effects: Effect<R, B, V>,
+        Arm: Robot<B, Q, V>,
+        Sines: Kernel<Scalar>,
+        Effects: Effect<Scalar, B, V>,
     {
         scene_is_taken!();
-        let length = CompiledRobot::<T, B, Q, V>::LENGTH;
+        let length = CompiledRobot::<Arm, B, Q, V>::LENGTH;
         let all = Self::all_bodies(state, effects);
         let (position, mass_inv) = all.centre(length);
         CenterOfMass {
@@ -80,18 +80,18 @@ impl<T, K> Engine<T, K> {
     /// ```
     #[inline(never)]
     #[must_use]
-    pub fn momentum<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
-        state: impl RobotState<R, Q, V>,
+    pub fn momentum<Scalar: Real, Effects, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<Scalar, Q, V>,
         effects: &Effects,
-    ) -> Force<R>
+    ) -> Force<Scalar>
     where
-        T: Robot<B, Q, V>,
-        K: Kernel<R>,
-        Effects: Effect<R, B, V>,
+        Arm: Robot<B, Q, V>,
+        Sines: Kernel<Scalar>,
+        Effects: Effect<Scalar, B, V>,
     {
         scene_is_taken!();
         let all = Self::all_bodies(state, effects);
-        force(&all, CompiledRobot::<T, B, Q, V>::LENGTH)
+        force(&all, CompiledRobot::<Arm, B, Q, V>::LENGTH)
     }
 
     /// The centroidal momentum h_G: about the centre of mass and along the base's axes, N·m·s and
@@ -111,33 +111,39 @@ impl<T, K> Engine<T, K> {
     /// ```
     #[inline(never)]
     #[must_use]
-    pub fn centroidal_momentum<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
-        state: impl RobotState<R, Q, V>,
+    pub fn centroidal_momentum<
+        Scalar: Real,
+        Effects,
+        const B: usize,
+        const Q: usize,
+        const V: usize,
+    >(
+        state: impl RobotState<Scalar, Q, V>,
         effects: &Effects,
-    ) -> Force<R>
+    ) -> Force<Scalar>
     where
-        T: Robot<B, Q, V>,
-        K: Kernel<R>,
-        Effects: Effect<R, B, V>,
+        Arm: Robot<B, Q, V>,
+        Sines: Kernel<Scalar>,
+        Effects: Effect<Scalar, B, V>,
     {
         scene_is_taken!();
-        let length = CompiledRobot::<T, B, Q, V>::LENGTH;
+        let length = CompiledRobot::<Arm, B, Q, V>::LENGTH;
         let all = Self::all_bodies(state, effects);
         let (h, (centre, _)) = (force(&all, length), all.centre(length));
         Force::new(h.ang - centre.cross(h.lin), h.lin)
     }
 
     #[cfg_attr(optimised, inline(always))]
-    fn all_bodies<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
-        state: impl RobotState<R, Q, V>,
+    fn all_bodies<Scalar: Real, Effects, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<Scalar, Q, V>,
         effects: &Effects,
-    ) -> Totals<R>
+    ) -> Totals<Scalar>
     where
-        T: Robot<B, Q, V>,
-        K: Kernel<R>,
-        Effects: Effect<R, B, V>,
+        Arm: Robot<B, Q, V>,
+        Sines: Kernel<Scalar>,
+        Effects: Effect<Scalar, B, V>,
     {
-        const { WithMasses::<R, Effects, B, V>::KNOWN };
+        const { WithMasses::<Scalar, Effects, B, V>::KNOWN };
         let configuration = state.configuration();
         let trig = configuration.trig_or(Self::trig_source());
         let (trig, qd) = (trig.borrow(), &state.state().qd);
@@ -166,17 +172,23 @@ impl<T, K> Engine<T, K> {
     #[doc(alias = "CMM")]
     #[inline(never)]
     #[must_use]
-    pub fn centroidal_matrix<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
-        q: &impl Configuration<R, Q>,
+    pub fn centroidal_matrix<
+        Scalar: Real,
+        Effects,
+        const B: usize,
+        const Q: usize,
+        const V: usize,
+    >(
+        q: &impl Configuration<Scalar, Q>,
         effects: &Effects,
-    ) -> [Force<R>; V]
+    ) -> [Force<Scalar>; V]
     where
-        T: Robot<B, Q, V>,
-        K: Kernel<R>,
-        Effects: Effect<R, B, V>,
+        Arm: Robot<B, Q, V>,
+        Sines: Kernel<Scalar>,
+        Effects: Effect<Scalar, B, V>,
     {
         scene_is_taken!();
-        const { WithMasses::<R, Effects, B, V>::KNOWN };
+        const { WithMasses::<Scalar, Effects, B, V>::KNOWN };
         const {
             assert!(
                 !Effects::GYROSCOPIC_ROTORS,
@@ -190,22 +202,23 @@ impl<T, K> Engine<T, K> {
 
 /// A momentum in units of length as one in SI units.
 #[cfg_attr(optimised, inline(always))]
-fn force<R: Real>(all: &Totals<R>, length: f64) -> Force<R> {
+fn force<Scalar: Real>(all: &Totals<Scalar>, length: f64) -> Force<Scalar> {
     let h = all.momentum;
     Force::new(h.n.get(), h.f.scale(Folded::constant(1.0 / length)).get())
 }
 
-impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize>
-    Call<'_, R, Tree, Effects, B, Q, V>
+impl<Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize>
+    Call<'_, Scalar, Tree, Effects, B, Q, V>
 where
-    R: Real,
+    Scalar: Real,
     Tree: Compiled,
-    Effects: Effect<R, B, V>,
+    Effects: Effect<Scalar, B, V>,
 {
     #[cfg_attr(optimised, inline(always))]
-    fn centroidal_matrix(self) -> [Force<R>; V] {
+    fn centroidal_matrix(self) -> [Force<Scalar>; V] {
         let mut columns = [Force::ZERO; V];
-        let mut pass = Columns::<R, Tree, Effects, B, Q, V> { call: self, columns: &mut columns };
+        let mut pass =
+            Columns::<Scalar, Tree, Effects, B, Q, V> { call: self, columns: &mut columns };
         let moving = sweep(&mut pass, &Pose::BASE);
         let all = moving + fixed(Remainder::<Tree, B, V>::AT_BASE);
         let (centre, _) = centre(all.mass, all.moment, Tree::LENGTH);
@@ -216,28 +229,32 @@ where
     }
 }
 
-struct Columns<'a, R: Real, Tree, Effects, const B: usize, const Q: usize, const V: usize> {
-    call: Call<'a, R, Tree, Effects, B, Q, V>,
-    columns: &'a mut [Force<R>; V],
+struct Columns<'a, Scalar: Real, Tree, Effects, const B: usize, const Q: usize, const V: usize> {
+    call: Call<'a, Scalar, Tree, Effects, B, Q, V>,
+    columns: &'a mut [Force<Scalar>; V],
 }
 
-impl<R: Real, Tree: Compiled, Effects, const B: usize, const Q: usize, const V: usize> Pass
-    for Columns<'_, R, Tree, Effects, B, Q, V>
+impl<Scalar: Real, Tree: Compiled, Effects, const B: usize, const Q: usize, const V: usize> Pass
+    for Columns<'_, Scalar, Tree, Effects, B, Q, V>
 where
-    Effects: Effect<R, B, V>,
+    Effects: Effect<Scalar, B, V>,
 {
     type Tree = Tree;
-    type Outward = Pose<R>;
-    type Inward = Inertia<R>;
-    const NOTHING: Inertia<R> = Inertia::NONE;
+    type Outward = Pose<Scalar>;
+    type Inward = Inertia<Scalar>;
+    const NOTHING: Inertia<Scalar> = Inertia::NONE;
 
     #[cfg_attr(optimised, inline(always))]
-    fn enter<const I: usize>(&mut self, parent: &Pose<R>) -> Pose<R> {
+    fn enter<const I: usize>(&mut self, parent: &Pose<Scalar>) -> Pose<Scalar> {
         parent.transformed_by::<Tree, I>(&self.call.displacement::<I>())
     }
 
     #[cfg_attr(optimised, inline(always))]
-    fn leave<const I: usize>(&mut self, at: &Pose<R>, inner: Inertia<R>) -> Inertia<R> {
+    fn leave<const I: usize>(
+        &mut self,
+        at: &Pose<Scalar>,
+        inner: Inertia<Scalar>,
+    ) -> Inertia<Scalar> {
         let body = self.call.inertia::<I>(true) + inner;
         for_each_joint!(K, {
             if JointPair::<Tree, I, K>::IS_COORDINATE {
@@ -252,12 +269,12 @@ where
 /// The momentum of a body at unit rate of a joint at its origin, about the base's origin and along
 /// its axes.
 #[cfg_attr(optimised, inline(always))]
-fn column<R: Real>(
-    at: &Pose<R>,
-    body: &Inertia<R>,
+fn column<Scalar: Real>(
+    at: &Pose<Scalar>,
+    body: &Inertia<Scalar>,
     joint: &'static Joint,
     length_inv: f64,
-) -> Force<R> {
+) -> Force<Scalar> {
     let length_inv = Folded::constant(length_inv);
     let h = body.wrench_of(joint, length_inv);
     let (n, f) = (at.axes.mul(h.n), at.axes.mul(h.f));

@@ -20,7 +20,7 @@ use crate::scalar::Real;
 use crate::state::Configuration;
 use crate::trig::Kernel;
 
-impl<T, K> Engine<T, K> {
+impl<Arm, Sines> Engine<Arm, Sines> {
     /// The joint-space inertia matrix M(q), kg·m², kg and kg·m, with the armatures, the payload and
     /// the base parameters of the scene.
     ///
@@ -45,14 +45,14 @@ impl<T, K> Engine<T, K> {
     #[doc(alias = "mass matrix")]
     #[inline(never)]
     #[must_use]
-    pub fn crba<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
-        q: &impl Configuration<R, Q>,
+    pub fn crba<Scalar: Real, Effects, const B: usize, const Q: usize, const V: usize>(
+        q: &impl Configuration<Scalar, Q>,
         effects: &Effects,
-    ) -> MassMatrix<R, V>
+    ) -> MassMatrix<Scalar, V>
     where
-        T: Robot<B, Q, V>,
-        K: Kernel<R>,
-        Effects: Effect<R, B, V>,
+        Arm: Robot<B, Q, V>,
+        Sines: Kernel<Scalar>,
+        Effects: Effect<Scalar, B, V>,
     {
         scene_is_taken!();
         let trig = q.trig_or(Self::trig_source());
@@ -63,21 +63,21 @@ impl<T, K> Engine<T, K> {
 }
 
 /// The data that all bodies share.
-struct Task<'a, R: Real, Tree, Effects, const B: usize, const Q: usize, const V: usize> {
-    call: Call<'a, R, Tree, Effects, B, Q, V>,
-    m: &'a mut MassMatrix<R, V>,
+struct Task<'a, Scalar: Real, Tree, Effects, const B: usize, const Q: usize, const V: usize> {
+    call: Call<'a, Scalar, Tree, Effects, B, Q, V>,
+    m: &'a mut MassMatrix<Scalar, V>,
 }
 
-impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize>
-    Call<'_, R, Tree, Effects, B, Q, V>
+impl<Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize>
+    Call<'_, Scalar, Tree, Effects, B, Q, V>
 where
-    R: Real,
+    Scalar: Real,
     Tree: Compiled,
-    Effects: Effect<R, B, V>,
+    Effects: Effect<Scalar, B, V>,
 {
     /// Writes M(q), both triangles; what is zero by the tree's branches stays as it is.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn mass_matrix(self, m: &mut MassMatrix<R, V>) {
+    pub(crate) fn mass_matrix(self, m: &mut MassMatrix<Scalar, V>) {
         let mut task = Task { call: self, m };
         for_each_joint!(
             J,
@@ -90,16 +90,16 @@ where
     }
 }
 
-impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize>
-    Task<'_, R, Tree, Effects, B, Q, V>
+impl<Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize>
+    Task<'_, Scalar, Tree, Effects, B, Q, V>
 where
-    R: Real,
+    Scalar: Real,
     Tree: Compiled,
-    Effects: Effect<R, B, V>,
+    Effects: Effect<Scalar, B, V>,
 {
     /// Writes the entry of joint I and the joint on the base.
     #[cfg_attr(optimised, inline(always))]
-    fn both<const I: usize>(&mut self, entry: Folded<R>) {
+    fn both<const I: usize>(&mut self, entry: Folded<Scalar>) {
         let (root, entry) = (CompiledJoint::<Tree, I>::ROOT, entry.get());
         self.m.rows[I][root] = entry;
         self.m.rows[root][I] = entry;
@@ -110,7 +110,10 @@ where
     /// base at rate −1, in the frame of the parent, or in that of the last ancestor on parallel
     /// axes.
     #[cfg_attr(optimised, inline(always))]
-    fn composite<const I: usize>(&mut self, root: &Twist<R>) -> (Inertia<R>, Felt<R>) {
+    fn composite<const I: usize>(
+        &mut self,
+        root: &Twist<Scalar>,
+    ) -> (Inertia<Scalar>, Felt<Scalar>) {
         let at = self.call.displacement::<I>();
         let joint = CompiledJoint::<Tree, I>::JOINT;
         let length_inv = Folded::constant(Tree::LENGTH_INV);
@@ -170,7 +173,12 @@ where
     /// joint's frame, projected on each ancestor. If it meets `root`, the motion of the joint on
     /// the base, their product is the entry of both joints.
     #[cfg_attr(optimised, inline(always))]
-    fn column<const I: usize>(&mut self, diagonal: Folded<R>, wrench: &Wrench<R>, root: &Twist<R>) {
+    fn column<const I: usize>(
+        &mut self,
+        diagonal: Folded<Scalar>,
+        wrench: &Wrench<Scalar>,
+        root: &Twist<Scalar>,
+    ) {
         let (mut diagonal, mut wrench) = (diagonal.get(), *wrench);
         let length_inv = Folded::constant(Tree::LENGTH_INV);
         add_inertia(self.call.effects, I, &mut diagonal);
@@ -208,7 +216,7 @@ where
     /// The inertia `spin` that only joint I's own rotation feels, less what is contained in that of
     /// the children on parallel axes.
     #[cfg_attr(optimised, inline(always))]
-    fn own_spin<const I: usize>(spin: Folded<R>) -> Folded<R> {
+    fn own_spin<const I: usize>(spin: Folded<Scalar>) -> Folded<Scalar> {
         if Effects::BASE_PARAMETERS > 0 {
             spin
         } else {

@@ -16,9 +16,9 @@ impl<Tree: Compiled, const I: usize> CompiledJoint<Tree, I> {
     /// Writes the sine and cosine, or the unit quaternion and other positions, that coordinate I
     /// brings.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn turn<R: Real, K: Kernel<R>, const Q: usize>(
-        q: &[R; Q],
-        turns: &mut [JointCoordinate<R>; Q],
+    pub(crate) fn turn<Scalar: Real, Sines: Kernel<Scalar>, const Q: usize>(
+        q: &[Scalar; Q],
+        turns: &mut [JointCoordinate<Scalar>; Q],
     ) {
         if matches!(Self::MOTION, JointMotion::Spherical | JointMotion::Free) {
             let first = Self::Q;
@@ -31,31 +31,31 @@ impl<Tree: Compiled, const I: usize> CompiledJoint<Tree, I> {
         if let Some(k) = Self::POSITION {
             turns[k] = match (Self::PRISMATIC, Self::JOINT.near) {
                 (true, _) => JointCoordinate::linear(q[k]),
-                (false, true) => JointCoordinate::revolute_bounded::<K>(q[k]),
-                (false, false) => JointCoordinate::with_kernel::<K>(q[k]),
+                (false, true) => JointCoordinate::revolute_bounded::<Sines>(q[k]),
+                (false, false) => JointCoordinate::with_kernel::<Sines>(q[k]),
             };
         }
     }
 }
 
 /// The displacement of one joint; what its kind does not have is a known zero.
-pub(crate) struct Displacement<R, Tree, const I: usize> {
+pub(crate) struct Displacement<Scalar, Tree, const I: usize> {
     /// The sine and cosine of the rotation about z.
-    pub(crate) turn: JointCoordinate<R>,
+    pub(crate) turn: JointCoordinate<Scalar>,
     /// The translation along z, in units of length.
-    pub(crate) slide: Folded<R>,
+    pub(crate) slide: Folded<Scalar>,
     /// The translation of a planar or free joint, in the joint's frame and in units of length.
-    offset: Vec3<R>,
+    offset: Vec3<Scalar>,
     /// The rotation of coordinates from the joint's frame to the body's, of a spherical or free
     /// joint.
-    attitude: Mat3<R>,
+    attitude: Mat3<Scalar>,
     joint: PhantomData<Tree>,
 }
 
-impl<R: Real, Tree: Compiled, const I: usize> Displacement<R, Tree, I> {
+impl<Scalar: Real, Tree: Compiled, const I: usize> Displacement<Scalar, Tree, I> {
     /// The displacement of joint I.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn of<const Q: usize>(turns: &[JointCoordinate<R>; Q]) -> Self {
+    pub(crate) fn of<const Q: usize>(turns: &[JointCoordinate<Scalar>; Q]) -> Self {
         let turn = turns[CompiledJoint::<Tree, I>::Q];
         let length_inv = Folded::constant(Tree::LENGTH_INV);
         let mut at = Self {
@@ -94,13 +94,13 @@ impl<R: Real, Tree: Compiled, const I: usize> Displacement<R, Tree, I> {
 
     /// The same with a sine and cosine that are loaded again.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn with_turn(self, turn: JointCoordinate<R>) -> Self {
+    pub(crate) fn with_turn(self, turn: JointCoordinate<Scalar>) -> Self {
         Self { turn, ..self }
     }
 
     /// From the parent's frame to the body's: `rot` is the constant rotation of the joint's frame.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn enter(&self, rot: &Mat3<R>, v: Vec3<R>) -> Vec3<R> {
+    pub(crate) fn enter(&self, rot: &Mat3<Scalar>, v: Vec3<Scalar>) -> Vec3<Scalar> {
         let v = rot.transpose_mul(v);
         match CompiledJoint::<Tree, I>::MOTION {
             JointMotion::Turn | JointMotion::Screw | JointMotion::Planar => {
@@ -114,7 +114,7 @@ impl<R: Real, Tree: Compiled, const I: usize> Displacement<R, Tree, I> {
 
     /// From the body's frame to the joint's.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn leave(&self, v: Vec3<R>) -> Vec3<R> {
+    pub(crate) fn leave(&self, v: Vec3<Scalar>) -> Vec3<Scalar> {
         match CompiledJoint::<Tree, I>::MOTION {
             JointMotion::Turn | JointMotion::Screw | JointMotion::Planar => {
                 let (sin, cos) = self.sin_cos();
@@ -127,7 +127,7 @@ impl<R: Real, Tree: Compiled, const I: usize> Displacement<R, Tree, I> {
 
     /// The same of a symmetric matrix.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn leave_symmetric(&self, s: Sym3<R>) -> Sym3<R> {
+    pub(crate) fn leave_symmetric(&self, s: Sym3<Scalar>) -> Sym3<Scalar> {
         match CompiledJoint::<Tree, I>::MOTION {
             JointMotion::Turn | JointMotion::Screw | JointMotion::Planar => {
                 let (sin, cos) = self.sin_cos();
@@ -142,7 +142,7 @@ impl<R: Real, Tree: Compiled, const I: usize> Displacement<R, Tree, I> {
 
     /// The same of any matrix.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn leave_matrix(&self, m: &Mat3<R>) -> Mat3<R> {
+    pub(crate) fn leave_matrix(&self, m: &Mat3<Scalar>) -> Mat3<Scalar> {
         match CompiledJoint::<Tree, I>::MOTION {
             JointMotion::Turn | JointMotion::Screw | JointMotion::Planar => {
                 let (sin, cos) = self.sin_cos();
@@ -155,7 +155,7 @@ impl<R: Real, Tree: Compiled, const I: usize> Displacement<R, Tree, I> {
 
     /// Eᵀ M E.
     #[cfg_attr(optimised, inline(always))]
-    fn leave_both(&self, m: &Mat3<R>) -> Mat3<R> {
+    fn leave_both(&self, m: &Mat3<Scalar>) -> Mat3<Scalar> {
         let [x, y, z] = m.0;
         let half = Mat3([self.leave(x), self.leave(y), self.leave(z)]);
         let [x, y, z] = half.rows();
@@ -166,7 +166,7 @@ impl<R: Real, Tree: Compiled, const I: usize> Displacement<R, Tree, I> {
     /// The body's axes along those of the frame of which `joint` holds the axes of the joint's
     /// frame.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn axes(&self, joint: &Mat3<R>) -> Mat3<R> {
+    pub(crate) fn axes(&self, joint: &Mat3<Scalar>) -> Mat3<Scalar> {
         let [x, y, z] = joint.0;
         match CompiledJoint::<Tree, I>::MOTION {
             JointMotion::Turn | JointMotion::Screw | JointMotion::Planar => {
@@ -184,7 +184,7 @@ impl<R: Real, Tree: Compiled, const I: usize> Displacement<R, Tree, I> {
     /// The translation in the frame of which `joint` holds the axes of the joint's frame, in units
     /// of length.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn along(&self, joint: &Mat3<R>) -> Vec3<R> {
+    pub(crate) fn along(&self, joint: &Mat3<Scalar>) -> Vec3<Scalar> {
         match CompiledJoint::<Tree, I>::MOTION {
             JointMotion::Slide | JointMotion::Screw => joint.0[2].scale(self.slide),
             JointMotion::Planar | JointMotion::Free => joint.mul(self.offset),
@@ -194,32 +194,34 @@ impl<R: Real, Tree: Compiled, const I: usize> Displacement<R, Tree, I> {
 
     /// The translation in the frame of the parent, in units of length.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn shift(&self) -> Vec3<R> {
+    pub(crate) fn shift(&self) -> Vec3<Scalar> {
         match CompiledJoint::<Tree, I>::MOTION {
             JointMotion::Slide | JointMotion::Screw => {
                 Vec3::constant(CompiledJoint::<Tree, I>::JOINT.rot.z_axis).scale(self.slide)
             }
-            JointMotion::Planar | JointMotion::Free => rotate_to_parent::<R, Tree, I>(self.offset),
+            JointMotion::Planar | JointMotion::Free => {
+                rotate_to_parent::<Scalar, Tree, I>(self.offset)
+            }
             JointMotion::Turn | JointMotion::Spherical | JointMotion::Still => Vec3::ZERO,
         }
     }
 
     #[cfg_attr(optimised, inline(always))]
-    fn sin_cos(&self) -> (Folded<R>, Folded<R>) {
+    fn sin_cos(&self) -> (Folded<Scalar>, Folded<Scalar>) {
         (Folded::runtime(self.turn.sin), Folded::runtime(self.turn.cos))
     }
 }
 
 /// p × v, p the offset from the origin of joint I's parent to its own.
 #[cfg_attr(optimised, inline(always))]
-pub(crate) fn offset_cross<R: Real, Tree, const I: usize>(
-    v: Vec3<R>,
-    at: &Displacement<R, Tree, I>,
-) -> Vec3<R>
+pub(crate) fn offset_cross<Scalar: Real, Tree, const I: usize>(
+    v: Vec3<Scalar>,
+    at: &Displacement<Scalar, Tree, I>,
+) -> Vec3<Scalar>
 where
     Tree: Compiled,
 {
-    let mut sum = constant_offset_cross::<R, Tree, I>(v);
+    let mut sum = constant_offset_cross::<Scalar, Tree, I>(v);
     if CompiledJoint::<Tree, I>::SHIFTS {
         sum = sum + at.shift().cross(v);
     }
@@ -228,10 +230,10 @@ where
 
 /// p × each column.
 #[cfg_attr(optimised, inline(always))]
-pub(crate) fn cross_offset<R: Real, Tree, const I: usize>(
-    Mat3([x, y, z]): Mat3<R>,
-    at: &Displacement<R, Tree, I>,
-) -> Mat3<R>
+pub(crate) fn cross_offset<Scalar: Real, Tree, const I: usize>(
+    Mat3([x, y, z]): Mat3<Scalar>,
+    at: &Displacement<Scalar, Tree, I>,
+) -> Mat3<Scalar>
 where
     Tree: Compiled,
 {
@@ -240,13 +242,19 @@ where
 
 /// The position of the number `k`.
 #[cfg_attr(optimised, inline(always))]
-fn position<R: Real, const Q: usize>(turns: &[JointCoordinate<R>; Q], k: usize) -> Folded<R> {
+fn position<Scalar: Real, const Q: usize>(
+    turns: &[JointCoordinate<Scalar>; Q],
+    k: usize,
+) -> Folded<Scalar> {
     Folded::runtime(turns[k].q)
 }
 
 /// The matrix of the unit quaternion whose coordinates begin at `first`.
 #[cfg_attr(optimised, inline(always))]
-fn attitude<R: Real, const Q: usize>(turns: &[JointCoordinate<R>; Q], first: usize) -> Mat3<R> {
+fn attitude<Scalar: Real, const Q: usize>(
+    turns: &[JointCoordinate<Scalar>; Q],
+    first: usize,
+) -> Mat3<Scalar> {
     let q = [first, first + 1, first + 2, first + 3].map(|k| turns[k].q);
     let [x, y, z] = rotation(q).cols().map(Vec3::runtime);
     Mat3([x, y, z])

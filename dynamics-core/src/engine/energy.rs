@@ -12,7 +12,7 @@ use crate::scalar::Real;
 use crate::state::{Configuration, RobotState};
 use crate::trig::Kernel;
 
-impl<T, K> Engine<T, K> {
+impl<Arm, Sines> Engine<Arm, Sines> {
     /// The kinetic energy T, J, as [`crate::algorithms::kinetic_energy`] computes it.
     ///
     /// # Cost
@@ -30,14 +30,14 @@ impl<T, K> Engine<T, K> {
     /// ```
     #[inline(never)]
     #[must_use]
-    pub fn kinetic_energy<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
-        state: impl RobotState<R, Q, V>,
+    pub fn kinetic_energy<Scalar: Real, Effects, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<Scalar, Q, V>,
         effects: &Effects,
-    ) -> R
+    ) -> Scalar
     where
-        T: Robot<B, Q, V>,
-        K: Kernel<R>,
-        Effects: Effect<R, B, V>,
+        Arm: Robot<B, Q, V>,
+        Sines: Kernel<Scalar>,
+        Effects: Effect<Scalar, B, V>,
     {
         scene_is_taken!();
         const {
@@ -50,7 +50,7 @@ impl<T, K> Engine<T, K> {
         let trig = configuration.trig_or(Self::trig_source());
         let (trig, qd) = (trig.borrow(), &state.state().qd);
         let all = Self::call(trig, effects).totals::<false>(Some(qd));
-        all.twice.get() * R::from_f64(0.5)
+        all.twice.get() * Scalar::from_f64(0.5)
     }
 
     /// The potential energy U in the field of the effects, J, zero at the height of the base's
@@ -70,17 +70,17 @@ impl<T, K> Engine<T, K> {
     /// ```
     #[inline(never)]
     #[must_use]
-    pub fn potential_energy<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
-        q: &impl Configuration<R, Q>,
+    pub fn potential_energy<Scalar: Real, Effects, const B: usize, const Q: usize, const V: usize>(
+        q: &impl Configuration<Scalar, Q>,
         effects: &Effects,
-    ) -> R
+    ) -> Scalar
     where
-        T: Robot<B, Q, V>,
-        K: Kernel<R>,
-        Effects: Effect<R, B, V>,
+        Arm: Robot<B, Q, V>,
+        Sines: Kernel<Scalar>,
+        Effects: Effect<Scalar, B, V>,
     {
         scene_is_taken!();
-        const { WithMasses::<R, Effects, B, V>::KNOWN };
+        const { WithMasses::<Scalar, Effects, B, V>::KNOWN };
         let trig = q.trig_or(Self::trig_source());
         let call = Self::call(trig.borrow(), effects);
         let all = call.totals::<false>(None);
@@ -91,10 +91,12 @@ impl<T, K> Engine<T, K> {
 }
 
 /// A scene whose bodies have their masses.
-pub(super) struct WithMasses<R, Effects, const B: usize, const V: usize>(PhantomData<(R, Effects)>);
+pub(super) struct WithMasses<Scalar, Effects, const B: usize, const V: usize>(
+    PhantomData<(Scalar, Effects)>,
+);
 
-impl<R: Real, Effects: Effect<R, B, V>, const B: usize, const V: usize>
-    WithMasses<R, Effects, B, V>
+impl<Scalar: Real, Effects: Effect<Scalar, B, V>, const B: usize, const V: usize>
+    WithMasses<Scalar, Effects, B, V>
 {
     pub(super) const KNOWN: () = assert!(
         Effects::BASE_PARAMETERS == 0,

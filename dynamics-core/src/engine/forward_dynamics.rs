@@ -19,7 +19,7 @@ use crate::scalar::Real;
 use crate::state::{Configuration, RobotState, State};
 use crate::trig::Kernel;
 
-impl<T, K> Engine<T, K> {
+impl<Arm, Sines> Engine<Arm, Sines> {
     /// The acceleration of each joint, q̈ = FD(q, q̇, τ), rad/s² or m/s², under the effects of the
     /// scene.
     ///
@@ -38,22 +38,22 @@ impl<T, K> Engine<T, K> {
     /// the largest inertia that all its descendants, stretched out, could have about it.
     #[doc(alias = "FD")]
     #[inline(never)]
-    pub fn forward_dynamics<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
-        state: impl RobotState<R, Q, V>,
-        tau: &[R; V],
+    pub fn forward_dynamics<Scalar: Real, Effects, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<Scalar, Q, V>,
+        tau: &[Scalar; V],
         effects: &Effects,
-    ) -> Result<[R; V], NotPositiveDefinite>
+    ) -> Result<[Scalar; V], NotPositiveDefinite>
     where
-        T: Robot<B, Q, V>,
-        K: Kernel<R>,
-        Effects: Effect<R, B, V>,
+        Arm: Robot<B, Q, V>,
+        Sines: Kernel<Scalar>,
+        Effects: Effect<Scalar, B, V>,
     {
         scene_is_taken!();
         let trig = state.configuration().trig_or(Self::trig_source());
         let call = Call {
             turns: &trig.borrow().coordinates,
             effects,
-            robot: PhantomData::<CompiledRobot<T, B, Q, V>>,
+            robot: PhantomData::<CompiledRobot<Arm, B, Q, V>>,
         };
         call.accelerations_by_factors(state.state(), tau)
     }
@@ -70,34 +70,46 @@ impl<T, K> Engine<T, K> {
     /// ```
     #[cfg_attr(optimised, inline(always))]
     #[must_use]
-    pub fn transmitted_torque<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
-        state: &State<R, Q, V>,
-        tau: &[R; V],
+    pub fn transmitted_torque<
+        Scalar: Real,
+        Effects,
+        const B: usize,
+        const Q: usize,
+        const V: usize,
+    >(
+        state: &State<Scalar, Q, V>,
+        tau: &[Scalar; V],
         effects: &Effects,
-    ) -> [R; V]
+    ) -> [Scalar; V]
     where
-        T: Robot<B, Q, V>,
-        Effects: Effect<R, B, V>,
+        Arm: Robot<B, Q, V>,
+        Effects: Effect<Scalar, B, V>,
     {
-        Call::<R, CompiledRobot<T, B, Q, V>, Effects, B, Q, V>::behind_gears(effects, state, tau)
+        Call::<Scalar, CompiledRobot<Arm, B, Q, V>, Effects, B, Q, V>::behind_gears(
+            effects, state, tau,
+        )
     }
 }
 
-impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize>
-    Call<'_, R, Tree, Effects, B, Q, V>
+impl<Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize>
+    Call<'_, Scalar, Tree, Effects, B, Q, V>
 where
-    R: Real,
+    Scalar: Real,
     Tree: Compiled,
-    Effects: Effect<R, B, V>,
+    Effects: Effect<Scalar, B, V>,
 {
     /// The torques behind the gears while their motors supply `tau`.
     #[cfg_attr(optimised, inline(always))]
-    fn behind_gears(effects: &Effects, state: &State<R, Q, V>, tau: &[R; V]) -> [R; V] {
+    fn behind_gears(
+        effects: &Effects,
+        state: &State<Scalar, Q, V>,
+        tau: &[Scalar; V],
+    ) -> [Scalar; V] {
         let mut rest = *tau;
         if const { Effects::LOAD_DEPENDENT } {
             for_each_joint!(J, {
                 if Index::<J, V>::IS_BELOW {
-                    let at = joint_state::<R, Tree, Q, V, J>(state);
+                    let at = joint_state::<Scalar, Tree, Q, V, J>(state);
                     rest[J] = transmitted(effects, J, at, rest[J]);
                 }
             });
@@ -107,7 +119,7 @@ where
 
     /// C(q, q̇), the torque at q̈ = 0.
     #[cfg_attr(optimised, inline(always))]
-    pub(super) fn bias(self, state: &State<R, Q, V>) -> [R; V] {
+    pub(super) fn bias(self, state: &State<Scalar, Q, V>) -> [Scalar; V] {
         let unaccelerated =
             Call { turns: self.turns, effects: &Bias(self.effects), robot: self.robot };
         unaccelerated.torques(self.turns, state)
@@ -115,7 +127,7 @@ where
 
     /// τ − C(q, q̇), the torque that is left to accelerate.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn remaining(self, state: &State<R, Q, V>, tau: &[R; V]) -> [R; V] {
+    pub(crate) fn remaining(self, state: &State<Scalar, Q, V>, tau: &[Scalar; V]) -> [Scalar; V] {
         const { assert!(Effects::ACCELERATIONS, "forward dynamics needs `Inertia` in the scene") };
         let bias = self.bias(state);
         let mut rest = Self::behind_gears(self.effects, state, tau);
@@ -130,9 +142,9 @@ where
     #[cfg_attr(optimised, inline(always))]
     fn accelerations_by_factors(
         self,
-        state: &State<R, Q, V>,
-        tau: &[R; V],
-    ) -> Result<[R; V], NotPositiveDefinite> {
+        state: &State<Scalar, Q, V>,
+        tau: &[Scalar; V],
+    ) -> Result<[Scalar; V], NotPositiveDefinite> {
         // The bias before M: as one block they would need more registers than there are. M and its
         // factors need fewer in one.
         let mut rest = self.remaining(state, tau);
@@ -141,11 +153,11 @@ where
         self.mass_matrix(&mut m);
         let noise = self.noise();
         let certain = self.certain();
-        let d_inv = decompose::<R, Tree, V>(&mut m.rows, &noise, &certain)?;
+        let d_inv = decompose::<Scalar, Tree, V>(&mut m.rows, &noise, &certain)?;
         // A copy, since the array that the compiler cannot see through would stay in memory to the
         // end.
         let mut x = rest;
-        substitute::<R, Tree, V>(&m.rows, &d_inv, &mut x);
+        substitute::<Scalar, Tree, V>(&m.rows, &d_inv, &mut x);
         Ok(x)
     }
 }

@@ -26,7 +26,7 @@ use crate::trig::Kernel;
 /// The number of velocity coordinates of a free base, which are the robot's first.
 const BASE_RATES: usize = 6;
 
-impl<T, K> Engine<T, K> {
+impl<Arm, Sines> Engine<Arm, Sines> {
     /// The velocity q̇ at which the total momentum of a floating robot is h, as
     /// [`crate::algorithms::base_velocity_from_momentum`] computes it.
     ///
@@ -62,19 +62,25 @@ impl<T, K> Engine<T, K> {
     /// about some axis.
     #[doc(alias = "recoil")]
     #[inline(never)]
-    pub fn base_velocity_from_momentum<R, Effects, const B: usize, const Q: usize, const V: usize>(
-        state: impl RobotState<R, Q, V>,
-        h: Force<R>,
+    pub fn base_velocity_from_momentum<
+        Scalar,
+        Effects,
+        const B: usize,
+        const Q: usize,
+        const V: usize,
+    >(
+        state: impl RobotState<Scalar, Q, V>,
+        h: Force<Scalar>,
         effects: &Effects,
-    ) -> Result<[R; V], NotPositiveDefinite>
+    ) -> Result<[Scalar; V], NotPositiveDefinite>
     where
-        R: Real,
-        T: Robot<B, Q, V>,
-        K: Kernel<R>,
-        Effects: Effect<R, B, V>,
+        Scalar: Real,
+        Arm: Robot<B, Q, V>,
+        Sines: Kernel<Scalar>,
+        Effects: Effect<Scalar, B, V>,
     {
         scene_is_taken!();
-        const { FreeScene::<R, Effects, B, V>::TAKEN };
+        const { FreeScene::<Scalar, Effects, B, V>::TAKEN };
         let trig = state.configuration().trig_or(Self::trig_source());
         let (trig, state) = (trig.borrow(), state.state());
         let call = Self::call(trig, effects);
@@ -122,18 +128,24 @@ impl<T, K> Engine<T, K> {
     #[doc(alias = "floating base")]
     #[doc(alias = "hybrid dynamics")]
     #[inline(never)]
-    pub fn free_base_inverse_dynamics<R, Effects, const B: usize, const Q: usize, const V: usize>(
-        state: impl RobotState<R, Q, V>,
+    pub fn free_base_inverse_dynamics<
+        Scalar,
+        Effects,
+        const B: usize,
+        const Q: usize,
+        const V: usize,
+    >(
+        state: impl RobotState<Scalar, Q, V>,
         effects: &Effects,
-    ) -> Result<JointResult<R, V>, NotPositiveDefinite>
+    ) -> Result<JointResult<Scalar, V>, NotPositiveDefinite>
     where
-        R: Real,
-        T: Robot<B, Q, V>,
-        K: Kernel<R>,
-        Effects: Effect<R, B, V>,
+        Scalar: Real,
+        Arm: Robot<B, Q, V>,
+        Sines: Kernel<Scalar>,
+        Effects: Effect<Scalar, B, V>,
     {
         scene_is_taken!();
-        const { FreeScene::<R, Effects, B, V>::TAKEN };
+        const { FreeScene::<Scalar, Effects, B, V>::TAKEN };
         let trig = state.configuration().trig_or(Self::trig_source());
         let (trig, state) = (trig.borrow(), state.state());
         let call = Self::call(trig, effects);
@@ -145,17 +157,17 @@ impl<T, K> Engine<T, K> {
         let step = step(&all, &-first(&tau), &mut qdd)?;
         call.spread(columns, &step, &mut tau);
         for tau in tau.iter_mut().take(BASE_RATES) {
-            *tau = R::ZERO;
+            *tau = Scalar::ZERO;
         }
         Ok(JointResult { qdd, tau })
     }
 }
 
 /// A scene that a base which nothing holds may have.
-struct FreeScene<R, Effects, const B: usize, const V: usize>(PhantomData<(R, Effects)>);
+struct FreeScene<Scalar, Effects, const B: usize, const V: usize>(PhantomData<(Scalar, Effects)>);
 
-impl<R: Real, Effects: Effect<R, B, V>, const B: usize, const V: usize>
-    FreeScene<R, Effects, B, V>
+impl<Scalar: Real, Effects: Effect<Scalar, B, V>, const B: usize, const V: usize>
+    FreeScene<Scalar, Effects, B, V>
 {
     const TAKEN: () =
         assert!(!Effects::GYROSCOPIC_ROTORS, "no rotors that spin as bodies here; name `Armature`");
@@ -163,17 +175,17 @@ impl<R: Real, Effects: Effect<R, B, V>, const B: usize, const V: usize>
 
 /// The force on the base whose components are the first coordinates.
 #[cfg_attr(optimised, inline(always))]
-fn first<R: Real, const V: usize>(tau: &[R; V]) -> Force<R> {
-    Force::new(R::Vec3::new(tau[0], tau[1], tau[2]), R::Vec3::new(tau[3], tau[4], tau[5]))
+fn first<Scalar: Real, const V: usize>(tau: &[Scalar; V]) -> Force<Scalar> {
+    Force::new(Scalar::Vec3::new(tau[0], tau[1], tau[2]), Scalar::Vec3::new(tau[3], tau[4], tau[5]))
 }
 
 /// The motion of the base that the force `lacking` gives all bodies, which is added to its rates.
 #[cfg_attr(optimised, inline(always))]
-fn step<R: Real, const V: usize>(
-    all: &CompositeInertia<R>,
-    lacking: &Force<R>,
-    rates: &mut [R; V],
-) -> Result<Motion<R>, NotPositiveDefinite> {
+fn step<Scalar: Real, const V: usize>(
+    all: &CompositeInertia<Scalar>,
+    lacking: &Force<Scalar>,
+    rates: &mut [Scalar; V],
+) -> Result<Motion<Scalar>, NotPositiveDefinite> {
     let Some(step) = all.solve(*lacking) else {
         return Err(NotPositiveDefinite { joint: 0 });
     };
@@ -184,17 +196,17 @@ fn step<R: Real, const V: usize>(
     Ok(step)
 }
 
-impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize>
-    Call<'_, R, Tree, Effects, B, Q, V>
+impl<Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize>
+    Call<'_, Scalar, Tree, Effects, B, Q, V>
 where
-    R: Real,
+    Scalar: Real,
     Tree: Compiled,
-    Effects: Effect<R, B, V>,
+    Effects: Effect<Scalar, B, V>,
 {
     /// A force about the origin of the base of the description and along its axes, in the frame of
     /// the free body.
     #[cfg_attr(optimised, inline(always))]
-    fn in_base(self, h: Force<R>) -> Force<R> {
+    fn in_base(self, h: Force<Scalar>) -> Force<Scalar> {
         let joint = CompiledJoint::<Tree, 0>::JOINT;
         let (rot, at) = (Mat3::constant(&joint.rot), self.displacement::<0>());
         let origin = Vec3::constant(joint.pos) + at.shift();
@@ -207,14 +219,14 @@ where
     /// The composite inertia of the free body and its descendants in its own frame, and the columns
     /// of the descendants.
     #[cfg_attr(optimised, inline(always))]
-    fn composite(self) -> (CompositeInertia<R>, Columns<R, V>) {
+    fn composite(self) -> (CompositeInertia<Scalar>, Columns<Scalar, V>) {
         const {
             assert!(
                 matches!(CompiledJoint::<Tree, 0>::MOTION, JointMotion::Free),
                 "the first joint of the robot is not free"
             );
         }
-        let mut columns = [[R::ZERO; 6]; V];
+        let mut columns = [[Scalar::ZERO; 6]; V];
         let all = self.with_descendants::<0>(&mut columns);
         let length_inv = Folded::constant(Tree::LENGTH_INV);
         let s = all.second;
@@ -227,14 +239,14 @@ where
         let body = SpatialInertia {
             mass: (all.mass * length_inv * length_inv).get(),
             first_moment: all.moment.scale(length_inv).get(),
-            rotational: R::Mat3::from_cols(x, y, z),
+            rotational: Scalar::Mat3::from_cols(x, y, z),
         };
         (body.into(), columns)
     }
 
     /// The inertia of the body behind joint I and of its descendants, in its frame.
     #[cfg_attr(optimised, inline(always))]
-    fn with_descendants<const I: usize>(self, columns: &mut Columns<R, V>) -> Inertia<R> {
+    fn with_descendants<const I: usize>(self, columns: &mut Columns<Scalar, V>) -> Inertia<Scalar> {
         let mut body = self.inertia::<I>(false);
         for_each_joint!(
             J,
@@ -249,7 +261,7 @@ where
 
     /// The same in the frame of the parent; writes the joint's columns.
     #[cfg_attr(optimised, inline(always))]
-    fn at_parent<const I: usize>(self, columns: &mut Columns<R, V>) -> Inertia<R> {
+    fn at_parent<const I: usize>(self, columns: &mut Columns<Scalar, V>) -> Inertia<Scalar> {
         let body = self.with_descendants::<I>(columns);
         for_each_joint!(K, {
             if JointPair::<Tree, I, K>::IS_COORDINATE {
@@ -264,7 +276,7 @@ where
 
     /// Adds to the torques what the joints of the descendants need for an acceleration of the base.
     #[cfg_attr(optimised, inline(always))]
-    fn spread(self, columns: &Columns<R, V>, step: &Motion<R>, tau: &mut [R; V]) {
+    fn spread(self, columns: &Columns<Scalar, V>, step: &Motion<Scalar>, tau: &mut [Scalar; V]) {
         let length_inv = Folded::constant(Tree::LENGTH_INV);
         let alpha = Vec3::runtime(step.ang);
         let a = Vec3::runtime(step.lin).scale(length_inv);
@@ -275,9 +287,9 @@ where
     #[cfg_attr(optimised, inline(always))]
     fn to_children<const I: usize>(
         self,
-        columns: &Columns<R, V>,
-        motion: [Vec3<R>; 2],
-        tau: &mut [R; V],
+        columns: &Columns<Scalar, V>,
+        motion: [Vec3<Scalar>; 2],
+        tau: &mut [Scalar; V],
     ) {
         for_each_joint!(J, {
             if JointPair::<Tree, I, J>::IS_CHILD
@@ -297,9 +309,9 @@ where
     #[cfg_attr(optimised, inline(always))]
     fn outward<const I: usize>(
         self,
-        columns: &Columns<R, V>,
-        [alpha, a]: [Vec3<R>; 2],
-        tau: &mut [R; V],
+        columns: &Columns<Scalar, V>,
+        [alpha, a]: [Vec3<Scalar>; 2],
+        tau: &mut [Scalar; V],
     ) {
         let joint = CompiledJoint::<Tree, I>::JOINT;
         let (rot, mut p) = (Mat3::constant(&joint.rot), Vec3::constant(joint.pos));
@@ -323,4 +335,4 @@ where
 }
 
 /// The wrenches Iᶜ S of unit accelerations, in the frames of their bodies: couple and force.
-type Columns<R, const V: usize> = [[R; 6]; V];
+type Columns<Scalar, const V: usize> = [[Scalar; 6]; V];

@@ -7,34 +7,34 @@ use crate::effects::{Effect, Scene, are_of, meaning};
 use crate::model::Robot;
 use crate::scalar::Real;
 
-/// A scene of the robot `T`, for the engine, evaluated once for all of its algorithms.
-pub(super) struct EngineScene<T, R, Effects, const B: usize, const Q: usize, const V: usize>(
-    PhantomData<(T, R, Effects)>,
+/// A scene of the robot `Arm`, for the engine, evaluated once for all of its algorithms.
+pub(super) struct EngineScene<Arm, Scalar, Effects, const B: usize, const Q: usize, const V: usize>(
+    PhantomData<(Arm, Scalar, Effects)>,
 );
 
-impl<T, R: Real, Effects, const B: usize, const Q: usize, const V: usize>
-    EngineScene<T, R, Effects, B, Q, V>
+impl<Arm, Scalar: Real, Effects, const B: usize, const Q: usize, const V: usize>
+    EngineScene<Arm, Scalar, Effects, B, Q, V>
 where
-    T: Robot<B, Q, V>,
-    Effects: Effect<R, B, V>,
+    Arm: Robot<B, Q, V>,
+    Effects: Effect<Scalar, B, V>,
 {
     /// Public functions evaluate it in their own bodies, so that the compiler names the line that
     /// calls them.
     pub(super) const TAKEN: () = {
-        let () = Scene::<R, Effects, B, V>::MEANING;
-        taken::<T, R, Effects, B, Q, V>();
+        let () = Scene::<Scalar, Effects, B, V>::MEANING;
+        taken::<Arm, Scalar, Effects, B, Q, V>();
     };
 }
 
 /// A robot and a scene that the engine takes.
 #[track_caller]
-const fn taken<T, R: Real, Effects, const B: usize, const Q: usize, const V: usize>()
+const fn taken<Arm, Scalar: Real, Effects, const B: usize, const Q: usize, const V: usize>()
 where
-    T: Robot<B, Q, V>,
-    Effects: Effect<R, B, V>,
+    Arm: Robot<B, Q, V>,
+    Effects: Effect<Scalar, B, V>,
 {
-    meaning::<R, Effects, B, V>();
-    are_of::<R, Effects, B, V>(T::MODEL.name);
+    meaning::<Scalar, Effects, B, V>();
+    are_of::<Scalar, Effects, B, V>(Arm::MODEL.name);
     assert!(V <= 64, "the engine takes up to 64 velocity coordinates; use `Core`");
 }
 
@@ -48,16 +48,16 @@ macro_rules! scene {
             effects: Effects,
         ) -> Effects
         where
-            T: Robot<B, Q, V>,
+            Arm: Robot<B, Q, V>,
             Effects: Effect<$r, B, V>,
         {
-            taken::<T, $r, Effects, B, Q, V>();
+            taken::<Arm, $r, Effects, B, Q, V>();
             effects
         }
     };
 }
 
-impl<T, K> Engine<T, K> {
+impl<Arm, Sines> Engine<Arm, Sines> {
     scene! {
         /// The same `effects`, checked as a scene of this robot in f32 at the line of the caller.
         ///

@@ -19,7 +19,7 @@ use crate::scalar::Real;
 use crate::state::{Configuration, RobotState, State};
 use crate::trig::Kernel;
 
-impl<T, K> Engine<T, K> {
+impl<Arm, Sines> Engine<Arm, Sines> {
     /// Torques and accelerations of all coordinates, of which one is given for each, N·m or N and
     /// rad/s² or m/s², as [`crate::algorithms::hybrid_dynamics`] computes them.
     ///
@@ -48,15 +48,15 @@ impl<T, K> Engine<T, K> {
     /// As [`Engine::forward_dynamics`], of the coordinates of given torque.
     #[doc(alias = "HD")]
     #[inline(never)]
-    pub fn hybrid_dynamics<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
-        state: impl RobotState<R, Q, V>,
-        given: &[Prescribed<R>; V],
+    pub fn hybrid_dynamics<Scalar: Real, Effects, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<Scalar, Q, V>,
+        given: &[Prescribed<Scalar>; V],
         effects: &Effects,
-    ) -> Result<JointResult<R, V>, NotPositiveDefinite>
+    ) -> Result<JointResult<Scalar, V>, NotPositiveDefinite>
     where
-        T: Robot<B, Q, V>,
-        K: Kernel<R>,
-        Effects: Effect<R, B, V>,
+        Arm: Robot<B, Q, V>,
+        Sines: Kernel<Scalar>,
+        Effects: Effect<Scalar, B, V>,
     {
         scene_is_taken!();
         const { assert!(Effects::ACCELERATIONS, "forward dynamics needs `Inertia` in the scene") };
@@ -65,25 +65,25 @@ impl<T, K> Engine<T, K> {
         let call = Call {
             turns: &trig.borrow().coordinates,
             effects,
-            robot: PhantomData::<CompiledRobot<T, B, Q, V>>,
+            robot: PhantomData::<CompiledRobot<Arm, B, Q, V>>,
         };
         call.hybrid(state.state(), given)
     }
 }
 
-impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize>
-    Call<'_, R, Tree, Effects, B, Q, V>
+impl<Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize>
+    Call<'_, Scalar, Tree, Effects, B, Q, V>
 where
-    R: Real,
+    Scalar: Real,
     Tree: Compiled,
-    Effects: Effect<R, B, V>,
+    Effects: Effect<Scalar, B, V>,
 {
     #[cfg_attr(optimised, inline(always))]
     fn hybrid(
         self,
-        state: &State<R, Q, V>,
-        given: &[Prescribed<R>; V],
-    ) -> Result<JointResult<R, V>, NotPositiveDefinite> {
+        state: &State<Scalar, Q, V>,
+        given: &[Prescribed<Scalar>; V],
+    ) -> Result<JointResult<Scalar, V>, NotPositiveDefinite> {
         // One phase after the other: as one block they would need more registers than there are.
         let mut bias = self.bias(state);
         black_box(&mut bias);
@@ -91,41 +91,44 @@ where
         self.mass_matrix(&mut m);
         black_box(&mut m);
 
-        let (mut free, mut tau, mut qdd) = ([true; V], [R::ZERO; V], [R::ZERO; V]);
+        let (mut free, mut tau, mut qdd) = ([true; V], [Scalar::ZERO; V], [Scalar::ZERO; V]);
         let mut pivots = self.noise();
         for_each_joint!(J, {
             if Index::<J, V>::IS_BELOW {
                 (free[J], tau[J], qdd[J]) = match given[J] {
-                    Prescribed::Torque(tau) => (true, tau, R::ZERO),
-                    Prescribed::Acceleration(qdd) => (false, R::ZERO, qdd),
+                    Prescribed::Torque(tau) => (true, tau, Scalar::ZERO),
+                    Prescribed::Acceleration(qdd) => (false, Scalar::ZERO, qdd),
                 };
-                pivots[J] = R::either(free[J], pivots[J], R::ZERO);
+                pivots[J] = Scalar::either(free[J], pivots[J], Scalar::ZERO);
             }
         });
         let mut rows = m.rows;
-        let held = times::<R, Tree, V>(&m, &qdd);
+        let held = times::<Scalar, Tree, V>(&m, &qdd);
         for_each_joint!(J, {
             if Index::<J, V>::IS_BELOW {
                 let at = self.joint_state::<J>(state);
                 let rest = transmitted(self.effects, J, at, tau[J]) - bias[J] - held[J];
-                qdd[J] = R::either(free[J], rest, qdd[J]);
+                qdd[J] = Scalar::either(free[J], rest, qdd[J]);
                 if let Some(hold) = const {
-                    only_if(J < V, hold::<R, Tree, V, J> as fn(&mut [[R; V]; V], &[bool; V]))
+                    only_if(
+                        J < V,
+                        hold::<Scalar, Tree, V, J> as fn(&mut [[Scalar; V]; V], &[bool; V]),
+                    )
                 } {
                     hold(&mut rows, &free);
                 }
             }
         });
-        let d_inv = decompose::<R, Tree, V>(&mut rows, &pivots, &[false; V])?;
-        substitute::<R, Tree, V>(&rows, &d_inv, &mut qdd);
+        let d_inv = decompose::<Scalar, Tree, V>(&mut rows, &pivots, &[false; V])?;
+        substitute::<Scalar, Tree, V>(&rows, &d_inv, &mut qdd);
 
-        let moved = times::<R, Tree, V>(&m, &qdd);
+        let moved = times::<Scalar, Tree, V>(&m, &qdd);
         for_each_joint!(J, {
             if Index::<J, V>::IS_BELOW {
                 let at = self.joint_state::<J>(state);
                 let mut motor = bias[J] + moved[J];
                 load_friction(self.effects, J, at, &mut motor);
-                tau[J] = R::either(free[J], tau[J], motor);
+                tau[J] = Scalar::either(free[J], tau[J], motor);
             }
         });
         Ok(JointResult { tau, qdd })
@@ -135,26 +138,32 @@ where
 /// Row J of M up to its diagonal, with the entries of the identity where J or the column's
 /// coordinate is not free.
 #[cfg_attr(optimised, inline(always))]
-fn hold<R: Real, Tree: Compiled, const V: usize, const J: usize>(
-    rows: &mut [[R; V]; V],
+fn hold<Scalar: Real, Tree: Compiled, const V: usize, const J: usize>(
+    rows: &mut [[Scalar; V]; V],
     free: &[bool; V],
 ) {
     for_each_joint!(I, {
         if JointPair::<Tree, I, J>::SUPPORTS {
-            let fixed = if I == J { R::ONE } else { R::ZERO };
-            rows[J][I] = R::either(free[I] & free[J], rows[J][I], fixed);
+            let fixed = if I == J { Scalar::ONE } else { Scalar::ZERO };
+            rows[J][I] = Scalar::either(free[I] & free[J], rows[J][I], fixed);
         }
     });
 }
 
 /// M x, without what is zero by the branches of the tree.
 #[cfg_attr(optimised, inline(always))]
-fn times<R: Real, Tree: Compiled, const V: usize>(m: &MassMatrix<R, V>, x: &[R; V]) -> [R; V] {
-    let mut product = [R::ZERO; V];
+fn times<Scalar: Real, Tree: Compiled, const V: usize>(
+    m: &MassMatrix<Scalar, V>,
+    x: &[Scalar; V],
+) -> [Scalar; V] {
+    let mut product = [Scalar::ZERO; V];
     for_each_joint!(J, {
         if Index::<J, V>::IS_BELOW
             && let Some(row) = const {
-                only_if(J < V, row::<R, Tree, V, J> as fn(&MassMatrix<R, V>, &[R; V]) -> R)
+                only_if(
+                    J < V,
+                    row::<Scalar, Tree, V, J> as fn(&MassMatrix<Scalar, V>, &[Scalar; V]) -> Scalar,
+                )
             }
         {
             product[J] = row(m, x);
@@ -165,10 +174,10 @@ fn times<R: Real, Tree: Compiled, const V: usize>(m: &MassMatrix<R, V>, x: &[R; 
 
 /// Row J of M times x.
 #[cfg_attr(optimised, inline(always))]
-fn row<R: Real, Tree: Compiled, const V: usize, const J: usize>(
-    m: &MassMatrix<R, V>,
-    x: &[R; V],
-) -> R {
+fn row<Scalar: Real, Tree: Compiled, const V: usize, const J: usize>(
+    m: &MassMatrix<Scalar, V>,
+    x: &[Scalar; V],
+) -> Scalar {
     let mut sum = m.rows[J][J] * x[J];
     for_each_joint!(I, {
         if JointPair::<Tree, I, J>::IS_ANCESTOR || JointPair::<Tree, J, I>::IS_ANCESTOR {

@@ -16,7 +16,7 @@ use crate::spatial::Motion;
 use crate::state::Configuration;
 use crate::trig::Kernel;
 
-impl<T, K> Engine<T, K> {
+impl<Arm, Sines> Engine<Arm, Sines> {
     /// The geometric Jacobian J of a body in a [`Frame`] with v = J q̇, by columns, one for each
     /// coordinate, as [`crate::algorithms::jacobian`] computes it.
     ///
@@ -50,20 +50,20 @@ impl<T, K> Engine<T, K> {
     #[inline(never)]
     #[must_use]
     pub fn jacobian<
-        R: Real,
+        Scalar: Real,
         F: Frame,
         const BODY: usize,
         const B: usize,
         const Q: usize,
         const V: usize,
     >(
-        q: &impl Configuration<R, Q>,
+        q: &impl Configuration<Scalar, Q>,
         body: OnBody<BODY>,
         frame: F,
-    ) -> [Motion<R>; V]
+    ) -> [Motion<Scalar>; V]
     where
-        T: Robot<B, Q, V>,
-        K: Kernel<R>,
+        Arm: Robot<B, Q, V>,
+        Sines: Kernel<Scalar>,
     {
         let _ = (body, frame);
         let trig = q.trig_or(Self::trig_source());
@@ -71,12 +71,12 @@ impl<T, K> Engine<T, K> {
     }
 }
 
-impl<R: Real, Tree: Compiled, Effects, const B: usize, const Q: usize, const V: usize>
-    Call<'_, R, Tree, Effects, B, Q, V>
+impl<Scalar: Real, Tree: Compiled, Effects, const B: usize, const Q: usize, const V: usize>
+    Call<'_, Scalar, Tree, Effects, B, Q, V>
 {
     /// The Jacobian of a body in the frame F.
     #[cfg_attr(optimised, inline(always))]
-    fn jacobian<F: Frame, const BODY: usize>(self) -> [Motion<R>; V] {
+    fn jacobian<F: Frame, const BODY: usize>(self) -> [Motion<Scalar>; V] {
         let mut columns = self.jacobian_columns::<BODY>();
         let [pose] = self.poses(OnBody::<BODY>);
         for_each_joint!(J, {
@@ -89,13 +89,13 @@ impl<R: Real, Tree: Compiled, Effects, const B: usize, const Q: usize, const V: 
 
     /// The columns of the joints that move the body; zero for others.
     #[cfg_attr(optimised, inline(always))]
-    fn jacobian_columns<const BODY: usize>(self) -> [Motion<R>; V] {
+    fn jacobian_columns<const BODY: usize>(self) -> [Motion<Scalar>; V] {
         let mut columns = [Motion::ZERO; V];
         let base = Mat3::constant(&glam::DMat3::IDENTITY);
         for_each_joint!(
             J,
             const { CompiledJoint::<Tree, J>::IS_ON_BASE && JointAndBody::<Tree, J, BODY>::SUPPORTS },
-            reach = Self::reach::<BODY, J> as fn(_, &_, &mut _) -> Vec3<R>,
+            reach = Self::reach::<BODY, J> as fn(_, &_, &mut _) -> Vec3<Scalar>,
             {
                 let _ = reach(self, &base, &mut columns);
             }
@@ -109,9 +109,9 @@ impl<R: Real, Tree: Compiled, Effects, const B: usize, const Q: usize, const V: 
     #[cfg_attr(optimised, inline(always))]
     fn reach<const BODY: usize, const I: usize>(
         self,
-        parent: &Mat3<R>,
-        columns: &mut [Motion<R>; V],
-    ) -> Vec3<R> {
+        parent: &Mat3<Scalar>,
+        columns: &mut [Motion<Scalar>; V],
+    ) -> Vec3<Scalar> {
         let joint = CompiledJoint::<Tree, I>::JOINT;
         let length = Tree::LENGTH;
         let rot = Mat3::constant(&joint.rot);
@@ -123,7 +123,7 @@ impl<R: Real, Tree: Compiled, Effects, const B: usize, const Q: usize, const V: 
         if CompiledJoint::<Tree, I>::SHIFTS {
             offset = offset + at.along(&sides).scale(Folded::constant(length));
         }
-        let mut beyond = Vec3::<R>::ZERO;
+        let mut beyond = Vec3::<Scalar>::ZERO;
         if JointAndBody::<Tree, I, BODY>::IS_ON_JOINT {
             let place = JointAndBody::<Tree, I, BODY>::PLACE;
             beyond = axes.mul(Vec3::constant(place.pos * length));
@@ -131,14 +131,14 @@ impl<R: Real, Tree: Compiled, Effects, const B: usize, const Q: usize, const V: 
         for_each_joint!(
             J,
             const { JointPair::<Tree, I, J>::IS_PARENT && JointAndBody::<Tree, J, BODY>::SUPPORTS },
-            reach = Self::reach::<BODY, J> as fn(_, &_, &mut _) -> Vec3<R>,
+            reach = Self::reach::<BODY, J> as fn(_, &_, &mut _) -> Vec3<Scalar>,
             {
                 beyond = reach(self, &axes, columns);
             }
         );
         let axis = axes.0[joint.axis];
         columns[I] = if joint.prismatic {
-            Motion::new(R::Vec3::ZERO, axis.get())
+            Motion::new(Scalar::Vec3::ZERO, axis.get())
         } else if matches!(joint.motion, JointMotion::Screw) {
             let along = axis.scale(Folded::constant(joint.pitch * length));
             Motion::new(axis.get(), (axis.cross(beyond) + along).get())

@@ -7,36 +7,36 @@ use crate::scalar::Real;
 
 /// Rates of a joint, in units of length; zero where no effect needs them.
 #[derive(Clone, Copy)]
-pub(crate) struct JointRates<R> {
-    pub(crate) velocity: Folded<R>,
+pub(crate) struct JointRates<Scalar> {
+    pub(crate) velocity: Folded<Scalar>,
     /// The velocity in the velocity products.
-    pub(crate) omega_products: Folded<R>,
-    pub(crate) accel: Folded<R>,
+    pub(crate) omega_products: Folded<Scalar>,
+    pub(crate) accel: Folded<Scalar>,
 }
 
 /// Rates of a planar, spherical or free joint, rotations and translations, in units of length; zero
 /// where no effect needs them.
 #[derive(Clone, Copy)]
-pub(crate) struct SeveralRates<R> {
-    pub(crate) velocity: Twist<R>,
+pub(crate) struct SeveralRates<Scalar> {
+    pub(crate) velocity: Twist<Scalar>,
     /// The velocity in the velocity products.
-    pub(crate) products: Twist<R>,
-    pub(crate) accel: Twist<R>,
+    pub(crate) products: Twist<Scalar>,
+    pub(crate) accel: Twist<Scalar>,
 }
 
 /// Components of a motion along the axes of a body, in units of length.
 #[derive(Clone, Copy)]
-pub(crate) struct Twist<R> {
-    pub(crate) ang: Vec3<R>,
-    pub(crate) lin: Vec3<R>,
+pub(crate) struct Twist<Scalar> {
+    pub(crate) ang: Vec3<Scalar>,
+    pub(crate) lin: Vec3<Scalar>,
 }
 
-impl<R: Real> Twist<R> {
+impl<Scalar: Real> Twist<Scalar> {
     pub(crate) const ZERO: Self = Self { ang: Vec3::ZERO, lin: Vec3::ZERO };
 
     /// The motion of a joint's body at this rate of its coordinate.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn along(joint: &Joint, length_inv: f64, rate: Folded<R>) -> Self {
+    pub(crate) fn along(joint: &Joint, length_inv: f64, rate: Folded<Scalar>) -> Self {
         let mut motion = Self::ZERO;
         if joint.prismatic {
             motion.lin.0[joint.axis] = rate * Folded::constant(length_inv);
@@ -53,7 +53,7 @@ impl<R: Real> Twist<R> {
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn carried<Tree: Compiled, const I: usize>(
         &self,
-        at: &Displacement<R, Tree, I>,
+        at: &Displacement<Scalar, Tree, I>,
     ) -> Self {
         let joint = CompiledJoint::<Tree, I>::JOINT;
         let rot = Mat3::constant(&joint.rot);
@@ -65,7 +65,7 @@ impl<R: Real> Twist<R> {
     /// needed.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn of<Tree: Compiled, const V: usize, const I: usize>(
-        rates: &[R; V],
+        rates: &[Scalar; V],
         needed: bool,
     ) -> Self {
         let zero = Folded::ZERO;
@@ -83,11 +83,19 @@ impl<R: Real> Twist<R> {
 }
 
 #[cfg_attr(optimised, inline(always))]
-fn three<R: Real, const V: usize>(rates: &[R; V], first: usize, needed: bool) -> [Folded<R>; 3] {
+fn three<Scalar: Real, const V: usize>(
+    rates: &[Scalar; V],
+    first: usize,
+    needed: bool,
+) -> [Folded<Scalar>; 3] {
     [rate(rates, first, needed), rate(rates, first + 1, needed), rate(rates, first + 2, needed)]
 }
 
 #[cfg_attr(optimised, inline(always))]
-fn rate<R: Real, const V: usize>(rates: &[R; V], k: usize, needed: bool) -> Folded<R> {
+fn rate<Scalar: Real, const V: usize>(
+    rates: &[Scalar; V],
+    k: usize,
+    needed: bool,
+) -> Folded<Scalar> {
     Folded::runtime_if(needed, rates[k])
 }

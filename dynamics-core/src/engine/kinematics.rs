@@ -21,7 +21,7 @@ use crate::spatial::Motion;
 use crate::state::{Configuration, RobotState, State};
 use crate::trig::Kernel;
 
-impl<T, K> Engine<T, K> {
+impl<Arm, Sines> Engine<Arm, Sines> {
     /// The pose of every body's own frame in the base's: rotation, and position in m, as
     /// [`crate::algorithms::poses`] computes them.
     ///
@@ -41,12 +41,12 @@ impl<T, K> Engine<T, K> {
     #[doc(alias = "forward kinematics")]
     #[inline(never)]
     #[must_use]
-    pub fn poses<R: Real, const B: usize, const Q: usize, const V: usize>(
-        q: &impl Configuration<R, Q>,
-    ) -> [Pose<R>; B]
+    pub fn poses<Scalar: Real, const B: usize, const Q: usize, const V: usize>(
+        q: &impl Configuration<Scalar, Q>,
+    ) -> [Pose<Scalar>; B]
     where
-        T: Robot<B, Q, V>,
-        K: Kernel<R>,
+        Arm: Robot<B, Q, V>,
+        Sines: Kernel<Scalar>,
     {
         let trig = q.trig_or(Self::trig_source());
         Self::call(trig.borrow(), &()).poses(AllBodies)
@@ -75,13 +75,13 @@ impl<T, K> Engine<T, K> {
     #[doc(alias = "end effector")]
     #[inline(never)]
     #[must_use]
-    pub fn poses_of<R: Real, const N: usize, const B: usize, const Q: usize, const V: usize>(
-        q: &impl Configuration<R, Q>,
+    pub fn poses_of<Scalar: Real, const N: usize, const B: usize, const Q: usize, const V: usize>(
+        q: &impl Configuration<Scalar, Q>,
         bodies: impl Bodies<N>,
-    ) -> [Pose<R>; N]
+    ) -> [Pose<Scalar>; N]
     where
-        T: Robot<B, Q, V>,
-        K: Kernel<R>,
+        Arm: Robot<B, Q, V>,
+        Sines: Kernel<Scalar>,
     {
         let trig = q.trig_or(Self::trig_source());
         Self::call(trig.borrow(), &()).poses(bodies)
@@ -108,14 +108,14 @@ impl<T, K> Engine<T, K> {
     #[doc(alias = "forward kinematics")]
     #[inline(never)]
     #[must_use]
-    pub fn kinematics<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
-        state: impl RobotState<R, Q, V>,
+    pub fn kinematics<Scalar: Real, Effects, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<Scalar, Q, V>,
         effects: &Effects,
-    ) -> Kinematics<R, B>
+    ) -> Kinematics<Scalar, B>
     where
-        T: Robot<B, Q, V>,
-        K: Kernel<R>,
-        Effects: Effect<R, B, V>,
+        Arm: Robot<B, Q, V>,
+        Sines: Kernel<Scalar>,
+        Effects: Effect<Scalar, B, V>,
     {
         scene_is_taken!();
         let configuration = state.configuration();
@@ -151,21 +151,21 @@ impl<T, K> Engine<T, K> {
     #[inline(never)]
     #[must_use]
     pub fn kinematics_of<
-        R: Real,
+        Scalar: Real,
         Effects,
         const N: usize,
         const B: usize,
         const Q: usize,
         const V: usize,
     >(
-        state: impl RobotState<R, Q, V>,
+        state: impl RobotState<Scalar, Q, V>,
         effects: &Effects,
         bodies: impl Bodies<N>,
-    ) -> Kinematics<R, N>
+    ) -> Kinematics<Scalar, N>
     where
-        T: Robot<B, Q, V>,
-        K: Kernel<R>,
-        Effects: Effect<R, B, V>,
+        Arm: Robot<B, Q, V>,
+        Sines: Kernel<Scalar>,
+        Effects: Effect<Scalar, B, V>,
     {
         scene_is_taken!();
         let configuration = state.configuration();
@@ -199,26 +199,26 @@ impl<T, K> Engine<T, K> {
     #[inline(never)]
     #[must_use]
     pub fn bias_acceleration<
-        R: Real,
+        Scalar: Real,
         F,
         const BODY: usize,
         const B: usize,
         const Q: usize,
         const V: usize,
     >(
-        state: impl RobotState<R, Q, V>,
+        state: impl RobotState<Scalar, Q, V>,
         body: OnBody<BODY>,
         frame: F,
-    ) -> Motion<R>
+    ) -> Motion<Scalar>
     where
-        T: Robot<B, Q, V>,
-        K: Kernel<R>,
+        Arm: Robot<B, Q, V>,
+        Sines: Kernel<Scalar>,
         F: Frame,
     {
         let _ = frame;
         let configuration = state.configuration();
         let trig = configuration.trig_or(Self::trig_source());
-        let coasting = State { qdd: [R::ZERO; V], ..*state.state() };
+        let coasting = State { qdd: [Scalar::ZERO; V], ..*state.state() };
         let Kinematics { poses: [pose], velocities: [v], accelerations: [a] } = Self::call(
             trig.borrow(),
             &(),
@@ -228,13 +228,13 @@ impl<T, K> Engine<T, K> {
     }
 }
 
-impl<R: Real, Tree: Compiled, Effects, const B: usize, const Q: usize, const V: usize>
-    Call<'_, R, Tree, Effects, B, Q, V>
+impl<Scalar: Real, Tree: Compiled, Effects, const B: usize, const Q: usize, const V: usize>
+    Call<'_, Scalar, Tree, Effects, B, Q, V>
 {
     /// The poses of the bodies of the list.
     #[cfg_attr(optimised, inline(always))]
-    pub(super) fn poses<List: Bodies<N>, const N: usize>(self, bodies: List) -> [Pose<R>; N] {
-        let resting = State { q: [R::ZERO; Q], qd: [R::ZERO; V], qdd: [R::ZERO; V] };
+    pub(super) fn poses<List: Bodies<N>, const N: usize>(self, bodies: List) -> [Pose<Scalar>; N] {
+        let resting = State { q: [Scalar::ZERO; Q], qd: [Scalar::ZERO; V], qdd: [Scalar::ZERO; V] };
         let base = AccelerationField::RESTING;
         self.walk::<List, N, false>(&resting, &base, bodies).poses
     }
@@ -243,11 +243,11 @@ impl<R: Real, Tree: Compiled, Effects, const B: usize, const Q: usize, const V: 
     #[cfg_attr(optimised, inline(always))]
     fn walk<List: Bodies<N>, const N: usize, const RATES: bool>(
         self,
-        state: &State<R, Q, V>,
-        base: &AccelerationField<R>,
+        state: &State<Scalar, Q, V>,
+        base: &AccelerationField<Scalar>,
         _: List,
-    ) -> Kinematics<R, N> {
-        let mut walk = Walk::<R, Tree, List, N, Q, V, RATES> {
+    ) -> Kinematics<Scalar, N> {
+        let mut walk = Walk::<Scalar, Tree, List, N, Q, V, RATES> {
             turns: self.turns,
             state,
             found: Kinematics {
@@ -265,7 +265,7 @@ impl<R: Real, Tree: Compiled, Effects, const B: usize, const Q: usize, const V: 
 
 struct Walk<
     'a,
-    R: Real,
+    Scalar: Real,
     Tree,
     List,
     const N: usize,
@@ -273,32 +273,35 @@ struct Walk<
     const V: usize,
     const RATES: bool,
 > {
-    turns: &'a [JointCoordinate<R>; Q],
-    state: &'a State<R, Q, V>,
-    found: Kinematics<R, N>,
+    turns: &'a [JointCoordinate<Scalar>; Q],
+    state: &'a State<Scalar, Q, V>,
+    found: Kinematics<Scalar, N>,
     types: PhantomData<(Tree, List)>,
 }
 
 impl<
-    R: Real,
+    Scalar: Real,
     Tree: Compiled,
     List,
     const N: usize,
     const Q: usize,
     const V: usize,
     const RATES: bool,
-> Pass for Walk<'_, R, Tree, List, N, Q, V, RATES>
+> Pass for Walk<'_, Scalar, Tree, List, N, Q, V, RATES>
 where
     List: Bodies<N>,
 {
     type Tree = Tree;
-    type Outward = AccelerationField<R>;
+    type Outward = AccelerationField<Scalar>;
     type Inward = Nothing;
     const NOTHING: Nothing = Nothing;
     const JOINTS: u64 = joints::<Tree>(&List::NUMBERS);
 
     #[cfg_attr(optimised, inline(always))]
-    fn enter<const I: usize>(&mut self, parent: &AccelerationField<R>) -> AccelerationField<R> {
+    fn enter<const I: usize>(
+        &mut self,
+        parent: &AccelerationField<Scalar>,
+    ) -> AccelerationField<Scalar> {
         let motions = Motions {
             turns: self.turns,
             qd: &self.state.qd,
@@ -313,27 +316,27 @@ where
     }
 
     #[cfg_attr(optimised, inline(always))]
-    fn leave<const I: usize>(&mut self, _: &AccelerationField<R>, _: Nothing) -> Nothing {
+    fn leave<const I: usize>(&mut self, _: &AccelerationField<Scalar>, _: Nothing) -> Nothing {
         Nothing
     }
 }
 
 impl<
-    R: Real,
+    Scalar: Real,
     Tree: Compiled,
     List,
     const N: usize,
     const Q: usize,
     const V: usize,
     const RATES: bool,
-> Walk<'_, R, Tree, List, N, Q, V, RATES>
+> Walk<'_, Scalar, Tree, List, N, Q, V, RATES>
 where
     List: Bodies<N>,
 {
     /// Writes the poses and motions of the bodies of the list that move with joint I, or stand on
     /// the base.
     #[cfg_attr(optimised, inline(always))]
-    fn see<const I: usize>(&mut self, field: &AccelerationField<R>) {
+    fn see<const I: usize>(&mut self, field: &AccelerationField<Scalar>) {
         const { Named::<Tree, List, N, I, 0>::ARE_FEW };
         for_each_joint!(K, {
             if Named::<Tree, List, N, I, K>::IS_SOME {
@@ -351,11 +354,11 @@ where
 
 /// Pose, velocity and spatial acceleration of a body, in its own frame.
 #[cfg_attr(optimised, inline(always))]
-fn motion_of<R: Real>(
-    field: &AccelerationField<R>,
+fn motion_of<Scalar: Real>(
+    field: &AccelerationField<Scalar>,
     place: &'static BodyPlacement,
     length: f64,
-) -> (Pose<R>, Motion<R>, Motion<R>) {
+) -> (Pose<Scalar>, Motion<Scalar>, Motion<Scalar>) {
     let (rot, pos) = (Mat3::constant(&place.rot), Vec3::constant(place.pos));
     let length = Folded::constant(length);
     let x = field.pose.of(place, length);
@@ -369,6 +372,6 @@ fn motion_of<R: Real>(
 
 /// A motion in the body's own frame.
 #[cfg_attr(optimised, inline(always))]
-fn own<R: Real>(rot: &Mat3<R>, ang: Vec3<R>, lin: Vec3<R>) -> Motion<R> {
+fn own<Scalar: Real>(rot: &Mat3<Scalar>, ang: Vec3<Scalar>, lin: Vec3<Scalar>) -> Motion<Scalar> {
     Motion::new(rot.transpose_mul(ang).get(), rot.transpose_mul(lin).get())
 }

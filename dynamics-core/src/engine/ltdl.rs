@@ -11,7 +11,7 @@ use crate::algorithms::{MATRIX_ROUNDINGS, NotPositiveDefinite};
 use crate::model::Robot;
 use crate::scalar::Real;
 
-impl<T, K> Engine<T, K> {
+impl<Arm, Sines> Engine<Arm, Sines> {
     /// The factors of M = Lᵀ D L, for [`Engine::solve`].
     ///
     /// # Cost
@@ -37,21 +37,22 @@ impl<T, K> Engine<T, K> {
     /// roundings of M_ii, as [`ltdl`](crate::algorithms::ltdl()) does: it moves no inertia when its
     /// descendants are free.
     #[cfg_attr(optimised, inline(always))]
-    pub fn ltdl<R: Real, const B: usize, const Q: usize, const V: usize>(
-        m: &MassMatrix<R, V>,
-    ) -> Result<Ltdl<R, V>, NotPositiveDefinite>
+    pub fn ltdl<Scalar: Real, const B: usize, const Q: usize, const V: usize>(
+        m: &MassMatrix<Scalar, V>,
+    ) -> Result<Ltdl<Scalar, V>, NotPositiveDefinite>
     where
-        T: Robot<B, Q, V>,
+        Arm: Robot<B, Q, V>,
     {
         let mut rows = m.rows;
-        let mut noise = [R::ZERO; V];
+        let mut noise = [Scalar::ZERO; V];
         for_each_joint!(J, {
             if Index::<J, V>::IS_BELOW {
-                noise[J] =
-                    rows[J][J] * (R::EPSILON * R::from_f64(MATRIX_ROUNDINGS)) + R::MIN_POSITIVE;
+                noise[J] = rows[J][J] * (Scalar::EPSILON * Scalar::from_f64(MATRIX_ROUNDINGS))
+                    + Scalar::MIN_POSITIVE;
             }
         });
-        let d_inv = decompose::<R, CompiledRobot<T, B, Q, V>, V>(&mut rows, &noise, &[false; V])?;
+        let d_inv =
+            decompose::<Scalar, CompiledRobot<Arm, B, Q, V>, V>(&mut rows, &noise, &[false; V])?;
         Ok(Ltdl { rows, d_inv })
     }
 
@@ -64,15 +65,15 @@ impl<T, K> Engine<T, K> {
     /// RBDA (2008), table 6.4.
     #[cfg_attr(optimised, inline(always))]
     #[must_use]
-    pub fn solve<R: Real, const B: usize, const Q: usize, const V: usize>(
-        factor: &Ltdl<R, V>,
-        tau: &[R; V],
-    ) -> [R; V]
+    pub fn solve<Scalar: Real, const B: usize, const Q: usize, const V: usize>(
+        factor: &Ltdl<Scalar, V>,
+        tau: &[Scalar; V],
+    ) -> [Scalar; V]
     where
-        T: Robot<B, Q, V>,
+        Arm: Robot<B, Q, V>,
     {
         let mut x = *tau;
-        substitute::<R, CompiledRobot<T, B, Q, V>, V>(&factor.rows, &factor.d_inv, &mut x);
+        substitute::<Scalar, CompiledRobot<Arm, B, Q, V>, V>(&factor.rows, &factor.d_inv, &mut x);
         x
     }
 }
@@ -81,31 +82,32 @@ impl<T, K> Engine<T, K> {
 /// Those that are certain to, in any state of numbers, are looked at only if that of a joint on the
 /// base does not, to which a NaN spreads.
 #[cfg_attr(optimised, inline(always))]
-pub(crate) fn decompose<R: Real, Tree, const V: usize>(
-    m: &mut [[R; V]; V],
-    noise: &[R; V],
+pub(crate) fn decompose<Scalar: Real, Tree, const V: usize>(
+    m: &mut [[Scalar; V]; V],
+    noise: &[Scalar; V],
     certain: &[bool; V],
-) -> Result<[R; V], NotPositiveDefinite>
+) -> Result<[Scalar; V], NotPositiveDefinite>
 where
     Tree: Compiled,
 {
-    let (mut d_inv, mut singular) = ([R::ZERO; V], Singular::default());
+    let (mut d_inv, mut singular) = ([Scalar::ZERO; V], Singular::default());
     for_each_joint_reversed!(K, {
         if Index::<K, V>::IS_BELOW
-            && let Some(eliminate) =
-                const { only_if(K < V, eliminate::<R, Tree, V, K> as fn(&mut [[R; V]; V], R)) }
+            && let Some(eliminate) = const {
+                only_if(K < V, eliminate::<Scalar, Tree, V, K> as fn(&mut [[Scalar; V]; V], Scalar))
+            }
         {
             if !certain[K] {
-                singular.note::<R, K>(m[K][K], noise[K]);
+                singular.note::<Scalar, K>(m[K][K], noise[K]);
             }
-            d_inv[K] = R::ONE / m[K][K];
+            d_inv[K] = Scalar::ONE / m[K][K];
             eliminate(m, d_inv[K]);
         }
     });
     if singular.is_any() {
         for_each_joint!(K, {
             if Index::<K, V>::IS_BELOW && certain[K] {
-                singular.note::<R, K>(d_inv[K], -R::ONE);
+                singular.note::<Scalar, K>(d_inv[K], -Scalar::ONE);
             }
         });
         singular.outermost()?;
@@ -115,8 +117,10 @@ where
 
 /// Row K of L, and its share of the rows of its ancestors.
 #[cfg_attr(optimised, inline(always))]
-fn eliminate<R: Real, Tree, const V: usize, const K: usize>(m: &mut [[R; V]; V], d_inv: R)
-where
+fn eliminate<Scalar: Real, Tree, const V: usize, const K: usize>(
+    m: &mut [[Scalar; V]; V],
+    d_inv: Scalar,
+) where
     Tree: Compiled,
 {
     for_each_joint_reversed!(I, {
@@ -124,7 +128,7 @@ where
             && let Some(subtract) = const {
                 only_if(
                     JointPair::<Tree, I, K>::IS_ANCESTOR,
-                    subtract::<R, Tree, V, K, I> as fn(&mut [[R; V]; V], R),
+                    subtract::<Scalar, Tree, V, K, I> as fn(&mut [[Scalar; V]; V], Scalar),
                 )
             }
         {
@@ -137,9 +141,9 @@ where
 
 /// Row I less `l` times row K.
 #[cfg_attr(optimised, inline(always))]
-fn subtract<R: Real, Tree, const V: usize, const K: usize, const I: usize>(
-    m: &mut [[R; V]; V],
-    l: R,
+fn subtract<Scalar: Real, Tree, const V: usize, const K: usize, const I: usize>(
+    m: &mut [[Scalar; V]; V],
+    l: Scalar,
 ) where
     Tree: Compiled,
 {
@@ -151,27 +155,29 @@ fn subtract<R: Real, Tree, const V: usize, const K: usize, const I: usize>(
 }
 
 /// A function of one row.
-type Row<R, const V: usize> = fn(&[[R; V]; V], &mut [R; V]);
+type Row<Scalar, const V: usize> = fn(&[[Scalar; V]; V], &mut [Scalar; V]);
 
 /// Lᵀ y = τ, D z = y, L x = z, in place.
 #[cfg_attr(optimised, inline(always))]
-pub(crate) fn substitute<R: Real, Tree, const V: usize>(
-    l: &[[R; V]; V],
-    d_inv: &[R; V],
-    x: &mut [R; V],
+pub(crate) fn substitute<Scalar: Real, Tree, const V: usize>(
+    l: &[[Scalar; V]; V],
+    d_inv: &[Scalar; V],
+    x: &mut [Scalar; V],
 ) where
     Tree: Compiled,
 {
     for_each_joint_reversed!(I, {
         if Index::<I, V>::IS_BELOW
-            && let Some(scatter) = const { only_if(I < V, scatter::<R, Tree, V, I> as Row<R, V>) }
+            && let Some(scatter) =
+                const { only_if(I < V, scatter::<Scalar, Tree, V, I> as Row<Scalar, V>) }
         {
             scatter(l, x);
         }
     });
     for_each_joint!(I, {
         if Index::<I, V>::IS_BELOW
-            && let Some(gather) = const { only_if(I < V, gather::<R, Tree, V, I> as Row<R, V>) }
+            && let Some(gather) =
+                const { only_if(I < V, gather::<Scalar, Tree, V, I> as Row<Scalar, V>) }
         {
             x[I] *= d_inv[I];
             gather(l, x);
@@ -181,8 +187,10 @@ pub(crate) fn substitute<R: Real, Tree, const V: usize>(
 
 /// Subtracts from x_I the products with the entries of its ancestors.
 #[cfg_attr(optimised, inline(always))]
-fn scatter<R: Real, Tree, const V: usize, const I: usize>(l: &[[R; V]; V], x: &mut [R; V])
-where
+fn scatter<Scalar: Real, Tree, const V: usize, const I: usize>(
+    l: &[[Scalar; V]; V],
+    x: &mut [Scalar; V],
+) where
     Tree: Compiled,
 {
     for_each_joint!(J, {
@@ -194,8 +202,10 @@ where
 
 /// Subtracts the products with x_I from the entries of its ancestors.
 #[cfg_attr(optimised, inline(always))]
-fn gather<R: Real, Tree, const V: usize, const I: usize>(l: &[[R; V]; V], x: &mut [R; V])
-where
+fn gather<Scalar: Real, Tree, const V: usize, const I: usize>(
+    l: &[[Scalar; V]; V],
+    x: &mut [Scalar; V],
+) where
     Tree: Compiled,
 {
     for_each_joint!(J, {

@@ -66,11 +66,11 @@ const fn only_if<F: Copy>(condition: bool, function: F) -> Option<F> {
     if condition { Some(function) } else { None }
 }
 
-/// Fails to compile, in the body of the public function that it stands in, for a robot T and
+/// Fails to compile, in the body of the public function that it stands in, for a robot `Arm` and
 /// Effects that the engine does not take.
 macro_rules! scene_is_taken {
     () => {
-        const { $crate::engine::gate::EngineScene::<T, R, Effects, B, Q, V>::TAKEN }
+        const { $crate::engine::gate::EngineScene::<Arm, Scalar, Effects, B, Q, V>::TAKEN }
     };
 }
 
@@ -126,8 +126,8 @@ pub(crate) use compile::{
 };
 pub(crate) use subtree::has_subtree_functions;
 
-/// The algorithms specialised at compile time for the robot `T`; sines and cosines by the kernel
-/// `K`.
+/// The algorithms specialised at compile time for the robot `Arm`; sines and cosines by the kernel
+/// `Sines`.
 ///
 /// Robots: trees of up to 64 velocity coordinates on joints of any kind. Any number of bodies may
 /// be welded to one moving body, but at most 32 in a scene with wrenches
@@ -164,33 +164,35 @@ pub(crate) use subtree::has_subtree_functions;
 /// // error: the engine takes up to 64 velocity coordinates; use `Core`
 /// ```
 #[derive(Clone, Copy, Debug)]
-pub struct Engine<T, K = Native>(PhantomData<(T, K)>);
+pub struct Engine<Arm, Sines = Native>(PhantomData<(Arm, Sines)>);
 
-impl<T, K> Engine<T, K> {
+impl<Arm, Sines> Engine<Arm, Sines> {
     /// The sines and cosines of the configuration q, for every algorithm of a tick.
     #[cfg_attr(optimised, inline(always))]
     #[must_use]
-    pub fn joint_trig<R: Real, const B: usize, const Q: usize, const V: usize>(
-        q: &[R; Q],
-    ) -> JointTrig<R, Q>
+    pub fn joint_trig<Scalar: Real, const B: usize, const Q: usize, const V: usize>(
+        q: &[Scalar; Q],
+    ) -> JointTrig<Scalar, Q>
     where
-        T: Robot<B, Q, V>,
-        K: Kernel<R>,
+        Arm: Robot<B, Q, V>,
+        Sines: Kernel<Scalar>,
     {
-        if let Some(near) = const { CompiledRobot::<T, B, Q, V>::ALL_TURN }
+        if let Some(near) = const { CompiledRobot::<Arm, B, Q, V>::ALL_TURN }
             && VECTORS
         {
             let coordinates = if near {
-                JointCoordinate::of_all::<K, true, Q>(q)
+                JointCoordinate::of_all::<Sines, true, Q>(q)
             } else {
-                JointCoordinate::of_all::<K, false, Q>(q)
+                JointCoordinate::of_all::<Sines, false, Q>(q)
             };
             return JointTrig { coordinates };
         }
         let mut turns = [JointCoordinate::default(); Q];
         for_each_joint!(J, {
             if Index::<J, V>::IS_BELOW {
-                CompiledJoint::<CompiledRobot<T, B, Q, V>, J>::turn::<R, K, Q>(q, &mut turns);
+                CompiledJoint::<CompiledRobot<Arm, B, Q, V>, J>::turn::<Scalar, Sines, Q>(
+                    q, &mut turns,
+                );
             }
         });
         JointTrig { coordinates: turns }
@@ -218,14 +220,14 @@ impl<T, K> Engine<T, K> {
     #[doc(alias = "ID")]
     #[doc(alias = "inverse dynamics")]
     #[inline(never)]
-    pub fn rnea<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
-        state: impl RobotState<R, Q, V>,
+    pub fn rnea<Scalar: Real, Effects, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<Scalar, Q, V>,
         effects: &Effects,
-    ) -> [R; V]
+    ) -> [Scalar; V]
     where
-        T: Robot<B, Q, V>,
-        K: Kernel<R>,
-        Effects: Effect<R, B, V>,
+        Arm: Robot<B, Q, V>,
+        Sines: Kernel<Scalar>,
+        Effects: Effect<Scalar, B, V>,
     {
         scene_is_taken!();
         let trig = state.configuration().trig_or(Self::trig_source());
@@ -244,46 +246,54 @@ impl<T, K> Engine<T, K> {
 /// hides from the compiler that both references are the same, since it would spill the loaded
 /// values to the stack.
 #[cfg_attr(optimised, inline(always))]
-fn loaded_again<'a, R: Real, State: RobotState<R, Q, V>, const Q: usize, const V: usize>(
+fn loaded_again<
+    'a,
+    Scalar: Real,
+    State: RobotState<Scalar, Q, V>,
+    const Q: usize,
+    const V: usize,
+>(
     _: &State,
-    trig: &'a JointTrig<R, Q>,
-) -> &'a JointTrig<R, Q> {
+    trig: &'a JointTrig<Scalar, Q>,
+) -> &'a JointTrig<Scalar, Q> {
     if const { State::Configuration::PRECOMPUTED } { black_box(trig) } else { trig }
 }
 
 /// [`Engine::joint_trig`] of a robot of B bodies and V velocity coordinates.
-pub(crate) struct Specialised<T, K, const B: usize, const V: usize>(PhantomData<(T, K)>);
+pub(crate) struct Specialised<Arm, Sines, const B: usize, const V: usize>(
+    PhantomData<(Arm, Sines)>,
+);
 
-impl<R: Real, T, K, const B: usize, const Q: usize, const V: usize> TrigSource<R, Q>
-    for Specialised<T, K, B, V>
+impl<Scalar: Real, Arm, Sines, const B: usize, const Q: usize, const V: usize> TrigSource<Scalar, Q>
+    for Specialised<Arm, Sines, B, V>
 where
-    T: Robot<B, Q, V>,
-    K: Kernel<R>,
+    Arm: Robot<B, Q, V>,
+    Sines: Kernel<Scalar>,
 {
     #[cfg_attr(optimised, inline(always))]
-    fn compute(&self, q: &[R; Q]) -> JointTrig<R, Q> {
-        Engine::<T, K>::joint_trig(q)
+    fn compute(&self, q: &[Scalar; Q]) -> JointTrig<Scalar, Q> {
+        Engine::<Arm, Sines>::joint_trig(q)
     }
 }
 
-impl<T> Engine<T> {
+impl<Arm> Engine<Arm> {
     /// The recursion of [`rnea`] for clusters, whose sines are known; `back` is `trig` as the
     /// inward pass loads it.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn run<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
-        trig: &JointTrig<R, Q>,
-        back: &JointTrig<R, Q>,
-        state: &State<R, Q, V>,
+    pub(crate) fn run<Scalar: Real, Effects, const B: usize, const Q: usize, const V: usize>(
+        trig: &JointTrig<Scalar, Q>,
+        back: &JointTrig<Scalar, Q>,
+        state: &State<Scalar, Q, V>,
         effects: &Effects,
-    ) -> [R; V]
+    ) -> [Scalar; V]
     where
-        T: Robot<B, Q, V>,
-        Effects: Effect<R, B, V>,
+        Arm: Robot<B, Q, V>,
+        Effects: Effect<Scalar, B, V>,
     {
         scene_is_taken!();
         // Not a constant, as in `torques`: where sines are known it costs instructions (decision
         // 13).
-        let mut tau = [R::ZERO; V];
+        let mut tau = [Scalar::ZERO; V];
         Self::call(trig, effects).write_torques(&back.coordinates, state, &mut tau);
         tau
     }

@@ -22,7 +22,7 @@ use crate::scalar::Real;
 use crate::state::{Configuration, RobotState, State};
 use crate::trig::Kernel;
 
-impl<T, K> Engine<T, K> {
+impl<Arm, Sines> Engine<Arm, Sines> {
     /// The generalised momentum p = M q̇ and the transposed Coriolis product Cᵀ q̇, in joint
     /// coordinates, N·m·s and N·m, as [`crate::algorithms::momentum_and_coriolis`] computes them.
     ///
@@ -46,14 +46,20 @@ impl<T, K> Engine<T, K> {
     /// ```
     #[doc(alias = "momentum observer")]
     #[inline(never)]
-    pub fn momentum_and_coriolis<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
-        state: impl RobotState<R, Q, V>,
+    pub fn momentum_and_coriolis<
+        Scalar: Real,
+        Effects,
+        const B: usize,
+        const Q: usize,
+        const V: usize,
+    >(
+        state: impl RobotState<Scalar, Q, V>,
         effects: &Effects,
-    ) -> MomentumAndCoriolis<R, V>
+    ) -> MomentumAndCoriolis<Scalar, V>
     where
-        T: Robot<B, Q, V>,
-        K: Kernel<R>,
-        Effects: Effect<R, B, V>,
+        Arm: Robot<B, Q, V>,
+        Sines: Kernel<Scalar>,
+        Effects: Effect<Scalar, B, V>,
     {
         scene_is_taken!();
         let trig = state.configuration().trig_or(Self::trig_source());
@@ -90,14 +96,20 @@ impl<T, K> Engine<T, K> {
     /// ```
     #[doc(alias = "momentum observer")]
     #[inline(never)]
-    pub fn momentum_and_drift<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
-        state: impl RobotState<R, Q, V>,
+    pub fn momentum_and_drift<
+        Scalar: Real,
+        Effects,
+        const B: usize,
+        const Q: usize,
+        const V: usize,
+    >(
+        state: impl RobotState<Scalar, Q, V>,
         effects: &Effects,
-    ) -> MomentumAndDrift<R, V>
+    ) -> MomentumAndDrift<Scalar, V>
     where
-        T: Robot<B, Q, V>,
-        K: Kernel<R>,
-        Effects: Effect<R, B, V>,
+        Arm: Robot<B, Q, V>,
+        Sines: Kernel<Scalar>,
+        Effects: Effect<Scalar, B, V>,
     {
         scene_is_taken!();
         let trig = state.configuration().trig_or(Self::trig_source());
@@ -107,23 +119,24 @@ impl<T, K> Engine<T, K> {
     }
 }
 
-impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize>
-    Call<'_, R, Tree, Effects, B, Q, V>
+impl<Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize>
+    Call<'_, Scalar, Tree, Effects, B, Q, V>
 where
-    R: Real,
+    Scalar: Real,
     Tree: Compiled,
-    Effects: Effect<R, B, V>,
+    Effects: Effect<Scalar, B, V>,
 {
     /// The recursion of p and β, or of p and Cᵀ q̇ without DRIFT; `back` are the positions as they
     /// are loaded on returning.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn momenta<const DRIFT: bool>(
         self,
-        back: &[JointCoordinate<R>; Q],
-        state: &State<R, Q, V>,
-    ) -> MomentumAndDrift<R, V> {
+        back: &[JointCoordinate<Scalar>; Q],
+        state: &State<Scalar, Q, V>,
+    ) -> MomentumAndDrift<Scalar, V> {
         // A constant, for the order of the sines: see `torques` of `rnea`.
-        let mut result = const { MomentumAndDrift { p: [R::ZERO; V], beta: [R::ZERO; V] } };
+        let mut result =
+            const { MomentumAndDrift { p: [Scalar::ZERO; V], beta: [Scalar::ZERO; V] } };
         let mut base = self.unaccelerated();
         if !DRIFT {
             base.a = Vec3::ZERO;
@@ -142,36 +155,36 @@ where
 }
 
 /// The data that all bodies share.
-struct Task<'a, R: Real, Tree, Effects, const B: usize, const Q: usize, const V: usize> {
-    call: Call<'a, R, Tree, Effects, B, Q, V>,
+struct Task<'a, Scalar: Real, Tree, Effects, const B: usize, const Q: usize, const V: usize> {
+    call: Call<'a, Scalar, Tree, Effects, B, Q, V>,
     /// The positions of the call, loaded again on returning.
-    back: &'a [JointCoordinate<R>; Q],
-    state: &'a State<R, Q, V>,
-    result: &'a mut MomentumAndDrift<R, V>,
+    back: &'a [JointCoordinate<Scalar>; Q],
+    state: &'a State<Scalar, Q, V>,
+    result: &'a mut MomentumAndDrift<Scalar, V>,
 }
 
 /// The momentum of a body and its descendants, and the wrench that carries their weight less those
 /// of the environment.
 #[derive(Clone, Copy)]
-struct Carried<R> {
-    h: Wrench<R>,
-    load: Wrench<R>,
+struct Carried<Scalar> {
+    h: Wrench<Scalar>,
+    load: Wrench<Scalar>,
 }
 
-impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize>
-    Task<'_, R, Tree, Effects, B, Q, V>
+impl<Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize>
+    Task<'_, Scalar, Tree, Effects, B, Q, V>
 where
-    R: Real,
+    Scalar: Real,
     Tree: Compiled,
-    Effects: Effect<R, B, V>,
+    Effects: Effect<Scalar, B, V>,
 {
     /// Visits joint I and its descendants; returns what they carry about the origin of the parent,
     /// in its frame.
     #[cfg_attr(optimised, inline(always))]
     fn visit<const DRIFT: bool, const I: usize>(
         &mut self,
-        parent: &AccelerationField<R>,
-    ) -> Carried<R> {
+        parent: &AccelerationField<Scalar>,
+    ) -> Carried<Scalar> {
         let at = self.call.displacement::<I>();
         let mut body = Self::across::<I>(parent, &at, &self.state.qd);
         if DRIFT && Effects::BODY_POSE {
@@ -182,7 +195,7 @@ where
         for_each_joint!(
             J,
             JointPair::<Tree, I, J>::IS_CHILD,
-            visit = Self::visit::<DRIFT, J> as fn(&mut _, &_) -> Carried<R>,
+            visit = Self::visit::<DRIFT, J> as fn(&mut _, &_) -> Carried<Scalar>,
             {
                 let child = visit(self, &body);
                 inner = Carried { h: inner.h + child.h, load: inner.load + child.load };
@@ -232,10 +245,10 @@ where
     /// The velocities of the body behind joint I.
     #[cfg_attr(optimised, inline(always))]
     fn across<const I: usize>(
-        parent: &AccelerationField<R>,
-        at: &Displacement<R, Tree, I>,
-        qd: &[R; V],
-    ) -> AccelerationField<R> {
+        parent: &AccelerationField<Scalar>,
+        at: &Displacement<Scalar, Tree, I>,
+        qd: &[Scalar; V],
+    ) -> AccelerationField<Scalar> {
         if CompiledJoint::<Tree, I>::COUNT > 1 {
             let rates = SeveralRates {
                 velocity: Twist::of::<Tree, V, I>(qd, true),
@@ -258,7 +271,7 @@ where
     /// The entries of p and of Cᵀ q̇ of coordinate I, whose body moves as `body` and has with its
     /// descendants the momentum `h`.
     #[cfg_attr(optimised, inline(always))]
-    fn entries<const I: usize>(&mut self, body: &AccelerationField<R>, h: &Wrench<R>) {
+    fn entries<const I: usize>(&mut self, body: &AccelerationField<Scalar>, h: &Wrench<Scalar>) {
         let joint = CompiledJoint::<Tree, I>::JOINT;
         let length_inv = Folded::constant(Tree::LENGTH_INV);
         let mut p = h.along(joint, length_inv).get();
@@ -271,7 +284,11 @@ where
 
     /// The same of all coordinates of a joint.
     #[cfg_attr(optimised, inline(always))]
-    fn several_entries<const I: usize>(&mut self, body: &AccelerationField<R>, h: &Wrench<R>) {
+    fn several_entries<const I: usize>(
+        &mut self,
+        body: &AccelerationField<Scalar>,
+        h: &Wrench<Scalar>,
+    ) {
         for_each_joint!(
             K,
             JointPair::<Tree, I, K>::IS_COORDINATE,
@@ -285,7 +302,7 @@ where
     /// Subtracts from the entry of coordinate I what carries `load` and what the effects at the
     /// joint need.
     #[cfg_attr(optimised, inline(always))]
-    fn hold<const I: usize>(&mut self, load: &Wrench<R>) {
+    fn hold<const I: usize>(&mut self, load: &Wrench<Scalar>) {
         let length_inv = Folded::constant(Tree::LENGTH_INV);
         let at = self.call.joint_state::<I>(self.state);
         let mut held = load.along(CompiledJoint::<Tree, I>::JOINT, length_inv).get();
@@ -295,7 +312,7 @@ where
 
     /// The same of all coordinates of a joint.
     #[cfg_attr(optimised, inline(always))]
-    fn hold_several<const I: usize>(&mut self, load: &Wrench<R>) {
+    fn hold_several<const I: usize>(&mut self, load: &Wrench<Scalar>) {
         for_each_joint!(
             K,
             JointPair::<Tree, I, K>::IS_COORDINATE,
@@ -308,7 +325,10 @@ where
 
     /// The entry of Cᵀ q̇ of a coordinate: (v × S)ᵀ h = −Sᵀ (v ×* h).
     #[cfg_attr(optimised, inline(always))]
-    fn rate<const I: usize>(body: &AccelerationField<R>, h: &Wrench<R>) -> Folded<R> {
+    fn rate<const I: usize>(
+        body: &AccelerationField<Scalar>,
+        h: &Wrench<Scalar>,
+    ) -> Folded<Scalar> {
         let length_inv = Folded::constant(Tree::LENGTH_INV);
         if matches!(CompiledJoint::<Tree, I>::MOTION, JointMotion::Turn | JointMotion::Slide) {
             let ([wx, wy, _], [vx, vy, _]) = (body.omega.0, body.v.0);
@@ -327,7 +347,10 @@ where
 
 /// The momentum I v of a body: m v + ω × h, and h × v + tr(Σ) ω − Σ ω.
 #[cfg_attr(optimised, inline(always))]
-pub(super) fn momentum<R: Real>(body: &AccelerationField<R>, inertia: &Inertia<R>) -> Wrench<R> {
+pub(super) fn momentum<Scalar: Real>(
+    body: &AccelerationField<Scalar>,
+    inertia: &Inertia<Scalar>,
+) -> Wrench<Scalar> {
     let (s, [wx, wy, wz]) = (&inertia.second, body.omega.0);
     let (xy, xz, yz) = (s.xx + s.yy, s.xx + s.zz, s.yy + s.zz);
     let spin = Vec3([

@@ -19,7 +19,7 @@ use crate::spatial::{Force, Motion};
 use crate::state::{Configuration, JointTrig};
 use crate::trig::Kernel;
 
-impl<T, K> Engine<T, K> {
+impl<Arm, Sines> Engine<Arm, Sines> {
     /// The operational-space inertia of a task on a body along some directions, expressed in a
     /// [`Frame`], as [`crate::algorithms::operational_space`] computes it.
     ///
@@ -51,25 +51,25 @@ impl<T, K> Engine<T, K> {
     #[doc(alias = "OSIM")]
     #[inline(never)]
     pub fn operational_space<
-        R: Real,
+        Scalar: Real,
         const M: usize,
         const BODY: usize,
         const B: usize,
         const Q: usize,
         const V: usize,
     >(
-        q: &impl Configuration<R, Q>,
+        q: &impl Configuration<Scalar, Q>,
         (body, frame): (OnBody<BODY>, impl Frame),
-        directions: &[Force<R>; M],
-        effects: &impl Effect<R, B, V>,
-        damping: Damping<R>,
-    ) -> Result<OperationalSpace<R, M, V>, NotPositiveDefinite>
+        directions: &[Force<Scalar>; M],
+        effects: &impl Effect<Scalar, B, V>,
+        damping: Damping<Scalar>,
+    ) -> Result<OperationalSpace<Scalar, M, V>, NotPositiveDefinite>
     where
-        T: Robot<B, Q, V>,
-        K: Kernel<R>,
+        Arm: Robot<B, Q, V>,
+        Sines: Kernel<Scalar>,
     {
         let trig = q.trig_or(Self::trig_source());
-        let trig: &JointTrig<R, Q> = trig.borrow();
+        let trig: &JointTrig<Scalar, Q> = trig.borrow();
         let rows = task_jacobian(&Self::jacobian(trig, body, frame), directions);
         Self::of_rows(trig, rows, effects, damping)
     }
@@ -105,22 +105,22 @@ impl<T, K> Engine<T, K> {
     /// As [`Engine::operational_space`].
     #[inline(never)]
     pub fn operational_space_of_rows<
-        R: Real,
+        Scalar: Real,
         Effects,
         const M: usize,
         const B: usize,
         const Q: usize,
         const V: usize,
     >(
-        q: &impl Configuration<R, Q>,
-        rows: [[R; V]; M],
+        q: &impl Configuration<Scalar, Q>,
+        rows: [[Scalar; V]; M],
         effects: &Effects,
-        damping: Damping<R>,
-    ) -> Result<OperationalSpace<R, M, V>, NotPositiveDefinite>
+        damping: Damping<Scalar>,
+    ) -> Result<OperationalSpace<Scalar, M, V>, NotPositiveDefinite>
     where
-        T: Robot<B, Q, V>,
-        K: Kernel<R>,
-        Effects: Effect<R, B, V>,
+        Arm: Robot<B, Q, V>,
+        Sines: Kernel<Scalar>,
+        Effects: Effect<Scalar, B, V>,
     {
         scene_is_taken!();
         let trig = q.trig_or(Self::trig_source());
@@ -157,29 +157,29 @@ impl<T, K> Engine<T, K> {
     #[doc(alias = "OSIM")]
     #[inline(never)]
     pub fn osim_inverse<
-        R: Real,
+        Scalar: Real,
         Effects,
         const BODY: usize,
         const B: usize,
         const Q: usize,
         const V: usize,
     >(
-        q: &impl Configuration<R, Q>,
+        q: &impl Configuration<Scalar, Q>,
         body: OnBody<BODY>,
         frame: impl Frame,
         effects: &Effects,
-    ) -> Result<OsimInverse<R>, NotPositiveDefinite>
+    ) -> Result<OsimInverse<Scalar>, NotPositiveDefinite>
     where
-        T: Robot<B, Q, V>,
-        K: Kernel<R>,
-        Effects: Effect<R, B, V>,
+        Arm: Robot<B, Q, V>,
+        Sines: Kernel<Scalar>,
+        Effects: Effect<Scalar, B, V>,
     {
         scene_is_taken!();
         let trig = q.trig_or(Self::trig_source());
-        let trig: &JointTrig<R, Q> = trig.borrow();
+        let trig: &JointTrig<Scalar, Q> = trig.borrow();
         let factors = Self::ltdl(&Self::crba(trig, effects))?;
         let mut columns = Self::jacobian(trig, body, frame);
-        Ok(mobility::<R, CompiledRobot<T, B, Q, V>, V, BODY>(
+        Ok(mobility::<Scalar, CompiledRobot<Arm, B, Q, V>, V, BODY>(
             &factors.rows,
             &factors.d_inv,
             &mut columns,
@@ -187,16 +187,23 @@ impl<T, K> Engine<T, K> {
     }
 
     #[cfg_attr(optimised, inline(always))]
-    fn of_rows<R: Real, Effects, const M: usize, const B: usize, const Q: usize, const V: usize>(
-        trig: &JointTrig<R, Q>,
-        rows: [[R; V]; M],
+    fn of_rows<
+        Scalar: Real,
+        Effects,
+        const M: usize,
+        const B: usize,
+        const Q: usize,
+        const V: usize,
+    >(
+        trig: &JointTrig<Scalar, Q>,
+        rows: [[Scalar; V]; M],
         effects: &Effects,
-        damping: Damping<R>,
-    ) -> Result<OperationalSpace<R, M, V>, NotPositiveDefinite>
+        damping: Damping<Scalar>,
+    ) -> Result<OperationalSpace<Scalar, M, V>, NotPositiveDefinite>
     where
-        T: Robot<B, Q, V>,
-        K: Kernel<R>,
-        Effects: Effect<R, B, V>,
+        Arm: Robot<B, Q, V>,
+        Sines: Kernel<Scalar>,
+        Effects: Effect<Scalar, B, V>,
     {
         let factors = Self::ltdl(&Self::crba(trig, effects))?;
         let solve = |tau: &_| Self::solve(&factors, tau);
@@ -206,18 +213,19 @@ impl<T, K> Engine<T, K> {
 
 /// Λ⁻¹ of a body from the columns of its J, which become those of J L⁻¹, in place.
 #[cfg_attr(optimised, inline(always))]
-fn mobility<R: Real, Tree: Compiled, const V: usize, const BODY: usize>(
-    l: &[[R; V]; V],
-    d_inv: &[R; V],
-    columns: &mut [Motion<R>; V],
-) -> OsimInverse<R> {
+fn mobility<Scalar: Real, Tree: Compiled, const V: usize, const BODY: usize>(
+    l: &[[Scalar; V]; V],
+    d_inv: &[Scalar; V],
+    columns: &mut [Motion<Scalar>; V],
+) -> OsimInverse<Scalar> {
     let mut mobility = OsimInverse::ZERO;
     for_each_joint_reversed!(I, {
         if JointAndBody::<Tree, I, BODY>::SUPPORTS
             && let Some(scatter) = const {
                 only_if(
                     JointAndBody::<Tree, I, BODY>::SUPPORTS,
-                    scatter::<R, Tree, V, I> as fn(&[[R; V]; V], &mut [Motion<R>; V]),
+                    scatter::<Scalar, Tree, V, I>
+                        as fn(&[[Scalar; V]; V], &mut [Motion<Scalar>; V]),
                 )
             }
         {
@@ -230,9 +238,9 @@ fn mobility<R: Real, Tree: Compiled, const V: usize, const BODY: usize>(
 
 /// Subtracts from the columns of joint I's ancestors its own, times their entries of L.
 #[cfg_attr(optimised, inline(always))]
-fn scatter<R: Real, Tree: Compiled, const V: usize, const I: usize>(
-    l: &[[R; V]; V],
-    columns: &mut [Motion<R>; V],
+fn scatter<Scalar: Real, Tree: Compiled, const V: usize, const I: usize>(
+    l: &[[Scalar; V]; V],
+    columns: &mut [Motion<Scalar>; V],
 ) {
     for_each_joint!(J, {
         if JointPair::<Tree, J, I>::IS_ANCESTOR {

@@ -24,19 +24,19 @@ use crate::scalar::Real;
 
 /// The sums of a composite body, in the frame of its joint.
 #[derive(Clone, Copy)]
-pub(crate) struct Felt<R> {
-    mass: Folded<R>,
+pub(crate) struct Felt<Scalar> {
+    mass: Folded<Scalar>,
     /// h.
-    moment: Vec3<R>,
+    moment: Vec3<Scalar>,
     /// Σ_xx + Σ_yy, about the parallel axes.
-    pub(crate) about: Folded<R>,
+    pub(crate) about: Folded<Scalar>,
     /// z·Σe, the component of M of the joint and the one on the base if that one moves at rate −1.
-    pub(crate) between: Folded<R>,
+    pub(crate) between: Folded<Scalar>,
     /// u·Σu + Σ_zz, about the axis of the joint on the base.
-    of_root: Folded<R>,
+    of_root: Folded<Scalar>,
 }
 
-impl<R: Real> Felt<R> {
+impl<Scalar: Real> Felt<Scalar> {
     pub(crate) const NONE: Self = Self {
         mass: Folded::ZERO,
         moment: Vec3::ZERO,
@@ -48,7 +48,7 @@ impl<R: Real> Felt<R> {
     /// Those of a body and of the inertia `spin` that turns about z alone feel; `root` is the
     /// motion of the joint on the base, in its frame.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn of(body: &Inertia<R>, spin: Folded<R>, root: &Twist<R>) -> Self {
+    pub(crate) fn of(body: &Inertia<Scalar>, spin: Folded<Scalar>, root: &Twist<Scalar>) -> Self {
         let (s, [ex, ey, _]) = (&body.second, root.ang.0);
         // For a unit vector u, u·Σu = Σ_yy + u_x ((Σ_xx − Σ_yy) u_x + 2 Σ_xy u_y).
         let (ux, uy) = (ey, -ex);
@@ -67,8 +67,8 @@ impl<R: Real> Felt<R> {
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn wrench<Tree: Compiled, const I: usize>(
         &self,
-        at: &Displacement<R, Tree, I>,
-    ) -> Wrench<R> {
+        at: &Displacement<Scalar, Tree, I>,
+    ) -> Wrench<Scalar> {
         let [hx, hy, _] = at.leave(self.moment).0;
         Wrench { f: Vec3([-hy, hx, Folded::ZERO]), n: along_z(self.about) }
     }
@@ -78,13 +78,13 @@ impl<R: Real> Felt<R> {
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn to_parent<Tree: Compiled, const I: usize>(
         self,
-        at: &Displacement<R, Tree, I>,
-        root: &Twist<R>,
+        at: &Displacement<Scalar, Tree, I>,
+        root: &Twist<Scalar>,
     ) -> Self {
         let joint = CompiledJoint::<Tree, I>::JOINT;
         let (p, z) = (Vec3::constant(joint.pos), Vec3::constant(joint.rot.z_axis));
         let turned = at.leave(self.moment);
-        let moment = rotate_to_parent::<R, Tree, I>(turned);
+        let moment = rotate_to_parent::<Scalar, Tree, I>(turned);
         let (along, u, m) = (moment.dot(p), z.cross(root.ang), self.mass);
         let (up, mp) = (u.dot(p), p.scale(m));
         let across = u.dot(moment) * up;
@@ -99,14 +99,14 @@ impl<R: Real> Felt<R> {
 
     /// The inertia that the joint on the base feels of them, as a Σ in its frame.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn on_root(&self) -> Inertia<R> {
+    pub(crate) fn on_root(&self) -> Inertia<Scalar> {
         let mut inertia = Inertia::NONE;
         inertia.second.xx = self.of_root;
         inertia
     }
 }
 
-impl<R: Real> Add for Felt<R> {
+impl<Scalar: Real> Add for Felt<Scalar> {
     type Output = Self;
     #[cfg_attr(optimised, inline(always))]
     fn add(self, o: Self) -> Self {

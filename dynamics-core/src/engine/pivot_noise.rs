@@ -123,7 +123,7 @@ impl Singular {
 
     /// Notes joint J unless its pivot is a number and more than `noise`.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn note<R: Real, const J: usize>(&mut self, pivot: R, noise: R) {
+    pub(crate) fn note<Scalar: Real, const J: usize>(&mut self, pivot: Scalar, noise: Scalar) {
         let exceeds = pivot > noise;
         self.0 |= u32::from(!exceeds) << J;
     }
@@ -138,17 +138,17 @@ impl Singular {
     }
 }
 
-impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize>
-    Call<'_, R, Tree, Effects, B, Q, V>
+impl<Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize>
+    Call<'_, Scalar, Tree, Effects, B, Q, V>
 where
-    R: Real,
+    Scalar: Real,
     Tree: Compiled,
-    Effects: Effect<R, B, V>,
+    Effects: Effect<Scalar, B, V>,
 {
     /// The pivots that rounding may leave of a singular M: of each joint, kg·m² or kg.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn noise(self) -> [R; V] {
-        let mut noise = [R::ZERO; V];
+    pub(crate) fn noise(self) -> [Scalar; V] {
+        let mut noise = [Scalar::ZERO; V];
         for_each_joint!(
             J,
             Index::<J, V>::IS_BELOW,
@@ -190,19 +190,19 @@ where
     /// The same of joint I. A pivot that exceeds it has a finite reciprocal: neither the smallest
     /// numbers nor, of an infinite inertia, infinity does.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn pivot_noise<const I: usize>(self) -> R {
+    pub(crate) fn pivot_noise<const I: usize>(self) -> Scalar {
         let mut size = self.largest_inertia::<I>();
         add_inertia(self.effects, I, &mut size);
-        size * (R::EPSILON * R::from_f64(ROUNDINGS)) + R::MIN_POSITIVE
+        size * (Scalar::EPSILON * Scalar::from_f64(ROUNDINGS)) + Scalar::MIN_POSITIVE
     }
 
     /// The largest inertia that joint I could move, without its rotor's: a constant of robots
     /// without slides and payload.
     #[cfg_attr(optimised, inline(always))]
-    fn largest_inertia<const I: usize>(self) -> R {
+    fn largest_inertia<const I: usize>(self) -> Scalar {
         let own = const { Sizes::<Tree, B, V>::of(I) };
         let [mut mass, mut moment, mut second] =
-            [own.mass, own.moment, own.second].map(R::from_f64);
+            [own.mass, own.moment, own.second].map(Scalar::from_f64);
         if const { Effects::BASE_PARAMETERS > 0 } {
             let mut body = RegroupedInertia::default();
             call_hook!(Effects::REGROUPED.load, self.effects, I, &mut body);
@@ -210,7 +210,7 @@ where
         }
         let prismatic = CompiledJoint::<Tree, I>::PRISMATIC;
         let mut size = if prismatic { mass } else { second };
-        let mut slides = R::ZERO;
+        let mut slides = Scalar::ZERO;
         if !prismatic {
             for_each_joint!(K, {
                 if JointPair::<Tree, I, K>::IS_SLIDE_BEYOND {
@@ -236,21 +236,21 @@ where
 
     /// The distance by which coordinate I has moved its body's origin, m.
     #[cfg_attr(optimised, inline(always))]
-    fn slide<const I: usize>(self) -> R {
+    fn slide<const I: usize>(self) -> Scalar {
         let joint = CompiledJoint::<Tree, I>::JOINT;
         let q = match CompiledJoint::<Tree, I>::POSITION {
             Some(position) => self.turns[position].q.abs(),
-            None => R::ZERO,
+            None => Scalar::ZERO,
         };
         match CompiledJoint::<Tree, I>::MOTION {
-            JointMotion::Screw => q * R::from_f64((joint.pitch * Tree::LENGTH).abs()),
+            JointMotion::Screw => q * Scalar::from_f64((joint.pitch * Tree::LENGTH).abs()),
             _ => q,
         }
     }
 
     /// Adds the payloads that joint I moves to the inertia that it could move.
     #[cfg_attr(optimised, inline(always))]
-    fn payloads_added<const I: usize>(self, mut size: R, slides: R) -> R {
+    fn payloads_added<const I: usize>(self, mut size: Scalar, slides: Scalar) -> Scalar {
         const {
             assert!(
                 load::<Tree>(I, 32, &Effects::PAYLOAD) == B,
@@ -267,7 +267,7 @@ where
                 } else {
                     let reach =
                         const { reach(Tree::LINKS, I, load::<Tree>(I, K, &Effects::PAYLOAD)) };
-                    of_load(&payload, slides + R::from_f64(reach))
+                    of_load(&payload, slides + Scalar::from_f64(reach))
                 };
             }
         });
@@ -278,11 +278,11 @@ where
 /// The largest inertia of a payload about an axis that is no further than `reach` from its body's
 /// origin.
 #[cfg_attr(optimised, inline(always))]
-fn of_load<R: Real>(load: &SpatialInertia<R>, reach: R) -> R {
+fn of_load<Scalar: Real>(load: &SpatialInertia<Scalar>, reach: Scalar) -> Scalar {
     let [x, y, z] = load.rotational.cols().map(Vector::array);
     let [hx, hy, hz] = load.first_moment.array();
     let moment = hx.abs() + hy.abs() + hz.abs();
-    (x[0] + y[1] + z[2]) * R::from_f64(0.5) + reach * (moment + moment + reach * load.mass)
+    (x[0] + y[1] + z[2]) * Scalar::from_f64(0.5) + reach * (moment + moment + reach * load.mass)
 }
 
 /// Whether joint `i` has a descendant that slides.

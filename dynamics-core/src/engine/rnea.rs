@@ -19,27 +19,39 @@ use crate::spatial::{Force, Motion, SpatialInertia, Xform};
 use crate::state::State;
 
 /// The data that all bodies share.
-pub(crate) struct Task<'a, R: Real, Tree, Effects, const B: usize, const Q: usize, const V: usize> {
-    pub(super) call: Call<'a, R, Tree, Effects, B, Q, V>,
+pub(crate) struct Task<
+    'a,
+    Scalar: Real,
+    Tree,
+    Effects,
+    const B: usize,
+    const Q: usize,
+    const V: usize,
+> {
+    pub(super) call: Call<'a, Scalar, Tree, Effects, B, Q, V>,
     /// The positions of the call, loaded again in the inward pass where registers are short.
-    pub(super) back: &'a [JointCoordinate<R>; Q],
-    pub(super) state: &'a State<R, Q, V>,
-    pub(super) tau: &'a mut [R; V],
+    pub(super) back: &'a [JointCoordinate<Scalar>; Q],
+    pub(super) state: &'a State<Scalar, Q, V>,
+    pub(super) tau: &'a mut [Scalar; V],
 }
 
-impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize>
-    Call<'_, R, Tree, Effects, B, Q, V>
+impl<Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize>
+    Call<'_, Scalar, Tree, Effects, B, Q, V>
 where
-    R: Real,
+    Scalar: Real,
     Tree: Compiled,
-    Effects: Effect<R, B, V>,
+    Effects: Effect<Scalar, B, V>,
 {
     /// The recursion of inverse dynamics; `back` are the positions as the inward pass loads them.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn torques(self, back: &[JointCoordinate<R>; Q], state: &State<R, Q, V>) -> [R; V] {
+    pub(crate) fn torques(
+        self,
+        back: &[JointCoordinate<Scalar>; Q],
+        state: &State<Scalar, Q, V>,
+    ) -> [Scalar; V] {
         // A constant: behind a loop that clears the torques the compiler would reverse the order of
         // the sines and spill more of them.
-        let mut tau = const { [R::ZERO; V] };
+        let mut tau = const { [Scalar::ZERO; V] };
         self.write_torques(back, state, &mut tau);
         tau
     }
@@ -48,9 +60,9 @@ where
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn write_torques(
         self,
-        back: &[JointCoordinate<R>; Q],
-        state: &State<R, Q, V>,
-        tau: &mut [R; V],
+        back: &[JointCoordinate<Scalar>; Q],
+        state: &State<Scalar, Q, V>,
+        tau: &mut [Scalar; V],
     ) {
         let base = self.base();
         let mut task = Task { call: self, back, state, tau };
@@ -79,17 +91,20 @@ where
     }
 }
 
-impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize>
-    Task<'_, R, Tree, Effects, B, Q, V>
+impl<Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize>
+    Task<'_, Scalar, Tree, Effects, B, Q, V>
 where
-    R: Real,
+    Scalar: Real,
     Tree: Compiled,
-    Effects: Effect<R, B, V>,
+    Effects: Effect<Scalar, B, V>,
 {
     /// Visits joint I and its descendants; returns the wrench that they need from the parent, in
     /// its frame.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn visit<const I: usize>(&mut self, parent: &AccelerationField<R>) -> Wrench<R> {
+    pub(crate) fn visit<const I: usize>(
+        &mut self,
+        parent: &AccelerationField<Scalar>,
+    ) -> Wrench<Scalar> {
         let (at, mut field) = self.across::<I>(parent);
         if Effects::BODY_POSE {
             field.pose = parent.pose.transformed_by(&at);
@@ -107,7 +122,7 @@ where
         for_each_joint!(
             J,
             JointPair::<Tree, I, J>::IS_CHILD,
-            visit = Self::visit_child::<I, J> as fn(&mut _, &_) -> Wrench<R>,
+            visit = Self::visit_child::<I, J> as fn(&mut _, &_) -> Wrench<Scalar>,
             {
                 let child = visit(self, &field);
                 total = Wrench { f: total.f + child.f, n: total.n + child.n };
@@ -137,8 +152,8 @@ where
     #[cfg_attr(optimised, inline(always))]
     fn across<const I: usize>(
         &self,
-        parent: &AccelerationField<R>,
-    ) -> (Displacement<R, Tree, I>, AccelerationField<R>) {
+        parent: &AccelerationField<Scalar>,
+    ) -> (Displacement<Scalar, Tree, I>, AccelerationField<Scalar>) {
         let joint = CompiledJoint::<Tree, I>::JOINT;
         let (qd, qdd) = (&self.state.qd, &self.state.qdd);
         if CompiledJoint::<Tree, I>::COUNT > 1 {
@@ -183,7 +198,7 @@ where
 
     /// ρ I (q̈ z + q̇ ω × z): the couple that the parent exerts on the rotor of joint I.
     #[cfg_attr(optimised, inline(always))]
-    fn spin<const I: usize>(&self, field: &AccelerationField<R>) -> Vec3<R> {
+    fn spin<const I: usize>(&self, field: &AccelerationField<Scalar>) -> Vec3<Scalar> {
         let coupling = self.call.coupling::<I>();
         let qd = Folded::runtime_if(Effects::VELOCITY_PRODUCTS, self.state.qd[I]);
         let qdd = Folded::runtime_if(Effects::ACCELERATIONS, self.state.qdd[I]);
@@ -192,7 +207,7 @@ where
 
     /// The torque of the motor of coordinate I, which carries `total`.
     #[cfg_attr(optimised, inline(always))]
-    pub(super) fn drive<const I: usize>(&mut self, total: &Wrench<R>) {
+    pub(super) fn drive<const I: usize>(&mut self, total: &Wrench<Scalar>) {
         let at = self.call.joint_state::<I>(self.state);
         let length_inv = Folded::constant(Tree::LENGTH_INV);
         let mut tau = total.along(CompiledJoint::<Tree, I>::JOINT, length_inv).get();
@@ -206,7 +221,7 @@ where
 
     /// The same of all coordinates of a joint.
     #[cfg_attr(optimised, inline(always))]
-    fn drive_several<const I: usize>(&mut self, total: &Wrench<R>) {
+    fn drive_several<const I: usize>(&mut self, total: &Wrench<Scalar>) {
         for_each_joint!(
             K,
             JointPair::<Tree, I, K>::IS_COORDINATE,
@@ -218,23 +233,23 @@ where
     }
 }
 
-impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize>
-    Call<'_, R, Tree, Effects, B, Q, V>
+impl<Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize>
+    Call<'_, Scalar, Tree, Effects, B, Q, V>
 where
-    R: Real,
+    Scalar: Real,
     Tree: Compiled,
-    Effects: Effect<R, B, V>,
+    Effects: Effect<Scalar, B, V>,
 {
     /// The inertia of the body behind joint I, with its payloads; all of Σ if the base moves.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn inertia<const I: usize>(self, base_moves: bool) -> Inertia<R> {
+    pub(crate) fn inertia<const I: usize>(self, base_moves: bool) -> Inertia<Scalar> {
         let body = self.own_inertia::<I>(base_moves);
         self.with_payloads::<I>(body)
     }
 
     /// The same in M, and the inertia that only the rotation of its own joint feels.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn matrix_inertia<const I: usize>(self) -> (Inertia<R>, Folded<R>) {
+    pub(crate) fn matrix_inertia<const I: usize>(self) -> (Inertia<Scalar>, Folded<Scalar>) {
         // Those of M are known at compile time only.
         let (body, spin) = if const { Effects::BASE_PARAMETERS > 0 } {
             let body = self.own_inertia::<I>(false);
@@ -247,7 +262,7 @@ where
     }
 
     #[cfg_attr(optimised, inline(always))]
-    fn with_payloads<const I: usize>(self, body: Inertia<R>) -> Inertia<R> {
+    fn with_payloads<const I: usize>(self, body: Inertia<Scalar>) -> Inertia<Scalar> {
         match const {
             only_if(
                 loads::<Tree>(last::<Tree>(I), &Effects::PAYLOAD) > 0,
@@ -261,7 +276,7 @@ where
 
     /// The same without payloads: the description's, or that of the loaded base parameters.
     #[cfg_attr(optimised, inline(always))]
-    fn own_inertia<const I: usize>(self, base_moves: bool) -> Inertia<R> {
+    fn own_inertia<const I: usize>(self, base_moves: bool) -> Inertia<Scalar> {
         let joint = CompiledJoint::<Tree, I>::BODY;
         if const { Effects::BASE_PARAMETERS > 0 } {
             let mut body = RegroupedInertia::default();
@@ -282,7 +297,7 @@ where
     /// Adds the payloads of the bodies on joint I, which are given in those bodies' own frames, to
     /// its inertia.
     #[cfg_attr(optimised, inline(always))]
-    fn loaded<const I: usize>(self, mut body: Inertia<R>) -> Inertia<R> {
+    fn loaded<const I: usize>(self, mut body: Inertia<Scalar>) -> Inertia<Scalar> {
         const {
             assert!(
                 loads::<Tree>(last::<Tree>(I), &Effects::PAYLOAD) <= 32,
@@ -304,7 +319,12 @@ where
 
     /// Adds the payload of one body, at `place`.
     #[cfg_attr(optimised, inline(always))]
-    fn with_load(self, of: usize, place: &'static BodyPlacement, body: Inertia<R>) -> Inertia<R> {
+    fn with_load(
+        self,
+        of: usize,
+        place: &'static BodyPlacement,
+        body: Inertia<Scalar>,
+    ) -> Inertia<Scalar> {
         let (rot, d) = (Mat3::constant(&place.rot), Vec3::constant(place.pos));
         let length = Folded::constant(Tree::LENGTH);
         let mut load = SpatialInertia::ZERO;
@@ -314,7 +334,7 @@ where
         // Σ = ½ tr(Ī) 1 − Ī, turned and moved to the joint's frame.
         let [x, y, z] = load.rotational.cols();
         let trace = x.array()[0] + y.array()[1] + z.array()[2];
-        let half = Folded::runtime(trace * R::from_f64(0.5));
+        let half = Folded::runtime(trace * Scalar::from_f64(0.5));
         let zero = Folded::ZERO;
         let sigma = Mat3([
             rot.mul(Vec3([half, zero, zero]) - Vec3::runtime(x)),
@@ -341,9 +361,9 @@ where
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn environment<const I: usize>(
         self,
-        field: &AccelerationField<R>,
-        mut total: Wrench<R>,
-    ) -> Wrench<R> {
+        field: &AccelerationField<Scalar>,
+        mut total: Wrench<Scalar>,
+    ) -> Wrench<Scalar> {
         // Evaluated in scenes without wrenches, too, where their number does not matter.
         const {
             assert!(
@@ -368,8 +388,8 @@ where
         self,
         body: usize,
         place: &'static BodyPlacement,
-        field: &AccelerationField<R>,
-    ) -> Wrench<R> {
+        field: &AccelerationField<Scalar>,
+    ) -> Wrench<Scalar> {
         let length = Folded::constant(Tree::LENGTH);
         let (rot, pos) = (Mat3::constant(&place.rot), Vec3::constant(place.pos));
         let mut at = BodyState { pose: Xform::IDENTITY, velocity: Motion::ZERO, base: None };

@@ -33,17 +33,17 @@ impl<Tree: Compiled, const I: usize> OnlyCoordinate<Tree, I> {
     };
 }
 
-impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize>
-    Call<'_, R, Tree, Effects, B, Q, V>
+impl<Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize>
+    Call<'_, Scalar, Tree, Effects, B, Q, V>
 where
-    R: Real,
+    Scalar: Real,
     Tree: Compiled,
-    Effects: Effect<R, B, V>,
+    Effects: Effect<Scalar, B, V>,
 {
     /// ρ I of the rotor of joint I; a known zero without one.
     #[cfg_attr(optimised, inline(always))]
-    pub(super) fn coupling<const I: usize>(self) -> Folded<R> {
-        let mut coupling = R::ZERO;
+    pub(super) fn coupling<const I: usize>(self) -> Folded<Scalar> {
+        let mut coupling = Scalar::ZERO;
         let has_rotor = Effects::GYROSCOPIC_ROTORS && OnlyCoordinate::<Tree, I>::IS;
         if has_rotor {
             call_hook!(Effects::ROTOR.add, self.effects, I, &mut coupling);
@@ -53,7 +53,11 @@ where
     /// The wrench `carried` as joint I feels it: with the couple ρ I z·x by which the rotor follows
     /// a motion x of the parent, its ω or α.
     #[cfg_attr(optimised, inline(always))]
-    pub(super) fn felt<const I: usize>(self, carried: Wrench<R>, parent: Vec3<R>) -> Wrench<R> {
+    pub(super) fn felt<const I: usize>(
+        self,
+        carried: Wrench<Scalar>,
+        parent: Vec3<Scalar>,
+    ) -> Wrench<Scalar> {
         let mut felt = carried;
         if Effects::GYROSCOPIC_ROTORS {
             let joint = CompiledJoint::<Tree, I>::JOINT;
@@ -71,7 +75,7 @@ where
     /// The wrench `carried` as the parent of joint I bears it: with a couple on the rotor, in the
     /// frame of the joint's body.
     #[cfg_attr(optimised, inline(always))]
-    pub(super) fn borne(self, carried: Wrench<R>, couple: Vec3<R>) -> Wrench<R> {
+    pub(super) fn borne(self, carried: Wrench<Scalar>, couple: Vec3<Scalar>) -> Wrench<Scalar> {
         if Effects::GYROSCOPIC_ROTORS {
             Wrench { f: carried.f, n: carried.n + couple }
         } else {

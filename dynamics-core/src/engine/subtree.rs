@@ -42,12 +42,12 @@ const fn is_subtree_root<Tree: Compiled>(i: usize, wrench: bool) -> bool {
     has_subtree_functions::<Tree>(wrench) && children > 1
 }
 
-impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize>
-    Task<'_, R, Tree, Effects, B, Q, V>
+impl<Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize>
+    Task<'_, Scalar, Tree, Effects, B, Q, V>
 where
-    R: Real,
+    Scalar: Real,
     Tree: Compiled,
-    Effects: Effect<R, B, V>,
+    Effects: Effect<Scalar, B, V>,
 {
     /// Joint I on the base and its descendants.
     #[inline(never)]
@@ -60,8 +60,8 @@ where
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn visit_child<const I: usize, const J: usize>(
         &mut self,
-        parent: &AccelerationField<R>,
-    ) -> Wrench<R> {
+        parent: &AccelerationField<Scalar>,
+    ) -> Wrench<Scalar> {
         if const { !is_subtree_root::<Tree>(I, Effects::WRENCH) } {
             return self.visit::<J>(parent);
         }
@@ -77,7 +77,10 @@ where
     }
 
     #[inline(never)]
-    fn child_subtree<const J: usize>(&mut self, parent: &SpilledField<R>) -> [R::Vec3; 2] {
+    fn child_subtree<const J: usize>(
+        &mut self,
+        parent: &SpilledField<Scalar>,
+    ) -> [Scalar::Vec3; 2] {
         let ([omega, omega_products, alpha], [ux, uy, uz]) = (parent.rates, parent.u);
         let [a, v] = parent.origin;
         let [x, y, z, origin] = parent.pose.map(|v| runtime_if(Effects::BODY_POSE, v));
@@ -98,16 +101,16 @@ where
 
 /// A field in memory: ω, ω of the velocity products, α; U's columns; a and v of the origin; axes
 /// and origin.
-struct SpilledField<R: Real> {
-    rates: [R::Vec3; 3],
-    u: [R::Vec3; 3],
-    origin: [R::Vec3; 2],
-    pose: [R::Vec3; 4],
+struct SpilledField<Scalar: Real> {
+    rates: [Scalar::Vec3; 3],
+    u: [Scalar::Vec3; 3],
+    origin: [Scalar::Vec3; 2],
+    pose: [Scalar::Vec3; 4],
 }
 
 /// A vector that is a known zero unless an effect needs it.
 #[cfg_attr(optimised, inline(always))]
-fn runtime_if<R: Real>(needed: bool, v: R::Vec3) -> Vec3<R> {
+fn runtime_if<Scalar: Real>(needed: bool, v: Scalar::Vec3) -> Vec3<Scalar> {
     let [x, y, z] = v.array();
     Vec3([
         Folded::runtime_if(needed, x),

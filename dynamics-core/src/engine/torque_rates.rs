@@ -22,44 +22,54 @@ use crate::scalar::Real;
 use crate::state::{JointTrig, State, TrigSource};
 use crate::trig::Kernel;
 
-impl<T, K> Engine<T, K> {
+impl<Arm, Sines> Engine<Arm, Sines> {
     /// τ = ID(q, q̇, q̈) and its derivatives τ̇ and τ̈, along a course with these third and fourth
     /// derivatives of q.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn torque_rates<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
-        state: &State<R, Q, V>,
-        jerk: &[R; V],
-        snap: &[R; V],
+    pub(crate) fn torque_rates<
+        Scalar: Real,
+        Effects,
+        const B: usize,
+        const Q: usize,
+        const V: usize,
+    >(
+        state: &State<Scalar, Q, V>,
+        jerk: &[Scalar; V],
+        snap: &[Scalar; V],
         effects: &Effects,
-    ) -> [[R; 3]; V]
+    ) -> [[Scalar; 3]; V]
     where
-        T: Robot<B, Q, V>,
-        K: Kernel<R>,
-        Effects: Effect<R, B, V>,
+        Arm: Robot<B, Q, V>,
+        Sines: Kernel<Scalar>,
+        Effects: Effect<Scalar, B, V>,
     {
         scene_is_taken!();
-        const { takes_elastic_joints::<CompiledRobot<T, B, Q, V>>() };
-        let trig: JointTrig<R, Q> = Self::trig_source().compute(&state.q);
+        const { takes_elastic_joints::<CompiledRobot<Arm, B, Q, V>>() };
+        let trig: JointTrig<Scalar, Q> = Self::trig_source().compute(&state.q);
         // As forward dynamics: see [`Call`].
         let call = Call {
             turns: &trig.coordinates,
             effects,
-            robot: PhantomData::<CompiledRobot<T, B, Q, V>>,
+            robot: PhantomData::<CompiledRobot<Arm, B, Q, V>>,
         };
         call.torque_rates(state, [jerk, snap])
     }
 }
 
-impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize>
-    Call<'_, R, Tree, Effects, B, Q, V>
+impl<Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize>
+    Call<'_, Scalar, Tree, Effects, B, Q, V>
 where
-    R: Real,
+    Scalar: Real,
     Tree: Compiled,
-    Effects: Effect<R, B, V>,
+    Effects: Effect<Scalar, B, V>,
 {
     #[cfg_attr(optimised, inline(always))]
-    fn torque_rates(self, state: &State<R, Q, V>, [jerk, snap]: [&[R; V]; 2]) -> [[R; 3]; V] {
-        let mut tau = [[R::ZERO; 3]; V];
+    fn torque_rates(
+        self,
+        state: &State<Scalar, Q, V>,
+        [jerk, snap]: [&[Scalar; V]; 2],
+    ) -> [[Scalar; 3]; V] {
+        let mut tau = [[Scalar::ZERO; 3]; V];
         let mut task = Task { call: self, state, jerk, snap, tau: &mut tau };
         let base = Field::at_rest(self.unaccelerated().a);
         for_each_joint!(
@@ -87,27 +97,27 @@ const fn takes_elastic_joints<Tree: Compiled>() {
 }
 
 /// The data that all bodies share.
-struct Task<'a, R: Real, Tree, Effects, const B: usize, const Q: usize, const V: usize> {
-    call: Call<'a, R, Tree, Effects, B, Q, V>,
-    state: &'a State<R, Q, V>,
-    jerk: &'a [R; V],
-    snap: &'a [R; V],
-    tau: &'a mut [[R; 3]; V],
+struct Task<'a, Scalar: Real, Tree, Effects, const B: usize, const Q: usize, const V: usize> {
+    call: Call<'a, Scalar, Tree, Effects, B, Q, V>,
+    state: &'a State<Scalar, Q, V>,
+    jerk: &'a [Scalar; V],
+    snap: &'a [Scalar; V],
+    tau: &'a mut [[Scalar; 3]; V],
 }
 
-impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize>
-    Task<'_, R, Tree, Effects, B, Q, V>
+impl<Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize>
+    Task<'_, Scalar, Tree, Effects, B, Q, V>
 where
-    R: Real,
+    Scalar: Real,
     Tree: Compiled,
-    Effects: Effect<R, B, V>,
+    Effects: Effect<Scalar, B, V>,
 {
     /// Visits joint I and its descendants; returns the wrench that they need from the parent, in
     /// its frame.
     #[cfg_attr(optimised, inline(always))]
-    fn visit<const I: usize>(&mut self, parent: &Field<R>) -> WrenchSeries<R> {
+    fn visit<const I: usize>(&mut self, parent: &Field<Scalar>) -> WrenchSeries<Scalar> {
         let joint = CompiledJoint::<Tree, I>::JOINT;
-        let (half, length_inv) = (R::from_f64(0.5), Folded::constant(Tree::LENGTH_INV));
+        let (half, length_inv) = (Scalar::from_f64(0.5), Folded::constant(Tree::LENGTH_INV));
         let (at, qdd) = (JointState::new(self.state.q[I], self.state.qd[I]), self.state.qdd[I]);
         let (jerk, snap) = (self.jerk[I], self.snap[I]);
         let turn = Turn::new(self.call.turns[I], at.qd, qdd);
@@ -128,7 +138,7 @@ where
         for_each_joint!(
             J,
             JointPair::<Tree, I, J>::IS_PARENT,
-            visit = Self::visit::<J> as fn(&mut _, &_) -> WrenchSeries<R>,
+            visit = Self::visit::<J> as fn(&mut _, &_) -> WrenchSeries<Scalar>,
             {
                 let child = visit(self, &field);
                 total = WrenchSeries { f: total.f + child.f, n: total.n + child.n };
@@ -146,22 +156,22 @@ where
 
 /// The acceleration field of a body, in its frame: the components' polynomials in time.
 #[derive(Clone, Copy)]
-struct Field<R> {
-    omega: Series<Vec3<R>>,
+struct Field<Scalar> {
+    omega: Series<Vec3<Scalar>>,
     /// α: the derivative of `omega`, so to t³ of it.
-    alpha: Series<Vec3<R>>,
+    alpha: Series<Vec3<Scalar>>,
     /// U = \[α\]× + \[ω\]×\[ω\]×.
-    u: Series<Mat3<R>>,
+    u: Series<Mat3<Scalar>>,
     /// Acceleration of the origin, in units of length.
-    a: Series<Vec3<R>>,
+    a: Series<Vec3<Scalar>>,
     /// ω ωᵀ.
-    squares: [Sym3<R>; 3],
+    squares: [Sym3<Scalar>; 3],
 }
 
-impl<R: Real> Field<R> {
+impl<Scalar: Real> Field<Scalar> {
     /// The field of a base at rest, where a = −g.
     #[cfg_attr(optimised, inline(always))]
-    fn at_rest(a: Vec3<R>) -> Self {
+    fn at_rest(a: Vec3<Scalar>) -> Self {
         Self {
             omega: Series([Vec3::ZERO; 3]),
             alpha: Series([Vec3::ZERO; 3]),
@@ -176,9 +186,9 @@ impl<R: Real> Field<R> {
     fn across_revolute(
         &self,
         joint: &Joint,
-        turn: &Turn<R>,
-        rate: R,
-        accel: Series<Folded<R>>,
+        turn: &Turn<Scalar>,
+        rate: Scalar,
+        accel: Series<Folded<Scalar>>,
     ) -> Self {
         let (rot, p) = (Mat3::constant(&joint.rot), Vec3::constant(joint.pos));
         let a = turn.enter((self.a + self.u.mul(Series::constant(p))).times_transposed(&rot));
@@ -211,9 +221,9 @@ impl<R: Real> Field<R> {
     fn across_prismatic(
         &self,
         joint: &Joint,
-        q: Series<Folded<R>>,
-        rate: Series<Folded<R>>,
-        accel: Series<Folded<R>>,
+        q: Series<Folded<Scalar>>,
+        rate: Series<Folded<Scalar>>,
+        accel: Series<Folded<Scalar>>,
     ) -> Self {
         let rot = Mat3::constant(&joint.rot);
         let axis = Series::constant(rot.0[2]);
@@ -245,7 +255,7 @@ impl<R: Real> Field<R> {
 
     /// The wrench that accelerates the body's inertia.
     #[cfg_attr(optimised, inline(always))]
-    fn wrench(&self, body: &Inertia<R>) -> WrenchSeries<R> {
+    fn wrench(&self, body: &Inertia<Scalar>) -> WrenchSeries<Scalar> {
         let ([a0, a1, a2], [u0, u1, u2]) = (self.a.0, &self.u.0);
         let [s0, s1, s2] = &self.squares;
         let w0 = wrench(body, a0, u0, s0);
@@ -257,7 +267,11 @@ impl<R: Real> Field<R> {
 
 /// α and U from ω ωᵀ, α_z and U's z column: linear in all three, so for each coefficient.
 #[cfg_attr(optimised, inline(always))]
-fn completed<R: Real>(squares: &Sym3<R>, az: Folded<R>, along: Vec3<R>) -> (Vec3<R>, Mat3<R>) {
+fn completed<Scalar: Real>(
+    squares: &Sym3<Scalar>,
+    az: Folded<Scalar>,
+    along: Vec3<Scalar>,
+) -> (Vec3<Scalar>, Mat3<Scalar>) {
     let (s, [uxz, uyz, uzz]) = (squares, along.0);
     let (ax, ay) = (s.yz - uyz, uxz - s.xz);
     let u = Mat3([
@@ -271,7 +285,12 @@ fn completed<R: Real>(squares: &Sym3<R>, az: Folded<R>, along: Vec3<R>) -> (Vec3
 /// The wrench of an inertia, f = m a + U h and n = h × a + axial(U Σ − Σ Uᵀ), linear in a, U and ω
 /// ωᵀ: for each coefficient.
 #[cfg_attr(optimised, inline(always))]
-fn wrench<R: Real>(body: &Inertia<R>, a: Vec3<R>, u: &Mat3<R>, squares: &Sym3<R>) -> Wrench<R> {
+fn wrench<Scalar: Real>(
+    body: &Inertia<Scalar>,
+    a: Vec3<Scalar>,
+    u: &Mat3<Scalar>,
+    squares: &Sym3<Scalar>,
+) -> Wrench<Scalar> {
     let (m, [x, y, z]) = (&body.second, u.0);
     // U_yy − U_zz and the others by its symmetric part.
     let zy = squares.zz - squares.yy;
@@ -286,12 +305,12 @@ fn wrench<R: Real>(body: &Inertia<R>, a: Vec3<R>, u: &Mat3<R>, squares: &Sym3<R>
 
 /// A force f at the origin and a couple n: the components' polynomials in time.
 #[derive(Clone, Copy)]
-struct WrenchSeries<R> {
-    f: Series<Vec3<R>>,
-    n: Series<Vec3<R>>,
+struct WrenchSeries<Scalar> {
+    f: Series<Vec3<Scalar>>,
+    n: Series<Vec3<Scalar>>,
 }
 
-impl<R: Real> WrenchSeries<R> {
+impl<Scalar: Real> WrenchSeries<Scalar> {
     /// The same, computed before the children's fields: the compiler does not see through it. Left
     /// to itself, it mixes the bodies and keeps more numbers than there are registers, which takes
     /// an eighth of the cycles more.
@@ -305,8 +324,8 @@ impl<R: Real> WrenchSeries<R> {
     #[cfg_attr(optimised, inline(always))]
     fn to_parent<Tree: Compiled, const I: usize>(
         self,
-        turn: &Turn<R>,
-        slide: Series<Folded<R>>,
+        turn: &Turn<Scalar>,
+        slide: Series<Folded<Scalar>>,
     ) -> Self {
         let (mut f, mut n) = (self.f, self.n);
         if !CompiledJoint::<Tree, I>::PRISMATIC {
@@ -314,15 +333,15 @@ impl<R: Real> WrenchSeries<R> {
         }
         let ([f0, f1, f2], [n0, n1, n2]) = (f.0, n.0);
         let f = Series([
-            rotate_to_parent::<R, Tree, I>(f0),
-            rotate_to_parent::<R, Tree, I>(f1),
-            rotate_to_parent::<R, Tree, I>(f2),
+            rotate_to_parent::<Scalar, Tree, I>(f0),
+            rotate_to_parent::<Scalar, Tree, I>(f1),
+            rotate_to_parent::<Scalar, Tree, I>(f2),
         ]);
         let [f0, f1, f2] = f.0;
         let mut n = Series([
-            rotate_to_parent::<R, Tree, I>(n0) + constant_offset_cross::<R, Tree, I>(f0),
-            rotate_to_parent::<R, Tree, I>(n1) + constant_offset_cross::<R, Tree, I>(f1),
-            rotate_to_parent::<R, Tree, I>(n2) + constant_offset_cross::<R, Tree, I>(f2),
+            rotate_to_parent::<Scalar, Tree, I>(n0) + constant_offset_cross::<Scalar, Tree, I>(f0),
+            rotate_to_parent::<Scalar, Tree, I>(n1) + constant_offset_cross::<Scalar, Tree, I>(f1),
+            rotate_to_parent::<Scalar, Tree, I>(n2) + constant_offset_cross::<Scalar, Tree, I>(f2),
         ]);
         if CompiledJoint::<Tree, I>::PRISMATIC {
             let axis = Vec3::constant(CompiledJoint::<Tree, I>::JOINT.rot.z_axis);

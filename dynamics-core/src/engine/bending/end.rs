@@ -14,54 +14,54 @@ use crate::scalar::Real;
 /// The acceleration field that a joint stands on: that of the body before it, or of the end of a
 /// link that bends.
 #[derive(Clone, Copy)]
-pub(super) struct Stand<R> {
-    pub(super) field: AccelerationField<R>,
+pub(super) struct Stand<Scalar> {
+    pub(super) field: AccelerationField<Scalar>,
     /// An angle that adds to that of the joint: its cosine, and its sine along its axis.
-    pub(super) sin: Vec3<R>,
-    pub(super) cos: Folded<R>,
+    pub(super) sin: Vec3<Scalar>,
+    pub(super) cos: Folded<Scalar>,
 }
 
-impl<R: Real> Stand<R> {
+impl<Scalar: Real> Stand<Scalar> {
     /// A body that does not bend, or the base.
     #[cfg_attr(optimised, inline(always))]
-    pub(super) fn rigid(field: AccelerationField<R>) -> Self {
+    pub(super) fn rigid(field: AccelerationField<Scalar>) -> Self {
         Self { field, sin: Vec3::ZERO, cos: Folded::ONE }
     }
 }
 
 /// The end of a link, in the link's axes.
 #[derive(Clone, Copy)]
-pub(super) struct End<R> {
+pub(super) struct End<Scalar> {
     /// The place.
-    point: Vec3<R>,
-    g: Vec3<R>,
+    point: Vec3<Scalar>,
+    g: Vec3<Scalar>,
     /// 2 / (1 + g²)
-    scale: Folded<R>,
+    scale: Folded<Scalar>,
 }
 
 /// φₖ and ½ ψₖ, times the coordinates or their rates.
 #[derive(Clone, Copy)]
-struct Sum<R> {
-    shift: Vec3<R>,
-    g: Vec3<R>,
+struct Sum<Scalar> {
+    shift: Vec3<Scalar>,
+    g: Vec3<Scalar>,
 }
 
-impl<R: Real> Sum<R> {
+impl<Scalar: Real> Sum<Scalar> {
     const ZERO: Self = Self { shift: Vec3::ZERO, g: Vec3::ZERO };
 
     #[cfg_attr(optimised, inline(always))]
-    fn plus(self, shift: Vec3<R>, half_turn: Vec3<R>, rate: Folded<R>) -> Self {
+    fn plus(self, shift: Vec3<Scalar>, half_turn: Vec3<Scalar>, rate: Folded<Scalar>) -> Self {
         Self { shift: self.shift + shift.scale(rate), g: self.g + half_turn.scale(rate) }
     }
 }
 
-impl<R: Real> End<R> {
+impl<Scalar: Real> End<Scalar> {
     /// The end of the body of joint I, whose field is `field`, and its own, in the link's axes.
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn of<Tree: Bends, const I: usize, const MOVES: bool>(
-        field: &AccelerationField<R>,
-        bent: &[Mode<R>; MODES],
-    ) -> (Self, AccelerationField<R>) {
+        field: &AccelerationField<Scalar>,
+        bent: &[Mode<Scalar>; MODES],
+    ) -> (Self, AccelerationField<Scalar>) {
         let [mut bend, mut velocity, mut products, mut accel] = [Sum::ZERO; 4];
         for_each_mode!(K, {
             if HasMode::<Tree, I, K>::IS {
@@ -76,7 +76,7 @@ impl<R: Real> End<R> {
         let mut scale = Folded::constant(2.0);
         if Bent::<Tree, I, MOVES>::TURNS {
             let square = bend.g.dot(bend.g).get();
-            scale = Folded::runtime(R::from_f64(2.0) / (R::ONE + square));
+            scale = Folded::runtime(Scalar::from_f64(2.0) / (Scalar::ONE + square));
         }
         let end = Self {
             point: Vec3::constant(Bent::<Tree, I, MOVES>::LINK.end) + bend.shift,
@@ -91,8 +91,8 @@ impl<R: Real> End<R> {
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn stand<Tree: Bends, const I: usize, const MOVES: bool>(
         &self,
-        along: &AccelerationField<R>,
-    ) -> Stand<R> {
+        along: &AccelerationField<Scalar>,
+    ) -> Stand<Scalar> {
         if !Bent::<Tree, I, MOVES>::ADDS_TO_ANGLES {
             return Stand::rigid(self.turned::<Tree, I, MOVES>(along));
         }
@@ -108,11 +108,11 @@ impl<R: Real> End<R> {
     #[cfg_attr(optimised, inline(always))]
     fn moved(
         &self,
-        field: &AccelerationField<R>,
-        velocity: Sum<R>,
-        products: Sum<R>,
-        accel: Sum<R>,
-    ) -> AccelerationField<R> {
+        field: &AccelerationField<Scalar>,
+        velocity: Sum<Scalar>,
+        products: Sum<Scalar>,
+        accel: Sum<Scalar>,
+    ) -> AccelerationField<Scalar> {
         let omega = field.omega_products;
         let spin = self.omega(products.g);
         let slowing = spin.scale(self.scale * self.g.dot(products.g));
@@ -136,8 +136,8 @@ impl<R: Real> End<R> {
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn turned<Tree: Bends, const I: usize, const MOVES: bool>(
         &self,
-        field: &AccelerationField<R>,
-    ) -> AccelerationField<R> {
+        field: &AccelerationField<Scalar>,
+    ) -> AccelerationField<Scalar> {
         if !Bent::<Tree, I, MOVES>::TURNS {
             return *field;
         }
@@ -156,7 +156,7 @@ impl<R: Real> End<R> {
 
     /// From the link's axes to the end's: (1 − g²)/(1 + g²) 1 + 2/(1 + g²) (g gᵀ − g×).
     #[cfg_attr(optimised, inline(always))]
-    fn axes(&self) -> Mat3<R> {
+    fn axes(&self) -> Mat3<Scalar> {
         let ([x, y, z], [dx, dy, dz]) = (self.g.0, self.g.scale(self.scale).0);
         let diagonal = self.scale - Folded::ONE;
         Mat3([
@@ -168,7 +168,7 @@ impl<R: Real> End<R> {
 
     /// The angular velocity of ġ.
     #[cfg_attr(optimised, inline(always))]
-    fn omega(&self, g_dot: Vec3<R>) -> Vec3<R> {
+    fn omega(&self, g_dot: Vec3<Scalar>) -> Vec3<Scalar> {
         (g_dot + self.g.cross(g_dot)).scale(self.scale)
     }
 
@@ -176,8 +176,8 @@ impl<R: Real> End<R> {
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn turned_back<Tree: Bends, const I: usize, const MOVES: bool>(
         &self,
-        load: Wrench<R>,
-    ) -> Wrench<R> {
+        load: Wrench<Scalar>,
+    ) -> Wrench<Scalar> {
         if !Bent::<Tree, I, MOVES>::TURNS {
             return load;
         }
@@ -190,9 +190,9 @@ impl<R: Real> End<R> {
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn carry<Tree: Bends, const I: usize, const MOVES: bool>(
         &self,
-        load: Wrench<R>,
-        forces: &mut [Folded<R>; MODES],
-    ) -> Wrench<R> {
+        load: Wrench<Scalar>,
+        forces: &mut [Folded<Scalar>; MODES],
+    ) -> Wrench<Scalar> {
         let couple = (load.n - self.g.cross(load.n)).scale(self.scale);
         for_each_mode!(K, {
             if HasMode::<Tree, I, K>::IS {

@@ -17,15 +17,15 @@ use crate::scalar::Real;
 /// The wrench that accelerates the body of joint I, bent, and what its modes need; with stiffness
 /// and damping, if the scene has these.
 #[cfg_attr(optimised, inline(always))]
-pub(super) fn bent_wrench<R, Tree, const I: usize, const MOVES: bool>(
-    field: &AccelerationField<R>,
-    rigid: Inertia<R>,
-    bent: &[Mode<R>; MODES],
+pub(super) fn bent_wrench<Scalar, Tree, const I: usize, const MOVES: bool>(
+    field: &AccelerationField<Scalar>,
+    rigid: Inertia<Scalar>,
+    bent: &[Mode<Scalar>; MODES],
     elastic: bool,
-    forces: &mut [Folded<R>; MODES],
-) -> Wrench<R>
+    forces: &mut [Folded<Scalar>; MODES],
+) -> Wrench<Scalar>
 where
-    R: Real,
+    Scalar: Real,
     Tree: Bends,
 {
     let twice = field.omega_products + field.omega_products;
@@ -80,12 +80,12 @@ where
 }
 
 #[cfg_attr(optimised, inline(always))]
-fn scaled<R: Real>(Mat3([x, y, z]): Mat3<R>, s: Folded<R>) -> Mat3<R> {
+fn scaled<Scalar: Real>(Mat3([x, y, z]): Mat3<Scalar>, s: Folded<Scalar>) -> Mat3<Scalar> {
     Mat3([x.scale(s), y.scale(s), z.scale(s)])
 }
 
 /// A : B, the sum of the products of their entries.
 #[cfg_attr(optimised, inline(always))]
-fn contracted<R: Real>(a: &Mat3<R>, b: &Mat3<R>) -> Folded<R> {
+fn contracted<Scalar: Real>(a: &Mat3<Scalar>, b: &Mat3<Scalar>) -> Folded<Scalar> {
     a.0[0].dot(b.0[0]) + a.0[1].dot(b.0[1]) + a.0[2].dot(b.0[2])
 }

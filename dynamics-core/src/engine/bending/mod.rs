@@ -41,7 +41,7 @@ use for_each_mode;
 struct Bending<
     'a,
     'b,
-    R: Real,
+    Scalar: Real,
     Tree,
     Effects,
     Course,
@@ -50,25 +50,25 @@ struct Bending<
     const V: usize,
     const M: usize,
 > {
-    rigid: &'a mut Task<'b, R, Tree, Effects, B, Q, V>,
+    rigid: &'a mut Task<'b, Scalar, Tree, Effects, B, Q, V>,
     moves: Course,
-    forces: &'a mut [R; M],
+    forces: &'a mut [Scalar; M],
 }
 
-impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize>
-    Call<'_, R, Tree, Effects, B, Q, V>
+impl<Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize>
+    Call<'_, Scalar, Tree, Effects, B, Q, V>
 where
-    R: Real,
+    Scalar: Real,
     Tree: Bends,
-    Effects: Effect<R, B, V>,
+    Effects: Effect<Scalar, B, V>,
 {
     /// The torques of the joints and the forces on the modes.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn bending_torques<const M: usize>(
         self,
-        joints: &State<R, Q, V>,
-        modes: &State<R, M, M>,
-    ) -> ([R; V], [R; M]) {
+        joints: &State<Scalar, Q, V>,
+        modes: &State<Scalar, M, M>,
+    ) -> ([Scalar; V], [Scalar; M]) {
         let moves = Measured { joints, modes, effects: PhantomData::<Of<Effects, B>> };
         self.swept(joints, moves, &self.base())
     }
@@ -78,13 +78,13 @@ where
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn bending_inertia<const M: usize, const JOINTS: bool>(
         self,
-        eta: &[R; M],
-    ) -> Blocks<R, V, M> {
-        let mut m = ([[R::ZERO; V]; V], [[R::ZERO; V]; M], [[R::ZERO; M]; M]);
+        eta: &[Scalar; M],
+    ) -> Blocks<Scalar, V, M> {
+        let mut m = ([[Scalar::ZERO; V]; V], [[Scalar::ZERO; V]; M], [[Scalar::ZERO; M]; M]);
         for_each_joint!(
             L,
             const { is_column(L, V, M, JOINTS) },
-            column = Self::column::<M, L> as fn(_, &_) -> ([R; V], [R; M]),
+            column = Self::column::<M, L> as fn(_, &_) -> ([Scalar; V], [Scalar; M]),
             {
                 let (tau, forces) = column(self, eta);
                 // Bodies and links are in the order of the tree: what is before a coordinate has
@@ -107,23 +107,26 @@ where
 
     /// The torques and forces that a unit acceleration of coordinate L needs.
     #[cfg_attr(optimised, inline(always))]
-    fn column<const M: usize, const L: usize>(self, eta: &[R; M]) -> ([R; V], [R; M]) {
-        let (moves, base) = (Unit::<R, V, M, L> { eta }, AccelerationField::RESTING);
-        self.swept(&State::at([R::ZERO; Q]), moves, &base)
+    fn column<const M: usize, const L: usize>(
+        self,
+        eta: &[Scalar; M],
+    ) -> ([Scalar; V], [Scalar; M]) {
+        let (moves, base) = (Unit::<Scalar, V, M, L> { eta }, AccelerationField::RESTING);
+        self.swept(&State::at([Scalar::ZERO; Q]), moves, &base)
     }
 
     /// The recursion from the base.
     #[cfg_attr(optimised, inline(always))]
     fn swept<Course, const M: usize>(
         self,
-        joints: &State<R, Q, V>,
+        joints: &State<Scalar, Q, V>,
         moves: Course,
-        base: &AccelerationField<R>,
-    ) -> ([R; V], [R; M])
+        base: &AccelerationField<Scalar>,
+    ) -> ([Scalar; V], [Scalar; M])
     where
-        Course: Moves<R>,
+        Course: Moves<Scalar>,
     {
-        let (mut tau, mut forces) = ([R::ZERO; V], [R::ZERO; M]);
+        let (mut tau, mut forces) = ([Scalar::ZERO; V], [Scalar::ZERO; M]);
         let mut rigid = Task { call: self, back: self.turns, state: joints, tau: &mut tau };
         let mut task = Bending { rigid: &mut rigid, moves, forces: &mut forces };
         let stand = Stand::rigid(*base);
@@ -140,25 +143,26 @@ where
 }
 
 /// The blocks of M(q, η): joints, a row for each mode between it and the joints, and modes.
-pub(crate) type Blocks<R, const V: usize, const M: usize> = ([[R; V]; V], [[R; V]; M], [[R; M]; M]);
+pub(crate) type Blocks<Scalar, const V: usize, const M: usize> =
+    ([[Scalar; V]; V], [[Scalar; V]; M], [[Scalar; M]; M]);
 
 /// Whether there is a coordinate L.
 const fn is_column(l: usize, joints: usize, modes: usize, all: bool) -> bool {
     l < joints + modes && (all || l >= joints)
 }
 
-impl<R, Tree, Effects, Course, const B: usize, const Q: usize, const V: usize, const M: usize>
-    Bending<'_, '_, R, Tree, Effects, Course, B, Q, V, M>
+impl<Scalar, Tree, Effects, Course, const B: usize, const Q: usize, const V: usize, const M: usize>
+    Bending<'_, '_, Scalar, Tree, Effects, Course, B, Q, V, M>
 where
-    R: Real,
+    Scalar: Real,
     Tree: Bends,
-    Effects: Effect<R, B, V>,
-    Course: Moves<R>,
+    Effects: Effect<Scalar, B, V>,
+    Course: Moves<Scalar>,
 {
     /// Visits joint I and its descendants; returns the wrench that they need from what they stand
     /// on.
     #[cfg_attr(optimised, inline(always))]
-    fn visit<const I: usize>(&mut self, on: &Stand<R>) -> Wrench<R> {
+    fn visit<const I: usize>(&mut self, on: &Stand<Scalar>) -> Wrench<Scalar> {
         let rates = self.moves.joint(I);
         let mut bent = Mode::NO_MODES;
         for_each_mode!(K, {
@@ -176,9 +180,9 @@ where
         let mut forces = [Folded::ZERO; MODES];
         let elastic = const { Course::ALL && Effects::ELASTICITY };
         let mut total = if moves {
-            bent_wrench::<R, Tree, I, true>(&field, body, &bent, elastic, &mut forces)
+            bent_wrench::<Scalar, Tree, I, true>(&field, body, &bent, elastic, &mut forces)
         } else {
-            bent_wrench::<R, Tree, I, false>(&field, body, &bent, elastic, &mut forces)
+            bent_wrench::<Scalar, Tree, I, false>(&field, body, &bent, elastic, &mut forces)
         };
         if const { Course::ALL && Effects::WRENCH } {
             total = self.rigid.call.environment::<I>(&field, total);
@@ -212,10 +216,10 @@ where
     #[cfg_attr(optimised, inline(always))]
     fn beyond<const I: usize, const MOVES: bool>(
         &mut self,
-        field: &AccelerationField<R>,
-        bent: &[Mode<R>; MODES],
-        forces: &mut [Folded<R>; MODES],
-    ) -> Wrench<R> {
+        field: &AccelerationField<Scalar>,
+        bent: &[Mode<Scalar>; MODES],
+        forces: &mut [Folded<Scalar>; MODES],
+    ) -> Wrench<Scalar> {
         let (end, along) = End::of::<Tree, I, MOVES>(field, bent);
         let stand = end.stand::<Tree, I, MOVES>(&along);
         let mut load = self.children::<I>(&stand);
@@ -224,7 +228,7 @@ where
         }
         if Bent::<Tree, I, MOVES>::HAS_BODY_ON_END {
             let at = end.turned::<Tree, I, MOVES>(&along);
-            let ends = Call::<R, Ends<Tree>, Effects, B, Q, V>::new(
+            let ends = Call::<Scalar, Ends<Tree>, Effects, B, Q, V>::new(
                 self.rigid.call.turns,
                 self.rigid.call.effects,
             );
@@ -239,7 +243,7 @@ where
 
     /// The sum over the children of joint I.
     #[cfg_attr(optimised, inline(always))]
-    fn children<const I: usize>(&mut self, on: &Stand<R>) -> Wrench<R> {
+    fn children<const I: usize>(&mut self, on: &Stand<Scalar>) -> Wrench<Scalar> {
         let mut total = Wrench::ZERO;
         for_each_joint!(
             J,
@@ -254,7 +258,7 @@ where
 
     /// The displacement of joint I, its angle with that of what it stands on.
     #[cfg_attr(optimised, inline(always))]
-    fn stood<const I: usize>(&self, on: &Stand<R>) -> Displacement<R, Tree, I> {
+    fn stood<const I: usize>(&self, on: &Stand<Scalar>) -> Displacement<Scalar, Tree, I> {
         let at = self.rigid.call.displacement::<I>();
         let axis = super::folding::Vec3::constant(CompiledJoint::<Tree, I>::JOINT.rot.z_axis);
         let (s, c) = (Folded::runtime(at.turn.sin), Folded::runtime(at.turn.cos));

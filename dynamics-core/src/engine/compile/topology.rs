@@ -43,13 +43,17 @@ pub(crate) trait Compiled {
     };
 }
 
-/// The robot `T`, compiled.
-pub(crate) struct CompiledRobot<T, const B: usize, const Q: usize, const V: usize>(PhantomData<T>);
+/// The robot `Arm`, compiled.
+pub(crate) struct CompiledRobot<Arm, const B: usize, const Q: usize, const V: usize>(
+    PhantomData<Arm>,
+);
 
-impl<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize> CompiledRobot<T, B, Q, V> {
+impl<Arm: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>
+    CompiledRobot<Arm, B, Q, V>
+{
     const TREE: &'static CompiledTree<B, V> = &{
         assert!(V <= 64, "the engine takes up to 64 velocity coordinates; use `Core`");
-        compile(&T::MODEL, T::NEGLIGIBLE)
+        compile(&Arm::MODEL, Arm::NEGLIGIBLE)
     };
 
     /// For a robot of revolute joints alone: whether the limits of all of them are within two turns
@@ -66,10 +70,10 @@ impl<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize> Compiled
     };
 }
 
-impl<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize> Compiled
-    for CompiledRobot<T, B, Q, V>
+impl<Arm: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize> Compiled
+    for CompiledRobot<Arm, B, Q, V>
 {
-    const LINKS: &'static [Link<f64>] = &T::MODEL.links;
+    const LINKS: &'static [Link<f64>] = &Arm::MODEL.links;
     const JOINTS: &'static [Joint] = &Self::TREE.joints;
     const PLACES: &'static [BodyPlacement] = &Self::TREE.places;
     const LENGTH: f64 = Self::TREE.length;

@@ -13,67 +13,79 @@ const CROSS: usize = 1;
 
 /// R v of joint I.
 #[cfg_attr(optimised, inline(always))]
-pub(crate) fn rotate_to_parent<R: Real, Tree, const I: usize>(v: Vec3<R>) -> Vec3<R>
+pub(crate) fn rotate_to_parent<Scalar: Real, Tree, const I: usize>(v: Vec3<Scalar>) -> Vec3<Scalar>
 where
     Tree: Compiled,
 {
-    product::<R, Tree, ROT, I>(v)
+    product::<Scalar, Tree, ROT, I>(v)
 }
 
 /// p × v, p the offset from the origin of joint I's parent to its own, without the joint's own
 /// translation.
 #[cfg_attr(optimised, inline(always))]
-pub(crate) fn constant_offset_cross<R: Real, Tree, const I: usize>(v: Vec3<R>) -> Vec3<R>
+pub(crate) fn constant_offset_cross<Scalar: Real, Tree, const I: usize>(
+    v: Vec3<Scalar>,
+) -> Vec3<Scalar>
 where
     Tree: Compiled,
 {
-    product::<R, Tree, CROSS, I>(v)
+    product::<Scalar, Tree, CROSS, I>(v)
 }
 
 /// R M Rᵀ of joint I.
 #[cfg_attr(optimised, inline(always))]
-pub(crate) fn rotate_matrix_to_parent<R: Real, Tree, const I: usize>(m: &Mat3<R>) -> Mat3<R>
+pub(crate) fn rotate_matrix_to_parent<Scalar: Real, Tree, const I: usize>(
+    m: &Mat3<Scalar>,
+) -> Mat3<Scalar>
 where
     Tree: Compiled,
 {
-    let half = columns_rotated::<R, Tree, I>(*m);
-    let rows = columns_rotated::<R, Tree, I>(Mat3(half.rows()));
+    let half = columns_rotated::<Scalar, Tree, I>(*m);
+    let rows = columns_rotated::<Scalar, Tree, I>(Mat3(half.rows()));
     Mat3(rows.rows())
 }
 
 #[cfg_attr(optimised, inline(always))]
-fn columns_rotated<R: Real, Tree, const I: usize>(Mat3([x, y, z]): Mat3<R>) -> Mat3<R>
+fn columns_rotated<Scalar: Real, Tree, const I: usize>(
+    Mat3([x, y, z]): Mat3<Scalar>,
+) -> Mat3<Scalar>
 where
     Tree: Compiled,
 {
     Mat3([
-        rotate_to_parent::<R, Tree, I>(x),
-        rotate_to_parent::<R, Tree, I>(y),
-        rotate_to_parent::<R, Tree, I>(z),
+        rotate_to_parent::<Scalar, Tree, I>(x),
+        rotate_to_parent::<Scalar, Tree, I>(y),
+        rotate_to_parent::<Scalar, Tree, I>(z),
     ])
 }
 
 /// R S Rᵀ of joint I.
 #[cfg_attr(optimised, inline(always))]
-pub(crate) fn rotate_symmetric_to_parent<R: Real, Tree, const I: usize>(s: Sym3<R>) -> Sym3<R>
+pub(crate) fn rotate_symmetric_to_parent<Scalar: Real, Tree, const I: usize>(
+    s: Sym3<Scalar>,
+) -> Sym3<Scalar>
 where
     Tree: Compiled,
 {
-    Sym3::of(&rotate_matrix_to_parent::<R, Tree, I>(&Mat3(s.columns())))
+    Sym3::of(&rotate_matrix_to_parent::<Scalar, Tree, I>(&Mat3(s.columns())))
 }
 
 #[cfg_attr(optimised, inline(always))]
-fn product<R: Real, Tree, const M: usize, const I: usize>(v: Vec3<R>) -> Vec3<R>
+fn product<Scalar: Real, Tree, const M: usize, const I: usize>(v: Vec3<Scalar>) -> Vec3<Scalar>
 where
     Tree: Compiled,
 {
-    Vec3([row::<R, Tree, M, I, 0>(v), row::<R, Tree, M, I, 1>(v), row::<R, Tree, M, I, 2>(v)])
+    Vec3([
+        row::<Scalar, Tree, M, I, 0>(v),
+        row::<Scalar, Tree, M, I, 1>(v),
+        row::<Scalar, Tree, M, I, 2>(v),
+    ])
 }
 
 #[cfg_attr(optimised, inline(always))]
-fn row<R: Real, Tree, const M: usize, const I: usize, const K: usize>(
-    Vec3([x, y, z]): Vec3<R>,
-) -> Folded<R>
+fn row<Scalar: Real, Tree, const M: usize, const I: usize, const K: usize>(
+    Vec3([x, y, z]): Vec3<Scalar>,
+) -> Folded<Scalar>
 where
     Tree: Compiled,
 {

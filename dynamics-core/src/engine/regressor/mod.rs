@@ -26,7 +26,7 @@ use crate::scalar::Real;
 use crate::state::{Configuration, RobotState, State};
 use crate::trig::Kernel;
 
-impl<T, K> Engine<T, K> {
+impl<Arm, Sines> Engine<Arm, Sines> {
     /// The regressor Y of the joints' torques, by coordinates, bodies and parameters, N·m or N per
     /// unit of each parameter, as [`crate::algorithms::regressor`] computes it.
     ///
@@ -51,14 +51,14 @@ impl<T, K> Engine<T, K> {
     #[doc(alias = "parameter identification")]
     #[inline(never)]
     #[must_use]
-    pub fn regressor<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
-        state: impl RobotState<R, Q, V>,
+    pub fn regressor<Scalar: Real, Effects, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<Scalar, Q, V>,
         effects: &Effects,
-    ) -> [[[R; 10]; B]; V]
+    ) -> [[[Scalar; 10]; B]; V]
     where
-        T: Robot<B, Q, V>,
-        K: Kernel<R>,
-        Effects: Effect<R, B, V>,
+        Arm: Robot<B, Q, V>,
+        Sines: Kernel<Scalar>,
+        Effects: Effect<Scalar, B, V>,
     {
         scene_is_taken!();
         let configuration = state.configuration();
@@ -90,21 +90,21 @@ impl<T, K> Engine<T, K> {
     #[inline(never)]
     #[must_use]
     pub fn regressor_columns<
-        R: Real,
+        Scalar: Real,
         Effects,
         const BODY: usize,
         const B: usize,
         const Q: usize,
         const V: usize,
     >(
-        state: impl RobotState<R, Q, V>,
+        state: impl RobotState<Scalar, Q, V>,
         effects: &Effects,
         body: OnBody<BODY>,
-    ) -> [[R; 10]; V]
+    ) -> [[Scalar; 10]; V]
     where
-        T: Robot<B, Q, V>,
-        K: Kernel<R>,
-        Effects: Effect<R, B, V>,
+        Arm: Robot<B, Q, V>,
+        Sines: Kernel<Scalar>,
+        Effects: Effect<Scalar, B, V>,
     {
         scene_is_taken!();
         let _ = body;
@@ -116,21 +116,21 @@ impl<T, K> Engine<T, K> {
     }
 }
 
-impl<R, Tree, Effects, const B: usize, const Q: usize, const V: usize>
-    Call<'_, R, Tree, Effects, B, Q, V>
+impl<Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize>
+    Call<'_, Scalar, Tree, Effects, B, Q, V>
 where
-    R: Real,
+    Scalar: Real,
     Tree: Compiled,
-    Effects: Effect<R, B, V>,
+    Effects: Effect<Scalar, B, V>,
 {
     /// The columns of the bodies of the list.
     #[cfg_attr(optimised, inline(always))]
     fn regressor_columns<List: Bodies<N>, const N: usize>(
         self,
-        state: &State<R, Q, V>,
-    ) -> [[[R; 10]; N]; V] {
-        let mut y = [[[R::ZERO; 10]; N]; V];
-        let mut pass = Columns::<R, Tree, List, Effects, N, B, Q, V> {
+        state: &State<Scalar, Q, V>,
+    ) -> [[[Scalar; 10]; N]; V] {
+        let mut y = [[[Scalar::ZERO; 10]; N]; V];
+        let mut pass = Columns::<Scalar, Tree, List, Effects, N, B, Q, V> {
             call: self,
             state,
             y: &mut y,
@@ -145,9 +145,9 @@ where
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn regressed_field<const I: usize>(
         self,
-        parent: &AccelerationField<R>,
-        state: &State<R, Q, V>,
-    ) -> AccelerationField<R> {
+        parent: &AccelerationField<Scalar>,
+        state: &State<Scalar, Q, V>,
+    ) -> AccelerationField<Scalar> {
         let motions = Motions {
             turns: self.turns,
             qd: &state.qd,
@@ -162,14 +162,14 @@ where
 
 /// A body's field, and its motion at unit rate of each coordinate, in its joint's frame.
 #[derive(Clone, Copy)]
-struct Moving<R, const V: usize> {
-    field: AccelerationField<R>,
-    by: [Twist<R>; V],
+struct Moving<Scalar, const V: usize> {
+    field: AccelerationField<Scalar>,
+    by: [Twist<Scalar>; V],
 }
 
 struct Columns<
     'a,
-    R,
+    Scalar,
     Tree,
     List,
     Effects,
@@ -178,14 +178,14 @@ struct Columns<
     const Q: usize,
     const V: usize,
 > {
-    call: Call<'a, R, Tree, Effects, B, Q, V>,
-    state: &'a State<R, Q, V>,
-    y: &'a mut [[[R; 10]; N]; V],
+    call: Call<'a, Scalar, Tree, Effects, B, Q, V>,
+    state: &'a State<Scalar, Q, V>,
+    y: &'a mut [[[Scalar; 10]; N]; V],
     types: PhantomData<List>,
 }
 
 impl<
-    R: Real,
+    Scalar: Real,
     Tree: Compiled,
     List: Bodies<N>,
     Effects,
@@ -193,18 +193,18 @@ impl<
     const B: usize,
     const Q: usize,
     const V: usize,
-> Pass for Columns<'_, R, Tree, List, Effects, N, B, Q, V>
+> Pass for Columns<'_, Scalar, Tree, List, Effects, N, B, Q, V>
 where
-    Effects: Effect<R, B, V>,
+    Effects: Effect<Scalar, B, V>,
 {
     type Tree = Tree;
-    type Outward = Moving<R, V>;
+    type Outward = Moving<Scalar, V>;
     type Inward = Nothing;
     const NOTHING: Nothing = Nothing;
     const JOINTS: u64 = joints::<Tree>(&List::NUMBERS);
 
     #[cfg_attr(optimised, inline(always))]
-    fn enter<const I: usize>(&mut self, parent: &Moving<R, V>) -> Moving<R, V> {
+    fn enter<const I: usize>(&mut self, parent: &Moving<Scalar, V>) -> Moving<Scalar, V> {
         let field = self.call.regressed_field::<I>(&parent.field, self.state);
         let at = self.call.displacement::<I>();
         let mut body = Moving { field, by: parent.by };
@@ -231,21 +231,24 @@ where
     }
 
     #[cfg_attr(optimised, inline(always))]
-    fn leave<const I: usize>(&mut self, _: &Moving<R, V>, _: Nothing) -> Nothing {
+    fn leave<const I: usize>(&mut self, _: &Moving<Scalar, V>, _: Nothing) -> Nothing {
         Nothing
     }
 }
 
-impl<R, Tree, List, Effects, const N: usize, const B: usize, const Q: usize, const V: usize>
-    Columns<'_, R, Tree, List, Effects, N, B, Q, V>
+impl<Scalar, Tree, List, Effects, const N: usize, const B: usize, const Q: usize, const V: usize>
+    Columns<'_, Scalar, Tree, List, Effects, N, B, Q, V>
 where
-    R: Real,
+    Scalar: Real,
     Tree: Compiled,
     List: Bodies<N>,
 {
     /// Writes the columns of the K-th of the bodies of the list that move with joint I.
     #[cfg_attr(optimised, inline(always))]
-    fn see<const I: usize, const K: usize>(y: &mut [[[R; 10]; N]; V], body: &Moving<R, V>) {
+    fn see<const I: usize, const K: usize>(
+        y: &mut [[[Scalar; 10]; N]; V],
+        body: &Moving<Scalar, V>,
+    ) {
         let (at, place) = Named::<Tree, List, N, I, K>::BODY;
         let power = BodyPower::of(&body.field, place, Tree::LENGTH);
         for_each_joint!(J, {

@@ -17,7 +17,7 @@ use crate::scalar::Real;
 use crate::state::{Configuration, RobotState, State};
 use crate::trig::Kernel;
 
-impl<T, K> Engine<T, K> {
+impl<Arm, Sines> Engine<Arm, Sines> {
     /// The row of the regressor of one coordinate, by bodies: its torque per unit of each body's
     /// parameters, N·m or N, as [`crate::algorithms::regressor_row`] computes it.
     ///
@@ -39,15 +39,15 @@ impl<T, K> Engine<T, K> {
     /// ```
     #[cfg_attr(optimised, inline(always))]
     #[must_use]
-    pub fn regressor_row<R: Real, Effects, const B: usize, const Q: usize, const V: usize>(
-        state: impl RobotState<R, Q, V>,
+    pub fn regressor_row<Scalar: Real, Effects, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<Scalar, Q, V>,
         effects: &Effects,
         coordinate: usize,
-    ) -> [[R; 10]; B]
+    ) -> [[Scalar; 10]; B]
     where
-        T: Robot<B, Q, V>,
-        K: Kernel<R>,
-        Effects: Effect<R, B, V>,
+        Arm: Robot<B, Q, V>,
+        Sines: Kernel<Scalar>,
+        Effects: Effect<Scalar, B, V>,
     {
         Self::regressor_row_of_bodies(state, effects, coordinate, &[true; B])
     }
@@ -74,27 +74,27 @@ impl<T, K> Engine<T, K> {
     #[inline(never)]
     #[must_use]
     pub fn regressor_row_of_bodies<
-        R: Real,
+        Scalar: Real,
         Effects,
         const B: usize,
         const Q: usize,
         const V: usize,
     >(
-        state: impl RobotState<R, Q, V>,
+        state: impl RobotState<Scalar, Q, V>,
         effects: &Effects,
         coordinate: usize,
         bodies: &[bool; B],
-    ) -> [[R; 10]; B]
+    ) -> [[Scalar; 10]; B]
     where
-        T: Robot<B, Q, V>,
-        K: Kernel<R>,
-        Effects: Effect<R, B, V>,
+        Arm: Robot<B, Q, V>,
+        Sines: Kernel<Scalar>,
+        Effects: Effect<Scalar, B, V>,
     {
         scene_is_taken!();
         let configuration = state.configuration();
         let trig = configuration.trig_or(Self::trig_source());
         let call = Self::call(trig.borrow(), effects);
-        let mut y = [[R::ZERO; 10]; B];
+        let mut y = [[Scalar::ZERO; 10]; B];
         let mut pass = Row { call, state: state.state(), coordinate, bodies, y: &mut y };
         let at_base = Moving { field: call.base(), by: Twist::ZERO };
         let Nothing = sweep(&mut pass, &at_base);
@@ -104,31 +104,31 @@ impl<T, K> Engine<T, K> {
 
 /// A body's field, and its motion at unit rate of the coordinate, in its joint's frame.
 #[derive(Clone, Copy)]
-struct Moving<R> {
-    field: AccelerationField<R>,
-    by: Twist<R>,
+struct Moving<Scalar> {
+    field: AccelerationField<Scalar>,
+    by: Twist<Scalar>,
 }
 
-struct Row<'a, R, Tree, Effects, const B: usize, const Q: usize, const V: usize> {
-    call: Call<'a, R, Tree, Effects, B, Q, V>,
-    state: &'a State<R, Q, V>,
+struct Row<'a, Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize> {
+    call: Call<'a, Scalar, Tree, Effects, B, Q, V>,
+    state: &'a State<Scalar, Q, V>,
     coordinate: usize,
     bodies: &'a [bool; B],
-    y: &'a mut [[R; 10]; B],
+    y: &'a mut [[Scalar; 10]; B],
 }
 
-impl<R: Real, Tree: Compiled, Effects, const B: usize, const Q: usize, const V: usize> Pass
-    for Row<'_, R, Tree, Effects, B, Q, V>
+impl<Scalar: Real, Tree: Compiled, Effects, const B: usize, const Q: usize, const V: usize> Pass
+    for Row<'_, Scalar, Tree, Effects, B, Q, V>
 where
-    Effects: Effect<R, B, V>,
+    Effects: Effect<Scalar, B, V>,
 {
     type Tree = Tree;
-    type Outward = Moving<R>;
+    type Outward = Moving<Scalar>;
     type Inward = Nothing;
     const NOTHING: Nothing = Nothing;
 
     #[cfg_attr(optimised, inline(always))]
-    fn enter<const I: usize>(&mut self, parent: &Moving<R>) -> Moving<R> {
+    fn enter<const I: usize>(&mut self, parent: &Moving<Scalar>) -> Moving<Scalar> {
         let field = self.call.regressed_field::<I>(&parent.field, self.state);
         let at = self.call.displacement::<I>();
         let mut by = parent.by.carried(&at);
@@ -136,7 +136,11 @@ where
             if JointPair::<Tree, I, K>::IS_COORDINATE {
                 // A coordinate that moves an ancestor does not move this joint: one of the two
                 // motions is zero.
-                let rate = Folded::runtime(R::either(self.coordinate == K, R::ONE, R::ZERO));
+                let rate = Folded::runtime(Scalar::either(
+                    self.coordinate == K,
+                    Scalar::ONE,
+                    Scalar::ZERO,
+                ));
                 let own = Twist::along(CompiledJoint::<Tree, K>::JOINT, Tree::LENGTH_INV, rate);
                 (by.ang, by.lin) = (by.ang + own.ang, by.lin + own.lin);
             }
@@ -147,7 +151,7 @@ where
             if let Some(see) = const {
                 only_if(
                     Named::<Tree, AllBodies, B, I, N_TH>::IS_SOME,
-                    see::<R, Tree, B, I, N_TH> as See<R, B>,
+                    see::<Scalar, Tree, B, I, N_TH> as See<Scalar, B>,
                 )
             } {
                 see(self.y, self.bodies, &body);
@@ -157,19 +161,19 @@ where
     }
 
     #[cfg_attr(optimised, inline(always))]
-    fn leave<const I: usize>(&mut self, _: &Moving<R>, _: Nothing) -> Nothing {
+    fn leave<const I: usize>(&mut self, _: &Moving<Scalar>, _: Nothing) -> Nothing {
         Nothing
     }
 }
 
-type See<R, const B: usize> = fn(&mut [[R; 10]; B], &[bool; B], &Moving<R>);
+type See<Scalar, const B: usize> = fn(&mut [[Scalar; 10]; B], &[bool; B], &Moving<Scalar>);
 
 /// Writes the entries of the K-th body that moves with joint I.
 #[cfg_attr(optimised, inline(always))]
-fn see<R: Real, Tree: Compiled, const B: usize, const I: usize, const K: usize>(
-    y: &mut [[R; 10]; B],
+fn see<Scalar: Real, Tree: Compiled, const B: usize, const I: usize, const K: usize>(
+    y: &mut [[Scalar; 10]; B],
     bodies: &[bool; B],
-    body: &Moving<R>,
+    body: &Moving<Scalar>,
 ) {
     let (at, place) = Named::<Tree, AllBodies, B, I, K>::BODY;
     if bodies[*at] {

@@ -1,5 +1,8 @@
 //! Machine code and constants of a linked program, by address.
 
+use std::collections::BTreeSet;
+
+use cycle_meter::Relative;
 use object::{Object, ObjectSection, ObjectSymbol, SectionKind};
 use sha2::{Digest, Sha256};
 
@@ -130,22 +133,54 @@ impl Image {
 
     /// SHA-256 of the functions that hold these addresses, each from its first instruction to its
     /// last literal.
+    ///
+    /// Where the functions lie does not count: a branch from one to another has no distance, and
+    /// they follow each other by their bytes.
     pub fn hash(&self, visited: &[u32]) -> String {
-        let mut hash = Sha256::new();
-        let holds = |(_, start, size): &&(String, u32, u32)| {
-            let first = visited.partition_point(|address| address < start);
-            visited.get(first).is_some_and(|address| address - start < *size)
-        };
+        let mut functions: Vec<Vec<u8>> = Vec::new();
         let mut last = None;
-        for (_, start, size) in self.symbols.iter().filter(holds) {
-            if last.replace(*start) == Some(*start) {
-                continue; // another name of the same function
+        for &(_, start, size) in &self.symbols {
+            let first = visited.partition_point(|address| *address < start);
+            let is_visited = visited.get(first).is_some_and(|address| address - start < size);
+            // A second name of the same function is passed over.
+            if is_visited && last.replace(start) != Some(start) {
+                functions.push(self.placeless(start, size));
             }
-            hash.update(
-                self.from(*start).and_then(|bytes| bytes.get(..*size as usize)).unwrap_or_default(),
-            );
         }
+        functions.sort_unstable();
+        let mut hash = Sha256::new();
+        functions.iter().for_each(|bytes| hash.update(bytes));
         hexadecimal(hash)
+    }
+
+    /// The bytes of a function, in which the instructions that branch out of it have no distance.
+    fn placeless(&self, start: u32, size: u32) -> Vec<u8> {
+        let bytes = self.from(start).and_then(|bytes| bytes.get(..size as usize));
+        let mut bytes = bytes.unwrap_or_default().to_vec();
+        let (mut literals, mut address) = (BTreeSet::new(), start);
+        while address - start < size {
+            if literals.contains(&address) {
+                address = self.code_after(address).unwrap_or(start + size);
+                continue;
+            }
+            let [first, second] = [0, 2].map(|at| self.half(address + at).unwrap_or(0));
+            let relative = cycle_meter::relative(address, first, second);
+            literals.extend(relative.iter().filter(|one| one.words > 0).map(|one| one.target));
+            let leaves = |one: &Relative| one.words == 0 && one.target.wrapping_sub(start) >= size;
+            for (k, bits) in relative
+                .into_iter()
+                .filter(leaves)
+                .flat_map(|one| [(0, one.bits[0]), (2, one.bits[1])])
+            {
+                let at = (address - start) as usize + k;
+                let [low, high] = (!bits).to_le_bytes();
+                if let Some([a, b]) = bytes.get_mut(at..at + 2) {
+                    (*a, *b) = (*a & low, *b & high);
+                }
+            }
+            address += u32::from(cycle_meter::size(first));
+        }
+        bytes
     }
 }
 
@@ -153,4 +188,24 @@ impl Image {
 pub(crate) fn hexadecimal(hash: Sha256) -> String {
     let bytes = hash.finalize();
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Image;
+
+    /// The hash of a function that calls another and then executes this instruction.
+    fn hash(distance: u16, instruction: u16) -> String {
+        let code = [0xF000, 0xF800 | distance, instruction, 0x4770];
+        let bytes: Vec<u8> = code.iter().flat_map(|half: &u16| half.to_le_bytes()).collect();
+        Image::of(0x800, &bytes).with_function("f", 0x800, 8).hash(&[0x800])
+    }
+
+    #[test]
+    fn the_place_of_a_called_function_does_not_count_but_each_instruction_does() {
+        assert_eq!(hash(0x10, 0xBF00), hash(0x20, 0xBF00));
+        assert_ne!(hash(0x10, 0xBF00), hash(0x10, 0x3001));
+        // A branch within the function keeps its distance.
+        assert_ne!(hash(0x10, 0xBF00), hash(0, 0xBF00));
+    }
 }

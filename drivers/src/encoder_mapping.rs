@@ -92,8 +92,8 @@ impl JointMapping {
     ///
     /// After readings that failed or were missed, in which the encoder can have turned by half a
     /// turn, a joint of [`JointRange::Within`] and [`JointRange::Continuous`] is placed anew. One
-    /// of [`JointRange::Near`] has lost its turn and reports it ([`LostTurn`]) until it is told
-    /// where it is.
+    /// of [`JointRange::Near`] has lost its turn and reports [`LostTurn`] until the driver's
+    /// `place_near` gets its position.
     ///
     /// # Errors
     /// [`MappingError::Range`]: not a number, the ends in the wrong order, or more than 16,000
@@ -267,7 +267,7 @@ const fn within_turn(angle: f32) -> f32 {
 /// An encoder can have turned by half a turn or more since its last reading: its count does not say
 /// where the joint is.
 ///
-/// It lasts until the driver is told where the joint is, by its function `place_near`; the
+/// It lasts until the driver's function `place_near` gets the position of the joint; the
 /// controller stops the arm ([`motion_control::Fault::LostTurn`]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LostTurn;

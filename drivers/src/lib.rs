@@ -11,8 +11,8 @@
 //!
 //! Each driver has the zero, the direction and the resolution of its joint as parameters
 //! ([`JointMapping`], [`Resolution`]): it measures rad at the joint and commands N·m, V or a share
-//! of the full scale there. An encoder is told where its joint can be, too ([`JointRange`]): its
-//! count says only where it is within a turn.
+//! of the full scale there. An encoder also has the range of its joint ([`JointRange`]), since
+//! its count gives the angle within one turn only.
 //!
 //! The encoders and the H-bridges implement the traits of a joint, the servos that of all encoders.
 //! The controllers on CAN are both at once, on a bus that they share ([`CanJoints`]). Three

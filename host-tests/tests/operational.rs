@@ -107,7 +107,7 @@ fn inverses<T: Robot<N, N, N>, const N: usize, const M: usize>(
             worst[0].see(task.inertia.map(|row| dot(&row, &task.mobility[i])), one);
             worst[1].see(inverse.map(|column| dot(&column, &task.jacobian[i])), one);
         }
-        // Torques that the task does not feel: no acceleration, nor any effect of the free part
+        // Torques in the null space of the task: no acceleration, nor any effect of the free part
         // twice.
         let tau: [f64; N] = rng.vector(30.0);
         let felt = |tau: &[f64; N]| task.response.map(|response| dot(&response, tau));

@@ -134,8 +134,8 @@ impl Image {
     /// SHA-256 of the functions that hold these addresses, each from its first instruction to its
     /// last literal.
     ///
-    /// Where the functions lie does not count: a branch from one to another has no distance, and
-    /// they follow each other by their bytes.
+    /// The hash is the same at any address: a branch from one function to another has no distance,
+    /// and the functions are sorted by their bytes.
     pub fn hash(&self, visited: &[u32]) -> String {
         let mut functions: Vec<Vec<u8>> = Vec::new();
         let mut last = None;
@@ -144,7 +144,7 @@ impl Image {
             let is_visited = visited.get(first).is_some_and(|address| address - start < size);
             // A second name of the same function is passed over.
             if is_visited && last.replace(start) != Some(start) {
-                functions.push(self.placeless(start, size));
+                functions.push(self.relocatable(start, size));
             }
         }
         functions.sort_unstable();
@@ -153,8 +153,8 @@ impl Image {
         hexadecimal(hash)
     }
 
-    /// The bytes of a function, in which the instructions that branch out of it have no distance.
-    fn placeless(&self, start: u32, size: u32) -> Vec<u8> {
+    /// The bytes of a function, with the distance set to zero in each branch that leaves it.
+    fn relocatable(&self, start: u32, size: u32) -> Vec<u8> {
         let bytes = self.from(start).and_then(|bytes| bytes.get(..size as usize));
         let mut bytes = bytes.unwrap_or_default().to_vec();
         let (mut literals, mut address) = (BTreeSet::new(), start);

@@ -76,7 +76,7 @@ pub mod terms {
     }
 
     scenes! {
-        /// All terms are told apart at compile time.
+        /// A variant of the machine code exists for each set of terms.
         all, terms =>
         (true, true, false) => [true, true, false],
         (true, false, false) => [true, false, false],
@@ -137,7 +137,7 @@ pub mod terms {
         _ => [true, true, true]
     }
     scenes! {
-        /// No terms are told apart, since the algorithm has none.
+        /// One variant of the machine code exists, since the algorithm has no terms.
         none, terms =>
         _ => [true, true, false]
     }

@@ -7,7 +7,7 @@
 
 use core::fmt;
 
-use joint_drivers::Telemetry;
+use joint_drivers::{Probe, Telemetry};
 use motion_control::{Mode, Reference, Status};
 
 use crate::digest::Digest;
@@ -88,6 +88,14 @@ where
         let environment = S::environment(&self.reference, self.ticks as f32);
         self.ticks += 1;
         marked_tick::<Full<S, B, Q, V>, _, _, N>(&mut self.control, &self.reference, &environment)
+    }
+
+    /// The same with a probe in place of the meter's markers.
+    #[inline(never)]
+    pub fn tick_probed(&mut self, probe: &mut impl Probe<N>) -> Telemetry<N> {
+        let environment = S::environment(&self.reference, self.ticks as f32);
+        self.ticks += 1;
+        self.control.tick_probed::<Full<S, B, Q, V>, _, _>(&self.reference, &environment, probe)
     }
 
     /// Runs this many ticks, each by `tick` (which calls [`Self::tick`] and may measure it): the

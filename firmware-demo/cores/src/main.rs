@@ -24,7 +24,7 @@ static SMALL: Wires<3> = Wires::new();
 static UR5E: Wires<6> = Wires::new();
 
 /// The work of `main` on every processor.
-fn replays() {
+fn work() {
     replay::<Serve, 3, 3, 3, 3>(&SMALL);
     replay::<PickAndPlace, 6, 6, 6, 6>(&UR5E);
     println!("done");
@@ -70,5 +70,5 @@ fn measured<T>(run: impl FnOnce() -> T) -> (T, usize) {
 
 #[cfg(not(target_os = "none"))]
 fn main() {
-    replays();
+    work();
 }

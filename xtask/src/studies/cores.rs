@@ -22,7 +22,7 @@ use crate::kit::{docs, output};
 use crate::studies::budgets;
 use crate::studies::study::Bench;
 use boards::Board;
-use list::{CORES, Core};
+pub use list::{CORES, Core, without_home};
 use page::{PAGE, rows_of};
 use run::{Row, Torques};
 

@@ -12,6 +12,7 @@ pub mod hard_cases;
 pub mod history;
 pub mod peers;
 pub mod robots;
+pub mod rtl;
 pub mod scenes;
 pub mod study;
 
@@ -53,6 +54,12 @@ pub const STUDIES: &[Study] = &[
         files: &["docs/boards.md"],
         held: Step(Target, Full, "a Cortex-M0, M3 and M33 and an RV32 compute the host's torques, and docs/boards.md has the stack that they take and the sizes of the boards' images"),
         form: Own(cores::Args::augment_args, |options, matches| cores::run(options, given(matches)?), cores::check),
+    },
+    Study {
+        name: "rtl", about: "Count cycles on a RISC-V core simulated from its register-transfer source, rewrite docs/rtl.md",
+        files: &["docs/rtl.md", "docs/rtl.svg"],
+        held: Step(Target, Full, "a core's gates count the cycles of docs/rtl.md, and compute the bits of QEMU and of the host"),
+        form: Whole(rtl::measure),
     },
     Study {
         name: "accuracy", about: "Measure what accuracy costs in time, rewrite docs/accuracy.md and its plots; or choose a configuration",

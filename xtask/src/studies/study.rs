@@ -180,9 +180,10 @@ impl Study {
         self.page(&self.words()).write(workspace, &found.text)?;
         if let Some((file, brief)) = &found.brief {
             self.part(file, &self.words()).write(workspace, brief)?;
-            if *file == "README.md" {
-                first_screen::write_why(workspace)?;
-            }
+        }
+        let in_readme = matches!(found.brief, Some(("README.md", _)));
+        if in_readme || self.files[0] == first_screen::RTL {
+            first_screen::write_why(workspace)?;
         }
         for (file, picture) in self.files[1..].iter().zip(&found.picture) {
             workspace::write(&workspace.report(file), picture)?;

@@ -10,6 +10,8 @@ use crate::studies::scenes::report::{Ablation, Report};
 
 /// The page that has the figures of other libraries, which no test measures anew.
 pub const PEERS: &str = "docs/peers.md";
+/// The page of the cycles that a core's gates count.
+pub const RTL: &str = "docs/rtl.md";
 
 const fn part(name: &'static str) -> Page<'static> {
     Page { file: "README.md", name, command: "cargo xtask demo --write-docs" }
@@ -26,12 +28,12 @@ pub fn write_why(workspace: &Workspace) -> Result<()> {
 /// The first lines as these pages have them now, whichever compiler measured their figures.
 pub fn composed(workspace: &Workspace) -> Result<String> {
     let read = |file| workspace::read(&workspace.root.join(file));
-    why(&read(PEERS)?, &read(WHY.file)?, &read(TICK.file)?)
+    why(&read(PEERS)?, &read(WHY.file)?, &read(TICK.file)?, &read(RTL)?)
 }
 
 /// From the bars of the peers' page, as it was recorded, from the README's other parts and from the
 /// default scene's page. A figure is copied, or has fewer digits than there.
-fn why(peers: &str, readme: &str, scenes: &str) -> Result<String> {
+fn why(peers: &str, readme: &str, scenes: &str, rtl: &str) -> Result<String> {
     let wishes = wishes(readme)?;
     let range = |bar: &str| range(peers, bar);
     let inverse = range(" rnea, m4f, engine / casadi: cycles")?;
@@ -48,6 +50,10 @@ fn why(peers: &str, readme: &str, scenes: &str) -> Result<String> {
     let exact = cell(tick, "feed-forward", 3)?[1];
     let ratio = exact.split_once('(').and_then(|(_, ratio)| ratio.strip_suffix(')'));
     let ratio = ratio.ok_or_else(|| check!("{} has no share of PD's error", TICK.file))?;
+    // The third column of cycles is that of an FPU of one stage.
+    let [counted, counted_tick] =
+        ["ur5e rnea engine outside", "ur5e"].map(|row| Ok(cell(rtl, row, 9)?[3].to_owned()));
+    let (counted, counted_tick): (String, String) = (counted?, counted_tick?);
     Ok(format!(
         "- Inverse dynamics takes **{inverse} of the cycles of the best C** that CasADi generates \
          for the same robot (UR5e, Panda, iiwa 14,\n  \
@@ -58,7 +64,9 @@ fn why(peers: &str, readme: &str, scenes: &str) -> Result<String> {
          Pinocchio's C++**.\n\
          - A whole tick of a UR5e, from six encoders to six drives, takes {longest:.1} µs at \
          {CLOCK_MHZ} MHz: **{share:.1} % of a millisecond**. The arm\n  \
-         then follows its reference with {ratio} of the error of PD control alone.\n\n\
+         then follows its reference with {ratio} of the error of PD control alone.\n\
+         - Counted, not modelled, on the gates of a RISC-V core ([CV32E40P]({RTL}), FPU of one \
+         stage): {counted} cycles for its inverse dynamics, {counted_tick} for its tick.\n\n\
          {wishes}"
     ))
 }
@@ -170,20 +178,29 @@ mod tests {
 
     #[test]
     fn a_figure_that_another_page_has_not_is_refused() {
-        let [peers, readme, scenes] = [super::PEERS, WHY.file, TICK.file].map(read);
-        let now = why(&peers, &readme, &scenes).expect("the pages");
+        let [peers, readme, scenes, rtl] =
+            [super::PEERS, WHY.file, TICK.file, super::RTL].map(read);
+        let now = why(&peers, &readme, &scenes, &rtl).expect("the pages");
         let cycles = |name| super::cell(&readme, name, 5).expect("a row")[1].to_owned();
         for row in ["default", "pruned at 0.1 %"] {
             let other = changed(&readme, &format!("| {row} "), &cycles(row));
-            let other = why(&peers, &other, &scenes).expect("the pages");
+            let other = why(&peers, &other, &scenes, &rtl).expect("the pages");
+            assert_ne!(other, now, "{row}");
+        }
+        for (row, begin) in
+            [("ur5e rnea engine outside", "| ur5e rnea engine outside "), ("ur5e", "| ur5e  ")]
+        {
+            let cycles = super::cell(&rtl, row, 9).expect("a row")[3].to_owned();
+            let other = changed(&rtl, begin, &cycles);
+            let other = why(&peers, &readme, &scenes, &other).expect("the pages");
             assert_ne!(other, now, "{row}");
         }
         let gravity =
             super::cell(WORTH.written(&readme).expect("a part"), "Gravity", 3).expect("a row")[1];
         let other = changed(&readme, "| Gravity ", gravity.trim_end_matches(" ×"));
-        assert_ne!(why(&peers, &other, &scenes).expect("the pages"), now);
+        assert_ne!(why(&peers, &other, &scenes, &rtl).expect("the pages"), now);
         let other = scenes.replace("| total ", "| all ");
-        why(&peers, &readme, &other).expect_err("no total");
+        why(&peers, &readme, &other, &rtl).expect_err("no total");
         assert!(!unsealed(WHY.written(&readme).expect("a part")).contains("9999"));
     }
 }

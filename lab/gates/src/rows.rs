@@ -1,0 +1,90 @@
+//! The algorithms of a robot: inverse dynamics, gravity, M and forward dynamics.
+
+use core::hint::black_box;
+
+use dynamics_core::effects::{Gravity, RIGID_BODY};
+use dynamics_core::model::Robot;
+use dynamics_core::state::{JointTrig, State};
+use dynamics_core::{Core, Engine};
+use firmware_demo::digest::Digest;
+
+#[cfg(target_os = "none")]
+use semihosting::println;
+
+use crate::counters::counted;
+
+/// The states on which each function is called.
+const STATES: usize = 4;
+
+struct Ask<const N: usize> {
+    state: State<f32, N, N>,
+    trig: JointTrig<f32, N>,
+}
+
+/// Some states within the joints' usual ranges, from a fixed seed.
+fn asks<T: Robot<B, N, N>, const B: usize, const N: usize>() -> [Ask<N>; STATES] {
+    let mut seed = 1_u32;
+    let mut number = |bound: f32| {
+        seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        (seed >> 8) as f32 * (2.0 * bound / 16_777_216.0) - bound
+    };
+    [(); STATES].map(|()| {
+        let state = State {
+            q: [(); N].map(|()| number(3.0)),
+            qd: [(); N].map(|()| number(3.0)),
+            qdd: [(); N].map(|()| number(10.0)),
+        };
+        let trig = Core::<T>::joint_trig(&state.q);
+        Ask { state, trig }
+    })
+}
+
+/// Prints a function's row; the function is called through its address, as a user's would be that
+/// is not inlined.
+fn row<A, O>(
+    [robot, algorithm, form, sines]: [&str; 4],
+    asks: &[A],
+    run: fn(&A) -> O,
+    bits: impl Fn(&O, &mut Digest),
+) {
+    let (mut digest, mut cycles, mut instructions) = (Digest::EMPTY, 0, 0);
+    // Before the first call the core has not read the robot's constants; here that costs nothing,
+    // since no memory has a cache.
+    for ask in asks {
+        let (result, count) = counted(|| black_box(run)(black_box(ask)));
+        bits(&result, &mut digest);
+        (cycles, instructions) = (count.cycles.max(cycles), count.instructions.max(instructions));
+    }
+    println!("row {robot} {algorithm} {form} {sines} {cycles} {instructions} {:016x}", digest.0);
+}
+
+/// All rows of a robot.
+#[inline(never)]
+pub fn of<T: Robot<B, N, N>, const B: usize, const N: usize>() {
+    let asks = &asks::<T, B, N>();
+    macro_rules! rows {
+        ($($form:literal: $Form:ident, $forward:ident;)*) => {$(
+            let name = |algorithm, sines| [T::MODEL.name, algorithm, $form, sines];
+            let torque = |tau: &[f32; N], digest: &mut Digest| digest.add(*tau);
+            row(name("rnea", "outside"), asks,
+                |ask: &Ask<N>| $Form::<T>::rnea(ask.trig.with(&ask.state), &RIGID_BODY), torque);
+            row(name("rnea", "inside"), asks,
+                |ask: &Ask<N>| $Form::<T>::rnea(&ask.state, &RIGID_BODY), torque);
+            row(name("gravity", "outside"), asks,
+                |ask: &Ask<N>| $Form::<T>::rnea(ask.trig.with(&ask.state), &(Gravity::EARTH,)),
+                torque);
+            row(name("crba", "outside"), asks,
+                |ask: &Ask<N>| $Form::<T>::crba(&ask.trig, &RIGID_BODY),
+                |m, digest| (0..N).for_each(|i| digest.add([(); N].map({
+                    let mut j = 0;
+                    move |()| { j += 1; m.get(i, j - 1) }
+                }))));
+            row(name("forward_dynamics", "outside"), asks,
+                |ask: &Ask<N>| {
+                    $Form::<T>::$forward(ask.trig.with(&ask.state), &ask.state.qdd, &RIGID_BODY)
+                },
+                |qdd, digest| digest.add(qdd.unwrap_or([f32::NAN; N])));
+        )*};
+    }
+    rows! { "core": Core, aba; "engine": Engine, forward_dynamics; }
+}

@@ -37,7 +37,7 @@ pub const BINS: [&str; 13] = [
     "costs_flexible",
 ];
 
-const PAGE: &str = "docs/costs.md";
+pub const PAGE: &str = "docs/costs.md";
 const COMMAND: &str = "cargo xtask costs";
 /// The bins that measure the robot of a file: inverse dynamics, and the rest.
 const OWN_BINS: [&str; 2] = ["own_costs", "own_forward"];

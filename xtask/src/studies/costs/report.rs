@@ -4,9 +4,8 @@ use crate::kit::bars::{self, ADDED, Bars, Compared, IMAGE, TICK, is_ratio};
 use crate::kit::meter::{CLOCK_MHZ, MODEL};
 use crate::kit::rows::Row;
 use crate::kit::table::{Table, thousands};
+use crate::studies::history::{LEAST_PUBLISHED, least_published};
 
-/// The least arithmetic known for a general arm of six joints, flops: Balafoutis; McMillan & Orin.
-const FLOORS: [(&str, u64); 3] = [("rnea", 836), ("crba", 855), ("aba", 2067)];
 const FLOOR_JOINTS: usize = 6;
 
 /// Between the names of two rows in a bar on the difference of their figures.
@@ -29,14 +28,11 @@ impl Report {
         let robots = self.rows.chunk_by(|a, b| a.robot == b.robot);
         let robots =
             robots.map(|rows| format!("\n## {}\n\n{}", rows[0].robot, table(rows).markdown()));
-        let [rnea, crba, aba] = FLOORS.map(|(_, flops)| thousands(flops));
         format!(
             include_str!("page.md"),
             model = MODEL,
             clock = CLOCK_MHZ,
-            rnea = rnea,
-            crba = crba,
-            aba = aba,
+            least = least_published(),
             robots = robots.collect::<String>(),
             ways = self.ways().markdown(),
             small = self.small_table().markdown(),
@@ -188,9 +184,9 @@ fn table(rows: &[Row]) -> Table {
     )
 }
 
-/// Flops as a share of the floor, where there is one: for what the floor computes.
+/// Flops as a share of the least that is published, where there is such a count.
 fn floor_share(row: &Row) -> Option<String> {
-    let floor = FLOORS.iter().find(|(name, _)| *name == row.algorithm)?.1;
+    let floor = LEAST_PUBLISHED.iter().find(|(name, _)| *name == row.algorithm)?.1;
     let comparable = row.joints == FLOOR_JOINTS && row.inputs == "full" && !row.trig;
     comparable.then(|| format!("{:.2}", row.flops as f64 / floor as f64))
 }

@@ -97,7 +97,7 @@ pub fn svg(rows: &[Row]) -> Result<String> {
             ("2 stages, contracted", ORANGE),
         ],
         x,
-        names: 150,
+        names: 176,
         mark: None,
     }
     .svg(&panels)

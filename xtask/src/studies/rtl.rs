@@ -28,8 +28,8 @@ const LIMIT: Duration = Duration::from_secs(300);
 /// A sum of a product becomes one instruction, whose result is rounded once.
 const CONTRACTED: &str = "-Cllvm-args=-fp-contract=fast";
 /// A jump to an instruction across two words takes a cycle more. Functions begin at words, and calls
-/// keep their length, so that the cycles do not depend on the linker's order, which follows the
-/// folder of the sources.
+/// keep their length, so that the cycles depend less on the linker's order, which follows the folder
+/// of the sources.
 const WORDS: [&str; 2] = [".text ORIGIN(FLASH) :", ".text ORIGIN(FLASH) : SUBALIGN(4)"];
 const CALLS: &str = "-Clink-arg=--no-relax";
 

@@ -66,7 +66,7 @@ fn why(peers: &str, readme: &str, scenes: &str, rtl: &str) -> Result<String> {
          {CLOCK_MHZ} MHz: **{share:.1} % of a millisecond**. The arm\n  \
          then follows its reference with {ratio} of the error of PD control alone.\n\
          - Counted, not modelled, on the gates of a RISC-V core ([CV32E40P]({RTL}), FPU of one \
-         stage): {counted} cycles for its inverse dynamics, {counted_tick} for its tick.\n\n\
+         stage): a UR5e's inverse dynamics takes {counted} cycles, its tick {counted_tick}.\n\n\
          {wishes}"
     ))
 }

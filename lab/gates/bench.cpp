@@ -28,7 +28,8 @@ uint32_t word(uint32_t address) {
 }
 
 uint32_t text(uint32_t address, uint32_t length) {
-  if (address - BASE > SIZE || length > SIZE - (address - BASE)) fail("a text outside of the memory", address);
+  if (address - BASE > SIZE || length > SIZE - (address - BASE))
+    fail("a text outside of the memory", address);
   std::fwrite(&memory[address - BASE], 1, length, stdout);
   return 0;
 }
@@ -54,7 +55,8 @@ void load(const char* path) {
     if (full(header) != 1) continue;
     uint32_t offset = full(header + 4), to = full(header + 12), length = full(header + 16);
     if (length == 0) continue;
-    if (to - BASE > SIZE - length || size_t(offset) + length > elf.size()) fail("a segment outside of the memory", to);
+    if (length > SIZE || to - BASE > SIZE - length || size_t(offset) + length > elf.size())
+      fail("a segment outside of the memory", to);
     std::memcpy(&memory[to - BASE], &elf[offset], length);
   }
 }
@@ -70,11 +72,13 @@ int main(int argc, char** argv) {
   core.instr_gnt_i = core.data_gnt_i = 1;
   core.fetch_enable_i = 1;
   for (uint64_t cycle = 0; cycle < limit; cycle++) {
-    core.rst_ni = cycle < 2 || cycle >= 8; // registers behind a clock gate reset when it falls
+    // Registers behind a clock gate are reset by the fall of this signal alone.
+    core.rst_ni = cycle < 2 || cycle >= 8;
     core.clk_i = 0;
     core.eval();
     const bool fetches = core.instr_req_o, accesses = core.data_req_o, writes = core.data_we_o;
-    const uint32_t fetched = core.instr_addr_o, at = core.data_addr_o & ~3u, bytes = core.data_be_o, value = core.data_wdata_o;
+    const uint32_t fetched = core.instr_addr_o, at = core.data_addr_o & ~3u;
+    const uint32_t bytes = core.data_be_o, value = core.data_wdata_o;
     core.clk_i = 1;
     core.eval();
     core.instr_rvalid_i = fetches && core.rst_ni;

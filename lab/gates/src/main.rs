@@ -1,5 +1,5 @@
-//! Dynamics by core and engine, and whole control ticks, each counted by the counters of the core on
-//! which it runs. It prints the digest of every result's bits too, so that two processors can be
+//! Dynamics by core and engine, and whole control ticks, each counted by the counters of the core
+//! on which it runs. It prints the digest of every result's bits too, so that two processors can be
 //! compared; on a host the digests alone.
 //!
 //! ```text

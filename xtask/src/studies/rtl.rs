@@ -1,5 +1,5 @@
-//! `cargo xtask rtl`: cycles that a core counts itself, simulated from its register-transfer source.
-//! The results must have the same bits there, in QEMU and on the host.
+//! `cargo xtask rtl`: cycles that a core counts itself, simulated from its register-transfer
+//! source. The results must have the same bits there, in QEMU and on the host.
 
 mod page;
 mod row;
@@ -27,9 +27,9 @@ const PACKAGE: &str = "gates";
 const LIMIT: Duration = Duration::from_secs(300);
 /// A sum of a product becomes one instruction, whose result is rounded once.
 const CONTRACTED: &str = "-Cllvm-args=-fp-contract=fast";
-/// A jump to an instruction across two words takes a cycle more. Functions begin at words, and calls
-/// keep their length, so that the cycles depend less on the linker's order, which follows the folder
-/// of the sources.
+/// A jump to an instruction across two words takes a cycle more. Functions begin at words, and
+/// calls keep their length, so that the cycles depend less on the linker's order, which follows the
+/// folder of the sources.
 const WORDS: [&str; 2] = [".text ORIGIN(FLASH) :", ".text ORIGIN(FLASH) : SUBALIGN(4)"];
 const CALLS: &str = "-Clink-arg=--no-relax";
 

@@ -128,8 +128,10 @@ mod tests {
 
     #[test]
     fn the_tracer_is_not_of_the_core() {
-        let list = "// a list\n\n+incdir+${DESIGN_RTL_DIR}/include\n+incdir+${DESIGN_RTL_DIR}/../sva\n\
-                    ${DESIGN_RTL_DIR}/cv32e40p_core.sv\n${DESIGN_RTL_DIR}/../bhv/cv32e40p_tb_wrapper.sv\n\
+        let list = "// a list\n\n+incdir+${DESIGN_RTL_DIR}/include\n\
+                    +incdir+${DESIGN_RTL_DIR}/../sva\n\
+                    ${DESIGN_RTL_DIR}/cv32e40p_core.sv\n\
+                    ${DESIGN_RTL_DIR}/../bhv/cv32e40p_tb_wrapper.sv\n\
                     ${DESIGN_RTL_DIR}/../bhv/include/cv32e40p_tracer_pkg.sv\n";
         assert_eq!(files(list, "rtl"), ["+incdir+rtl/include", "rtl/cv32e40p_core.sv"]);
     }

@@ -72,6 +72,8 @@ pub struct Insn {
     /// Whether it calls or jumps to an address that it takes from a register or from memory, other
     /// than to return.
     pub indirect: bool,
+    /// The address of the literal that it loads; 0 if it loads none.
+    pub literal: u32,
 }
 
 const SP: u16 = 1 << 13;
@@ -90,6 +92,7 @@ impl Insn {
             float: false,
             may_branch: false,
             indirect: false,
+            literal: 0,
         }
     }
 

@@ -7,7 +7,7 @@ use std::ptr;
 use std::sync::atomic::{AtomicI32, AtomicPtr, Ordering};
 
 use crate::block::{Block, Mark};
-use crate::decode::decode;
+use crate::decode::{decode, relative};
 use crate::ffi::{self, Info, PluginId, Qemu, Tb};
 use crate::insn::Insn;
 use crate::meter::Meter;
@@ -145,8 +145,8 @@ extern "C" fn translated(_: PluginId, tb: *mut Tb) {
     let qemu = plugin.qemu;
     // SAFETY: the block is valid during this callback.
     let (start, insns) = unsafe {
-        let insns = read(&qemu, plugin.version, tb);
-        ((qemu.tb_vaddr)(tb) as u32, insns)
+        let start = (qemu.tb_vaddr)(tb) as u32;
+        (start, read(&qemu, plugin.version, tb, start))
     };
     let block = plugin.intern(start, insns);
     // SAFETY: the block is valid during this callback and the indices lie within
@@ -173,12 +173,12 @@ fn user_data<T>(data: &'static T) -> *mut c_void {
     ptr::from_ref(data).cast_mut().cast()
 }
 
-/// The instructions of a block.
+/// The instructions of a block that starts at an address.
 ///
 /// # Safety
 ///
 /// `tb` must be a block that is being translated.
-unsafe fn read(qemu: &Qemu, version: c_int, tb: *const Tb) -> Vec<Insn> {
+unsafe fn read(qemu: &Qemu, version: c_int, tb: *const Tb, mut address: u32) -> Vec<Insn> {
     // SAFETY: the caller's promise.
     let count = unsafe { (qemu.tb_n_insns)(tb) };
     (0..count)
@@ -200,7 +200,11 @@ unsafe fn read(qemu: &Qemu, version: c_int, tb: *const Tb) -> Vec<Insn> {
             // QEMU 7.2 may give a halfword too many at the end of a page, never one too few.
             code[size.min(4)..].fill(0);
             let [first, second] = [0, 2].map(|at| u16::from_le_bytes([code[at], code[at + 1]]));
-            decode(first, second)
+            let literal = relative(address, first, second).filter(|literal| literal.words > 0);
+            let mut insn = decode(first, second);
+            insn.literal = literal.map_or(0, |literal| literal.target);
+            address = address.wrapping_add(u32::from(insn.size));
+            insn
         })
         .collect()
 }

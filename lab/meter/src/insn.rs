@@ -72,8 +72,6 @@ pub struct Insn {
     /// Whether it calls or jumps to an address that it takes from a register or from memory, other
     /// than to return.
     pub indirect: bool,
-    /// The address of the literal that it loads; 0 if it loads none.
-    pub literal: u32,
 }
 
 const SP: u16 = 1 << 13;
@@ -92,7 +90,6 @@ impl Insn {
             float: false,
             may_branch: false,
             indirect: false,
-            literal: 0,
         }
     }
 
@@ -131,6 +128,12 @@ impl Insn {
     /// Whether it may access a device. Literals and the stack are memory.
     pub fn may_access_device(&self) -> bool {
         self.address & !SP != 0
+    }
+
+    /// Whether it may load from flash: the stack is elsewhere.
+    pub fn may_load_flash(&self) -> bool {
+        let loads = matches!(self.class, Class::Load | Class::Words(_) | Class::TableBranch);
+        loads && self.address != SP
     }
 
     /// Floating-point operations that it does: a multiply-accumulate is two; moves, signs,

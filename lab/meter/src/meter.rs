@@ -1,7 +1,7 @@
 //! Follows the execution from block to block and cuts it into samples.
 
 use crate::block::{Block, Mark, Tally};
-use crate::fetch::{FLASHES, Fetch};
+use crate::fetch::{FLASHES, Fetch, in_flash};
 use crate::insn::Marker;
 use crate::model::{Pipe, Reading};
 use crate::samples::Sample;
@@ -24,6 +24,8 @@ pub struct Meter<'b> {
     fetches: [Fetch; 2],
     /// The instructions of the current block that they have seen, or were to leave out.
     fetched: usize,
+    /// What it loaded from flash, by the instruction.
+    loads: Vec<(usize, u32)>,
     samples: Vec<Sample>,
     unmatched: u64,
 }
@@ -38,6 +40,7 @@ impl<'b> Meter<'b> {
             open: [None; 8],
             fetches: FLASHES.map(Fetch::new),
             fetched: 0,
+            loads: Vec::new(),
             samples: Vec::new(),
             unmatched: 0,
         }
@@ -47,6 +50,13 @@ impl<'b> Meter<'b> {
     pub fn enter(&mut self, block: &'b Block, passed: usize) {
         if let Some(last) = self.current.replace(block) {
             self.settle(last, passed, block.start());
+        }
+    }
+
+    /// An instruction of the current block loads from an address.
+    pub fn load(&mut self, index: usize, address: u32) {
+        if in_flash(address) && self.open.iter().any(Option::is_some) {
+            self.loads.push((index, address));
         }
     }
 
@@ -89,10 +99,15 @@ impl<'b> Meter<'b> {
         }
         let mut pipe = block.cost(self.entry, begin).1;
         let mut address = block.address(begin);
-        for insn in block.insns().get(begin..end).unwrap_or_default() {
+        for (index, insn) in (begin..).zip(block.insns().get(begin..end).unwrap_or_default()) {
+            let first = self.loads.partition_point(|(by, _)| *by < index);
+            let loads = self.loads[first..].iter().take_while(|(by, _)| *by == index);
+            let loads = loads.map(|(_, from)| *from);
             // A mark costs nothing, but a region shall not wait for its mark's word.
             let cycles = u64::from(pipe.step(insn)) + u64::from(insn.is_marker());
-            self.fetches.iter_mut().for_each(|fetch| fetch.step(address, insn, cycles));
+            for fetch in &mut self.fetches {
+                fetch.step(address, insn, loads.clone(), cycles);
+            }
             address = address.wrapping_add(u32::from(insn.size));
         }
     }
@@ -101,6 +116,7 @@ impl<'b> Meter<'b> {
         let executed = last.executed(passed);
         self.fetch(last, executed);
         self.fetched = 0;
+        self.loads.clear();
         let (cost, pipe) = last.cost(self.entry, executed);
         self.total = self.total.plus(cost);
         self.entry = pipe;

@@ -7,7 +7,7 @@ use std::ptr;
 use std::sync::atomic::{AtomicI32, AtomicPtr, Ordering};
 
 use crate::block::{Block, Mark};
-use crate::decode::{decode, relative};
+use crate::decode::decode;
 use crate::ffi::{self, Info, PluginId, Qemu, Tb};
 use crate::insn::Insn;
 use crate::meter::Meter;
@@ -145,8 +145,8 @@ extern "C" fn translated(_: PluginId, tb: *mut Tb) {
     let qemu = plugin.qemu;
     // SAFETY: the block is valid during this callback.
     let (start, insns) = unsafe {
-        let start = (qemu.tb_vaddr)(tb) as u32;
-        (start, read(&qemu, plugin.version, tb, start))
+        let insns = read(&qemu, plugin.version, tb);
+        ((qemu.tb_vaddr)(tb) as u32, insns)
     };
     let block = plugin.intern(start, insns);
     // SAFETY: the block is valid during this callback and the indices lie within
@@ -156,6 +156,12 @@ extern "C" fn translated(_: PluginId, tb: *mut Tb) {
         for &index in block.checkpoints() {
             let insn = (qemu.tb_get_insn)(tb, index);
             (qemu.register_vcpu_insn_exec_cb)(insn, passed, ffi::NO_REGISTERS, ptr::null_mut());
+        }
+        let loads = block.insns().iter().enumerate().filter(|(_, insn)| insn.may_load_flash());
+        for (index, _) in loads {
+            let insn = (qemu.tb_get_insn)(tb, index);
+            let index = ptr::without_provenance_mut(index);
+            (qemu.register_vcpu_mem_cb)(insn, loaded, ffi::NO_REGISTERS, ffi::ACCESSES, index);
         }
         for mark in block.marks() {
             let insn = (qemu.tb_get_insn)(tb, mark.index);
@@ -173,12 +179,12 @@ fn user_data<T>(data: &'static T) -> *mut c_void {
     ptr::from_ref(data).cast_mut().cast()
 }
 
-/// The instructions of a block that starts at an address.
+/// The instructions of a block.
 ///
 /// # Safety
 ///
 /// `tb` must be a block that is being translated.
-unsafe fn read(qemu: &Qemu, version: c_int, tb: *const Tb, mut address: u32) -> Vec<Insn> {
+unsafe fn read(qemu: &Qemu, version: c_int, tb: *const Tb) -> Vec<Insn> {
     // SAFETY: the caller's promise.
     let count = unsafe { (qemu.tb_n_insns)(tb) };
     (0..count)
@@ -200,11 +206,7 @@ unsafe fn read(qemu: &Qemu, version: c_int, tb: *const Tb, mut address: u32) -> 
             // QEMU 7.2 may give a halfword too many at the end of a page, never one too few.
             code[size.min(4)..].fill(0);
             let [first, second] = [0, 2].map(|at| u16::from_le_bytes([code[at], code[at + 1]]));
-            let literal = relative(address, first, second).filter(|literal| literal.words > 0);
-            let mut insn = decode(first, second);
-            insn.literal = literal.map_or(0, |literal| literal.target);
-            address = address.wrapping_add(u32::from(insn.size));
-            insn
+            decode(first, second)
         })
         .collect()
 }
@@ -238,6 +240,13 @@ extern "C" fn passed(_: c_uint, _: *mut c_void) {
     // SAFETY: the only call in this callback.
     let plugin = unsafe { plugin() };
     plugin.checkpoints += 1;
+}
+
+/// An instruction loads from memory.
+extern "C" fn loaded(_: c_uint, _: ffi::MemInfo, address: u64, index: *mut c_void) {
+    // SAFETY: the only call in this callback.
+    let plugin = unsafe { plugin() };
+    plugin.meter.load(index.addr(), address as u32);
 }
 
 /// A marker is executed.

@@ -25,16 +25,24 @@ pub const F405: Flash = Flash { name: "STM32F405, 168 MHz", line: 16, waits: 5, 
 /// The flashes of [`Sample::waits`](crate::Sample::waits), in its order.
 pub const FLASHES: [Flash; 2] = [G474, F405];
 
-/// From here on the model fetches without waits. The machine of QEMU has no memory where these chips
-/// have their tightly coupled one (0x1000_0000), so that code which a board runs there is linked to
-/// this address, the end of the chip's RAM, when it is measured.
+/// From here on the model fetches code without waits. The machine of QEMU has no memory where these
+/// chips have one that is coupled to the core (0x1000_0000), so that code which a board runs there
+/// is linked to this address, the end of the chip's RAM, when it is measured.
 pub const COUPLED: u32 = 0x2002_0000;
+
+/// RAM on the system bus, from which a core fetches a word in two cycles at least.
+const RAM: u32 = 0x2000_0000;
 
 /// An address at which no instruction stands.
 const NOWHERE: u32 = u32::MAX;
 
+/// Whether this is flash: coupled memory comes next.
 pub fn in_flash(address: u32) -> bool {
     address < 0x1000_0000
+}
+
+fn waits(address: u32) -> bool {
+    in_flash(address) || (RAM..COUPLED).contains(&address)
 }
 
 /// Words that the core fetches ahead of the instruction that it decodes.
@@ -125,7 +133,7 @@ impl Fetch {
         cycles: u64,
     ) {
         let end = address.wrapping_add(u32::from(insn.size));
-        if in_flash(address) {
+        if waits(address) {
             self.take(address, end);
         }
         for load in loads {
@@ -138,7 +146,7 @@ impl Fetch {
         }
         self.before = self.now;
         self.now += cycles;
-        self.next = if in_flash(address) { end } else { NOWHERE };
+        self.next = if waits(address) { end } else { NOWHERE };
     }
 
     /// The last instruction branched, and refilling the pipeline takes this many cycles.
@@ -189,7 +197,11 @@ impl Fetch {
             if start >= time {
                 break;
             }
-            self.came = self.fetch(self.word * 4 / self.flash.line, start) + 1;
+            let comes = match in_flash(self.word * 4) {
+                true => self.fetch(self.word * 4 / self.flash.line, start),
+                false => start + 1,
+            };
+            self.came = comes + 1;
             self.queue[slot].1 = self.came;
             self.word += 1;
         }
@@ -298,6 +310,12 @@ mod tests {
             fetch.step(fetch.next, &WIDE, [address].into_iter(), 20);
             assert_eq!(fetch.waits() - before, waits, "{address:#x}");
         }
+    }
+
+    #[test]
+    fn ram_on_the_system_bus_gives_a_word_in_two_cycles() {
+        assert_eq!(straight(&mut Fetch::new(G474), RAM, &[1; 20]), 20);
+        assert_eq!(straight(&mut Fetch::new(G474), RAM, &[2; 20]), 1);
     }
 
     #[test]

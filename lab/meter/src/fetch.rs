@@ -91,8 +91,8 @@ pub struct Fetch {
     came: u64,
     /// For word n at n modulo 4: when there is room for it, and when it came.
     queue: [(u64, u64); 4],
-    /// The line of the last word.
-    line: u32,
+    /// The line of the last word, and when it came.
+    line: (u32, u64),
     code: Cache,
     data: Cache,
     /// When the flash can be read again.
@@ -111,7 +111,7 @@ impl Fetch {
             word: 0,
             came: 0,
             queue: [(0, 0); 4],
-            line: u32::MAX,
+            line: (NOWHERE, 0),
             code: Cache::of(flash.lines[0]),
             data: Cache::of(flash.lines[1]),
             free: 0,
@@ -210,17 +210,17 @@ impl Fetch {
     /// When a word of a line can be had that is asked for at a time. The first word of each line
     /// makes the flash read the next one too; whatever is read enters the cache.
     fn fetch(&mut self, line: u32, time: u64) -> u64 {
-        let comes = match self.code.find(line) {
-            Some(comes) => comes.max(time),
-            None => self.read(line, time, |fetch| &mut fetch.code),
-        };
-        if line != self.line {
-            self.line = line;
+        if line != self.line.0 {
+            let comes = match self.code.find(line) {
+                Some(comes) => comes.max(time),
+                None => self.read(line, time, |fetch| &mut fetch.code),
+            };
+            self.line = (line, comes);
             if self.code.find(line + 1).is_none() {
                 self.read(line + 1, comes, |fetch| &mut fetch.code);
             }
         }
-        comes
+        self.line.1.max(time)
     }
 
     /// Reads a line once the flash has finished what it does.
@@ -280,7 +280,12 @@ mod tests {
                     waits
                 });
                 assert!(passes[0] > 100, "{passes:?}");
-                assert_eq!(passes[2] == 0, is_held, "{}, {words} + {beyond}: {passes:?}", flash.name);
+                assert_eq!(
+                    passes[2] == 0,
+                    is_held,
+                    "{}, {words} + {beyond}: {passes:?}",
+                    flash.name
+                );
             }
         }
     }

@@ -69,7 +69,8 @@ impl<'b> Meter<'b> {
         let Marker { region, opens } = mark.marker;
         let slot = &mut self.open[usize::from(region)];
         if opens {
-            self.unmatched += u64::from(slot.replace((now, waits, block.address(mark.index))).is_some());
+            self.unmatched +=
+                u64::from(slot.replace((now, waits, block.address(mark.index))).is_some());
         } else if let Some((then, waited, at)) = slot.take() {
             let cost = now.since(then);
             let sample = Sample::of(region, [cost.instructions, cost.cycles, cost.flops]);

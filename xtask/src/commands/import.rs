@@ -62,7 +62,9 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
     let is_measured = matches!(&measured, Some(Ok(rows)) if !rows.is_empty());
     output::print(if is_measured { without_estimate(&text) } else { &text })?;
     match measured {
-        Some(Ok(rows)) => output::print(&format!("\n{MODEL}. {IN_FLASH}:\n{}", table(&rows).text()))?,
+        Some(Ok(rows)) => {
+            output::print(&format!("\n{MODEL}. {IN_FLASH}:\n{}", table(&rows).text()))?
+        }
         Some(Err(error)) => output::note(&format!("not measured: {error}")),
         None => {}
     }
@@ -89,7 +91,7 @@ pub fn table(rows: &[Row]) -> Table {
     let head = ["inverse dynamics", "form", "cycles", first, second, "instructions"];
     let mut table = Table::new(&[&head[..], &["code, B", "stack, B"]].concat());
     for row in rows {
-        let [first, second] = row.in_flash.map(|flash| flash.median);
+        let [first, second] = row.in_flash.map(|flash| flash.max);
         let cycles = [row.cycles.max, first, second];
         let figures = [row.instructions.max, row.code_bytes, row.stack_bytes];
         let figures = cycles.into_iter().chain(figures);

@@ -16,9 +16,9 @@ pub const MODEL: &str = "modelled Cortex-M4F, zero-wait memory; instructions exa
 pub const CHIPS: [&str; 2] = ["G474", "F405"];
 
 /// The note that goes with figures of [`CHIPS`].
-pub const IN_FLASH: &str = "G474, F405: cycles from the flash of an STM32G474 at 170 MHz, which \
-                            has 4 wait states, and of an STM32F405 at 168 MHz, which has 5, with \
-                            caches as the call before left them (`docs/silicon.md`)";
+pub const IN_FLASH: &str = "G474, F405: the most cycles from the flash of an STM32G474 at 170 \
+                            MHz, which has 4 wait states, and of an STM32F405 at 168 MHz, which \
+                            has 5 (`docs/silicon.md`)";
 
 /// The clock of the STM32F405 in MHz, so cycles per µs.
 pub const CLOCK_MHZ: f64 = 168.0;
@@ -128,8 +128,7 @@ mod tests {
 
     #[test]
     fn what_is_in_no_phase_is_between_them() {
-        let mut samples =
-            [Sample { waits: [3, 0], ..Sample::of(0, [19, 39, 0]) }; REGIONS.len()];
+        let mut samples = [Sample { waits: [3, 0], ..Sample::of(0, [19, 39, 0]) }; REGIONS.len()];
         (0..).zip(&mut samples).for_each(|(region, one)| one.region = region);
         samples[0] = Sample { waits: [17, 4], ..Sample::of(0, [100, 210, 0]) };
         let costs = costs(&samples, 1, |_| true).expect("complete");

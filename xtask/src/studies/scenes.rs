@@ -28,7 +28,7 @@ pub fn markdown(reports: &[&Report]) -> String {
 
 fn foot(reports: &[&Report]) -> String {
     let rustc = reports.first().map_or("", |report| &report.rustc);
-    format!("{MODEL}. {IN_FLASH}; the longest. Measured with {rustc}.")
+    format!("{MODEL}. {IN_FLASH}. Measured with {rustc}.")
 }
 
 /// A row per scene, set off from those below it: one per effect, with what is saved and lost

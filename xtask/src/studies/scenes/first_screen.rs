@@ -41,8 +41,8 @@ fn why(peers: &str, readme: &str, scenes: &str, rtl: &str) -> Result<String> {
     let host = range(", engine / pinocchio: ns")?;
     let free = range("g1_free rnea, m4f, engine / casadi: cycles")?;
     let tick = TICK.written(scenes)?;
-    let total = cell(tick, "total", 12)?;
-    let [longest, share] = [(9, "longest tick"), (11, "share")].map(|(at, what)| {
+    let total = cell(tick, "total", 14)?;
+    let [longest, share] = [(11, "longest tick"), (13, "share")].map(|(at, what)| {
         let figure = total[at].trim_end_matches(" %").parse::<f64>();
         figure.map_err(|_| check!("{} has no {what}", TICK.file))
     });

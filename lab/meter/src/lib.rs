@@ -90,9 +90,9 @@
 //!   replaced. Every line that was read for code enters, one that was read ahead too.
 //! - A load from flash that its cache does not hold stops the core, and is read after the line that
 //!   is being read.
-//! - RAM on the system bus, from 0x2000_0000 on, gives a word in two cycles. Chips are slower still,
-//!   since code and data compete there: the author of RobotDynamics counted up to 61 % more than from
-//!   the flash of an STM32G474.
+//! - RAM on the system bus, from 0x2000_0000 on, gives a word in two cycles. Chips are slower
+//!   still, since code and data compete there: the author of RobotDynamics counted up to 61 % more
+//!   than from the flash of an STM32G474.
 //! - While no region is open, caches stay as they are: a tick finds them as the tick before left
 //!   them. Firmware that runs between two ticks makes them colder.
 //!

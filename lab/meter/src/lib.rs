@@ -84,19 +84,19 @@
 //!
 //! - The core fetches a word a cycle, up to three words ahead of the instruction that it decodes.
 //!   An executed branch empties this queue.
-//! - The flash gives a line at a time, after its wait states. It reads one line after the other and
-//!   breaks none off. The first word of each line makes it read the next line too.
+//! - The flash gives a line at a time, after its wait states. It reads lines in the order in which
+//!   they were asked for, and breaks none off. The first word of each line asks for the next line
+//!   too.
 //! - A cache for code and one for data keep lines; the one that was not used for longest is
 //!   replaced. Every line that was read for code enters, one that was read ahead too.
-//! - A load from flash that its cache does not hold stops the core, and is read after the line that
-//!   is being read.
+//! - A load from flash that its cache does not hold stops the core, and is read after those lines.
 //! - RAM on the system bus, from 0x2000_0000 on, gives a word in two cycles. Chips are slower
 //!   still, since code and data compete there: the author of RobotDynamics counted up to 61 % more
 //!   than from the flash of an STM32G474.
 //! - While no region is open, caches stay as they are: a tick finds them as the tick before left
 //!   them. Firmware that runs between two ticks makes them colder.
 //!
-//! The manuals leave open which lines enter and which of them share a place. `docs/silicon.md` has
+//! The manuals leave open which lines enter, which of them share a place, and what goes first. `docs/silicon.md` has
 //! what was tried, and how far the model is from chips.
 //!
 //! # Not modelled

@@ -245,14 +245,17 @@ mod tests {
         for _ in 0..2 {
             for block in [&elsewhere, &open, &body, &close] {
                 meter.enter(block, usize::MAX);
+                meter.load(39, 0x2000);
                 block.marks().iter().for_each(|mark| meter.mark(mark));
             }
         }
         // By hand: lines of eight bytes take four cycles for the first, with the mark and two
         // instructions, two for the next, and one for each of nine with four instructions. Lines of
         // sixteen take five for the first; the others are read while eight instructions execute.
+        // The last instruction loads. The queue has asked for a word of the line behind, so that the
+        // first flash reads that one and the next, eight cycles more, before what is loaded.
         let cycles: Vec<_> = meter.samples().iter().map(Sample::all_cycles).collect();
-        assert_eq!(cycles, [[40, 40 + 4 + 2 + 9, 40 + 5], [40; 3]]);
+        assert_eq!(cycles, [[40, 40 + 4 + 2 + 9 + 8 + 4, 40 + 5 + 5], [40; 3]]);
     }
 
     #[test]

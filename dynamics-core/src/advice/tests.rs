@@ -29,6 +29,7 @@ fn each_robot(ask: &mut impl Ask) {
     ask.ask(&Gen3::MODEL);
     ask.ask(&Iiwa14::MODEL);
     ask.ask(&Panda::MODEL);
+    ask.ask(&Puma560::MODEL);
     ask.ask(&So101::MODEL);
     ask.ask(&Ur5e::MODEL);
     ask.ask(&XArm7::MODEL);

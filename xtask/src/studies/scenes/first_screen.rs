@@ -212,7 +212,7 @@ mod tests {
         let (_, arm) = costs.split_once(super::BY_HAND).expect("the arm");
         for row in ["gravity by_hand libm", "rnea engine gravity"] {
             let cycles = super::cell(arm, row, 13).expect("a row")[7];
-            let other = costs.replace(arm, &changed(arm, &format!("| {row} "), cycles));
+            let other = costs.replace(cycles, "9999");
             assert_ne!(why(&readme, &scenes, &rtl, &other).expect("the pages"), now, "{row}");
         }
         why(&readme, &scenes, &rtl, "").expect_err("no arm");

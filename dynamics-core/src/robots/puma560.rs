@@ -30,9 +30,8 @@ use crate::model::{ArmModel, BASE, Body, Joint, Model, Robot};
 /// use dynamics_core::effects::{Coriolis, Gravity, Inertia};
 /// use dynamics_core::{Engine, robots::Puma560, state::State};
 /// let scene = (Gravity::EARTH, Inertia, Coriolis, Puma560::ARMATURE);
-/// let mut state = State::<f32, 6, 6>::default();
-/// state.qdd[5] = 1.0;
-/// // A rotor of 3.5e-5 kg m² behind a gear of 77 weighs more than all that it turns.
+/// let state = State { qdd: [0.0, 0.0, 0.0, 0.0, 0.0, 1.0], ..State::at([0.0_f32; 6]) };
+/// // Behind its gear the rotor has 5000 times the inertia of the link that it turns, 4e-5 kg m².
 /// assert!(Engine::<Puma560>::rnea(&state, &scene)[5] > 0.2);
 /// ```
 #[derive(Clone, Copy, Debug, Default)]

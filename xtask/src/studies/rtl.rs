@@ -11,12 +11,12 @@ use std::time::Duration;
 
 use serde::Serialize;
 
-use crate::kit::error::{Error, Result, check, refuse_if};
+use crate::kit::error::{Error, Result, check};
 use crate::kit::progress::Spinner;
 use crate::kit::qemu::Qemu;
 use crate::kit::shell;
 use crate::kit::toolchain::{RELEASE, Toolchain};
-use crate::kit::workspace::{self, BOARDS, Workspace};
+use crate::kit::workspace::Workspace;
 use crate::studies::cores::{CORES, Core, without_home};
 use crate::studies::study::{Bench, Found};
 use row::{Row, Said};
@@ -27,11 +27,9 @@ const PACKAGE: &str = "gates";
 const LIMIT: Duration = Duration::from_secs(300);
 /// A sum of a product becomes one instruction, whose result is rounded once.
 const CONTRACTED: &str = "-Cllvm-args=-fp-contract=fast";
-/// A jump to an instruction across two words takes a cycle more. Functions begin at words, and
-/// calls keep their length, so that the cycles depend less on the linker's order, which follows the
-/// folder of the sources.
-const WORDS: [&str; 2] = [".text ORIGIN(FLASH) :", ".text ORIGIN(FLASH) : SUBALIGN(4)"];
-const CALLS: &str = "-Clink-arg=--no-relax";
+/// A jump to an instruction across two words takes a cycle more: functions begin at words, so that a
+/// change of one does not change another's cycles.
+const AT_WORDS: &str = "-Cllvm-args=-align-all-functions=2";
 
 #[derive(Serialize)]
 pub struct Report {
@@ -96,29 +94,23 @@ pub fn measure(bench: &Bench<'_>) -> Result<Found> {
 
 fn on_host(workspace: &Workspace) -> Result<Said> {
     let mut command = workspace.cargo("run");
-    command.args(["--quiet", "--manifest-path", BOARDS, "--package", PACKAGE]);
-    command.arg("--target-dir").arg(workspace.target.join("cores"));
+    command.args(["--quiet", "--package", PACKAGE]);
     Said::read(&shell::capture(&mut command)?)
 }
 
 /// Builds the image with this flag of the compiler beside those of the core.
 fn build(workspace: &Workspace, core: &Core, flag: &str) -> Result<PathBuf> {
     let mut flags: Vec<String> = core.flags.iter().map(ToString::to_string).collect();
-    flags.extend((!flag.is_empty()).then(|| flag.to_owned()));
-    let folder = workspace.root.join("firmware-demo/cores");
-    let script = workspace::read(&folder.join("link.x"))?;
-    refuse_if!(!script.contains(WORDS[0]), "link.x of `cores` has no {}", WORDS[0]);
-    let placed = workspace.target.join("gates/link.x");
-    workspace::write(&placed, script.replace(WORDS[0], WORDS[1]))?;
-    for script in [folder.join(format!("machines/{}.x", core.machine)), placed] {
-        flags.push(format!("-Clink-arg=-T{}", script.display()));
+    flags.extend([flag, AT_WORDS].iter().filter(|flag| !flag.is_empty()).map(ToString::to_string));
+    // Paths from the workspace, since symbols, and with them the order of functions, follow flags.
+    for script in [&*format!("machines/{}.x", core.machine), "link.x"] {
+        flags.push(format!("-Clink-arg=-Tfirmware-demo/cores/{script}"));
     }
-    flags.push(CALLS.to_owned());
     flags.extend(without_home());
     let target = workspace.target.join(if flag.is_empty() { "gates/plain" } else { "gates/fused" });
     let mut command = workspace.cargo("build");
     command
-        .args(["--manifest-path", BOARDS, "--profile", RELEASE, "--package", PACKAGE])
+        .args(["--profile", RELEASE, "--package", PACKAGE])
         .args(["--target", core.target, "--target-dir"])
         .arg(&target)
         .env("CARGO_ENCODED_RUSTFLAGS", flags.join("\u{1f}"));

@@ -52,7 +52,7 @@ fn why(peers: &str, readme: &str, scenes: &str, rtl: &str) -> Result<String> {
     let ratio = ratio.ok_or_else(|| check!("{} has no share of PD's error", TICK.file))?;
     // The third column of cycles is that of an FPU of one stage.
     let [counted, counted_tick] =
-        ["ur5e rnea engine outside", "ur5e"].map(|row| Ok(cell(rtl, row, 9)?[3].to_owned()));
+        ["ur5e rnea engine outside", "ur5e"].map(|row| Ok(cell(rtl, row, 10)?[5].to_owned()));
     let (counted, counted_tick): (String, String) = (counted?, counted_tick?);
     Ok(format!(
         "- Inverse dynamics takes **{inverse} of the cycles of the best C** that CasADi generates \
@@ -190,7 +190,7 @@ mod tests {
         for (row, begin) in
             [("ur5e rnea engine outside", "| ur5e rnea engine outside "), ("ur5e", "| ur5e  ")]
         {
-            let cycles = super::cell(&rtl, row, 9).expect("a row")[3].to_owned();
+            let cycles = super::cell(&rtl, row, 10).expect("a row")[5].to_owned();
             let other = changed(&rtl, begin, &cycles);
             let other = why(&peers, &readme, &scenes, &other).expect("the pages");
             assert_ne!(other, now, "{row}");

@@ -61,6 +61,8 @@ impl Ask for Right {
 #[test]
 fn no_robot_of_the_library_gets_advice() {
     each_robot(&mut Right);
+    // It has no limits, so that the mistakes below cannot be made in it.
+    Right.ask(&Puma560::MODEL);
 }
 
 struct Wrong;

@@ -10,20 +10,22 @@
 //! - [`Gen3`]: Kinova Gen3 with vision module, 7 joints, four of which are continuous.
 //! - [`So101`]: The Robot Studio's SO-101 with its gripper's jaw, 6 revolute joints moved by hobby
 //!   servos.
+//! - [`Puma560`]: Unimation PUMA 560 with the inertias of 1986, 6 revolute joints.
 //! - [`XArm7`]: UFACTORY xArm7, 7 revolute joints, dense inertias.
 //! - [`Z1`]: Unitree Z1 with its gripper, 7 revolute joints about x, y and z.
 //! - [`G1`]: Unitree G1 with its pelvis held, a humanoid of 29 revolute joints.
 //! - [`G1Free`]: the same with its pelvis free, 35 degrees of freedom.
 //!
-//! All are in SI units with the joint frames of the URDF they come from, so that poses, torques and
-//! signs compare directly with other libraries. The numbers are facts of published descriptions; no
-//! file of those is part of this crate.
+//! All are in SI units with the joint frames of the URDF they come from, or of the paper, so that
+//! poses, torques and signs compare directly with other libraries. The numbers are facts of
+//! published descriptions; no file of those is part of this crate.
 
 mod a1;
 mod g1;
 mod gen3;
 mod iiwa14;
 mod panda;
+mod puma560;
 mod so101;
 mod ur5e;
 mod welded_part;
@@ -35,6 +37,7 @@ pub use g1::{G1, G1Free};
 pub use gen3::Gen3;
 pub use iiwa14::Iiwa14;
 pub use panda::Panda;
+pub use puma560::Puma560;
 pub use so101::So101;
 pub use ur5e::Ur5e;
 pub use xarm7::XArm7;

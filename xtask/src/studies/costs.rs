@@ -15,13 +15,14 @@ use crate::kit::toolchain::{RELEASE, SMALL};
 use crate::kit::workspace::{self, Workspace};
 use crate::kit::{docs, firmware, output};
 use crate::studies::budgets;
+use crate::studies::scenes::first_screen;
 use crate::studies::study::Bench;
 
 pub use report::Report;
 
-/// Two bins for each robot, inverse dynamics and the rest, but one for the SO-101, two for robots
-/// with loops, and one for links that bend: the compiler builds them side by side.
-pub const BINS: [&str; 13] = [
+/// Two bins for each robot, inverse dynamics and the rest, but one for the SO-101 and for the PUMA,
+/// two for robots with loops, and one for links that bend: the compiler builds them side by side.
+pub const BINS: [&str; 14] = [
     "costs_ur5e",
     "forward_ur5e",
     "costs_panda",
@@ -31,6 +32,7 @@ pub const BINS: [&str; 13] = [
     "costs_a1",
     "forward_a1",
     "costs_so101",
+    "costs_puma560",
     "costs_laws",
     "costs_clusters",
     "costs_loops",
@@ -65,6 +67,7 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
     let report = measure(&workspace, &tools)?;
     let page = report.markdown();
     workspace::write(&workspace.report(PAGE), docs::seal::sealed(&page))?;
+    first_screen::write_why(&workspace)?;
     docs::show(args.json, &report.rows, &page)
 }
 

@@ -42,8 +42,12 @@ pub const LEAST_PUBLISHED: [(&str, u64); 3] = [("rnea", 836), ("crba", 855), ("a
 
 /// Operations of the equations that OpenSYMORO writes on base parameters, without those that no
 /// result needs: of RNEA, of M, and of M in a second run by others.
-const CUSTOMISED: [(&str, [u64; 3]); 3] =
-    [("ur5e", [444, 311, 277]), ("panda", [649, 533, 461]), ("iiwa14", [446, 351, 294])];
+const CUSTOMISED: [(&str, [u64; 3]); 4] = [
+    ("ur5e", [444, 311, 277]),
+    ("panda", [649, 533, 461]),
+    ("iiwa14", [446, 351, 294]),
+    ("puma560", [353, 279, 233]),
+];
 
 /// What [`LEAST_PUBLISHED`] says, in words.
 pub fn least_published() -> String {

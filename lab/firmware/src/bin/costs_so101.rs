@@ -29,6 +29,14 @@ fn run() -> ! {
     let asks = costs::asks::<robots::So101, 6, 6, { costs::STATES }>();
     inverse::<robots::So101, _, 6, 6>("full", &asks, &RIGID_BODY);
     inverse::<robots::So101, _, 6, 6>("gravity", &asks, &(Gravity::EARTH,));
+    let row = costs::row::Row::of::<robots::So101, 6, 6>("gravity", "by_hand", "libm", true);
+    let by_hand = costs::by_hand::gravity;
+    row.measure(by_hand as *const () as usize, &asks, |ask| by_hand(&ask.state.q));
+    for ask in &asks {
+        let engine = Engine::<robots::So101>::rnea(&ask.state, &(Gravity::EARTH,));
+        let both = by_hand(&ask.state.q).into_iter().zip(engine);
+        defmt::assert!(both.into_iter().all(|(by_hand, engine)| (by_hand - engine).abs() < 1e-5));
+    }
     let functions: [(&str, Torque); 2] = [("compensation", torques), ("command", command)];
     for (inputs, function) in functions {
         let row = costs::row::Row::of::<robots::So101, 6, 6>("rnea", "engine", inputs, true);

@@ -1,7 +1,9 @@
 //! Prints the library's robots as JSON for `host-tests/oracle/record.py`.
 
 use dynamics_core::model::Robot;
-use dynamics_core::robots::{A1, A1Free, G1, G1Free, Gen3, Iiwa14, Panda, So101, Ur5e, XArm7, Z1};
+use dynamics_core::robots::{
+    A1, A1Free, G1, G1Free, Gen3, Iiwa14, Panda, Puma560, So101, Ur5e, XArm7, Z1,
+};
 use host_tests::export::robot;
 use host_tests::trees::{TreeA, TreeB};
 
@@ -16,6 +18,7 @@ fn main() -> serde_json::Result<()> {
         robot(&G1Free::MODEL),
         robot(&Gen3::MODEL),
         robot(&XArm7::MODEL),
+        robot(&Puma560::MODEL),
         robot(&Z1::MODEL),
         robot(&So101::MODEL),
         robot(&TreeA::MODEL),

@@ -12,6 +12,9 @@ use crate::studies::scenes::report::{Ablation, Report};
 pub const PEERS: &str = "docs/peers.md";
 /// The page of the cycles that a core's gates count.
 pub const RTL: &str = "docs/rtl.md";
+/// The page that has gravity compensation by hand beside the engine's, and the arm for which.
+const COSTS: &str = crate::studies::costs::PAGE;
+const BY_HAND: &str = "\n## so101\n";
 
 const fn part(name: &'static str) -> Page<'static> {
     Page { file: "README.md", name, command: "cargo xtask demo --write-docs" }
@@ -28,12 +31,19 @@ pub fn write_why(workspace: &Workspace) -> Result<()> {
 /// The first lines as these pages have them now, whichever compiler measured their figures.
 pub fn composed(workspace: &Workspace) -> Result<String> {
     let read = |file| workspace::read(&workspace.root.join(file));
-    why(&read(PEERS)?, &read(WHY.file)?, &read(TICK.file)?, &read(RTL)?)
+    why([&read(PEERS)?, &read(WHY.file)?, &read(TICK.file)?, &read(RTL)?, &read(COSTS)?])
 }
 
-/// From the bars of the peers' page, as it was recorded, from the README's other parts and from the
-/// default scene's page. A figure is copied, or has fewer digits than there.
-fn why(peers: &str, readme: &str, scenes: &str, rtl: &str) -> Result<String> {
+/// From the bars of the peers' page, as it was recorded, from the README's other parts, from the
+/// default scene's page and from those of gates and costs. A figure is copied, or has fewer digits
+/// than there.
+fn why([peers, readme, scenes, rtl, costs]: [&str; 5]) -> Result<String> {
+    let (_, arm) = costs.split_once(BY_HAND).ok_or_else(|| check!("{COSTS} has no SO-101"))?;
+    let arm = arm.split("\n## ").next().unwrap_or_default();
+    let gravity = |row| Ok(cell(arm, row, 13)?[7].to_owned());
+    let [by_hand, engine]: [Result<String>; 2] =
+        ["gravity by_hand libm", "rnea engine gravity"].map(gravity);
+    let (by_hand, engine) = (by_hand?, engine?);
     let wishes = wishes(readme)?;
     let range = |bar: &str| range(peers, bar);
     let inverse = range(" rnea, m4f, engine / casadi: cycles")?;
@@ -55,11 +65,12 @@ fn why(peers: &str, readme: &str, scenes: &str, rtl: &str) -> Result<String> {
         ["ur5e rnea engine outside", "ur5e"].map(|row| Ok(cell(rtl, row, 10)?[5].to_owned()));
     let (counted, counted_tick): (String, String) = (counted?, counted_tick?);
     Ok(format!(
-        "- Inverse dynamics takes **{inverse} of the cycles of the best C** that CasADi generates \
-         for the same robot (UR5e, Panda, iiwa 14,\n  \
-         A1; f32, modelled Cortex-M4F), and {free} for the humanoid G1 with its base free. Forward \
-         dynamics of the first three takes\n  \
-         {forward} ([peers]({PEERS})).\n\
+        "- Gravity compensation of an SO-101 takes {by_hand} cycles if it is written by hand with \
+         `libm`'s sines, and **{engine} by this library** ([costs]({COSTS})).\n\
+         - Inverse dynamics takes **{inverse} of the cycles of the best C** that CasADi generates \
+         for the same robot (UR5e, Panda, iiwa 14, A1; f32,\n  \
+         modelled Cortex-M4F), and {free} for the humanoid G1 with its base free. Forward dynamics \
+         of the first three takes {forward} ([peers]({PEERS})).\n\
          - On the host, inverse dynamics of the same four robots takes **{host} of the time of \
          Pinocchio's C++**.\n\
          - A whole tick of a UR5e, from six encoders to six drives, takes {longest:.1} µs at \
@@ -143,7 +154,7 @@ pub fn worth(report: &Report) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{WHY, WORTH, composed, range, why};
+    use super::{WHY, WORTH, composed, range};
     use crate::kit::docs::repository::{read, root};
     use crate::kit::docs::{TICK, seal::unsealed};
     use crate::kit::workspace::Workspace;
@@ -178,13 +189,16 @@ mod tests {
 
     #[test]
     fn a_figure_that_another_page_has_not_is_refused() {
-        let [peers, readme, scenes, rtl] =
-            [super::PEERS, WHY.file, TICK.file, super::RTL].map(read);
-        let now = why(&peers, &readme, &scenes, &rtl).expect("the pages");
+        let [peers, readme, scenes, rtl, costs] =
+            [super::PEERS, WHY.file, TICK.file, super::RTL, super::COSTS].map(read);
+        let why = |readme: &str, scenes: &str, rtl: &str, costs: &str| {
+            super::why([&peers, readme, scenes, rtl, costs])
+        };
+        let now = why(&readme, &scenes, &rtl, &costs).expect("the pages");
         let cycles = |name| super::cell(&readme, name, 5).expect("a row")[1].to_owned();
         for row in ["default", "pruned at 0.1 %"] {
             let other = changed(&readme, &format!("| {row} "), &cycles(row));
-            let other = why(&peers, &other, &scenes, &rtl).expect("the pages");
+            let other = why(&other, &scenes, &rtl, &costs).expect("the pages");
             assert_ne!(other, now, "{row}");
         }
         for (row, begin) in
@@ -192,15 +206,22 @@ mod tests {
         {
             let cycles = super::cell(&rtl, row, 10).expect("a row")[5].to_owned();
             let other = changed(&rtl, begin, &cycles);
-            let other = why(&peers, &readme, &scenes, &other).expect("the pages");
+            let other = why(&readme, &scenes, &other, &costs).expect("the pages");
             assert_ne!(other, now, "{row}");
         }
+        let (_, arm) = costs.split_once(super::BY_HAND).expect("the arm");
+        for row in ["gravity by_hand libm", "rnea engine gravity"] {
+            let cycles = super::cell(arm, row, 13).expect("a row")[7];
+            let other = costs.replace(cycles, "9999");
+            assert_ne!(why(&readme, &scenes, &rtl, &other).expect("the pages"), now, "{row}");
+        }
+        why(&readme, &scenes, &rtl, "").expect_err("no arm");
         let gravity =
             super::cell(WORTH.written(&readme).expect("a part"), "Gravity", 3).expect("a row")[1];
         let other = changed(&readme, "| Gravity ", gravity.trim_end_matches(" ×"));
-        assert_ne!(why(&peers, &other, &scenes, &rtl).expect("the pages"), now);
+        assert_ne!(why(&other, &scenes, &rtl, &costs).expect("the pages"), now);
         let other = scenes.replace("| total ", "| all ");
-        why(&peers, &readme, &other, &rtl).expect_err("no total");
+        why(&readme, &other, &rtl, &costs).expect_err("no total");
         assert!(!unsealed(WHY.written(&readme).expect("a part")).contains("9999"));
     }
 }

@@ -18,7 +18,7 @@ type Precomputed<'a, const N: usize> =
     fn(StateWithTrig<'a, f32, N, N>, &[f32; N], &Scene) -> Solution<N>;
 
 /// The functions of core or engine, each with sines and cosines computed inside and before.
-struct Forms<'a, const N: usize, const TIP: usize> {
+pub struct Forms<'a, const N: usize, const TIP: usize> {
     name: &'static str,
     crba: fn(&[f32; N], &Scene) -> MassMatrix<f32, N>,
     crba_before: fn(&JointTrig<f32, N>, &Scene) -> MassMatrix<f32, N>,
@@ -31,7 +31,7 @@ struct Forms<'a, const N: usize, const TIP: usize> {
     jacobian_before: fn(&JointTrig<f32, N>, OnBody<TIP>, LocalWorldAligned) -> [Motion<f32>; N],
 }
 
-fn of_core<'a, T: Robot<B, N, N>, const B: usize, const N: usize, const TIP: usize>()
+pub fn of_core<'a, T: Robot<B, N, N>, const B: usize, const N: usize, const TIP: usize>()
 -> Forms<'a, N, TIP> {
     Forms {
         name: "core",
@@ -47,7 +47,7 @@ fn of_core<'a, T: Robot<B, N, N>, const B: usize, const N: usize, const TIP: usi
     }
 }
 
-fn of_engine<'a, T: Robot<B, N, N>, const B: usize, const N: usize, const TIP: usize>()
+pub fn of_engine<'a, T: Robot<B, N, N>, const B: usize, const N: usize, const TIP: usize>()
 -> Forms<'a, N, TIP> {
     Forms {
         name: "engine",
@@ -96,7 +96,7 @@ fn core_factor_solve<T: Robot<B, N, N>, const B: usize, const N: usize>(
 
 /// Measures the rows of these forms. Torques are the states' accelerations: any will do, since the
 /// work does not depend on what they move.
-fn run<'a, T: Robot<B, N, N>, const B: usize, const N: usize, const TIP: usize>(
+pub fn run<'a, T: Robot<B, N, N>, const B: usize, const N: usize, const TIP: usize>(
     asks: &'a [Ask<N>; STATES],
     forms: &[Forms<'a, N, TIP>],
 ) {

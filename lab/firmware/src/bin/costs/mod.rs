@@ -9,6 +9,7 @@
     reason = "each bin measures its part of these rows"
 )]
 
+pub mod by_hand;
 #[cfg(feature = "effects")]
 pub mod effects;
 pub mod estimators;

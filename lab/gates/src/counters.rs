@@ -50,12 +50,3 @@ pub fn read() -> Count {
         Count { cycles, instructions }
     }
 }
-
-/// The result of `run`, and its counts.
-#[inline(always)]
-pub fn counted<T>(run: impl FnOnce() -> T) -> (T, Count) {
-    let begin = read();
-    let result = run();
-    let end = read();
-    (result, between(begin, end))
-}

@@ -6,7 +6,7 @@ mod code;
 mod front;
 mod join;
 mod measure;
-mod names;
+pub mod names;
 mod own;
 mod page;
 mod plot;

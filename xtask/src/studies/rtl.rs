@@ -11,31 +11,50 @@ use std::time::Duration;
 
 use serde::Serialize;
 
-use crate::kit::error::{Error, Result, check, refuse_if};
+use crate::kit::error::{Error, Result, check};
 use crate::kit::progress::Spinner;
 use crate::kit::qemu::Qemu;
 use crate::kit::shell;
 use crate::kit::toolchain::{RELEASE, Toolchain};
-use crate::kit::workspace::{self, BOARDS, Workspace};
+use crate::kit::workspace::Workspace;
 use crate::studies::cores::{CORES, Core, without_home};
 use crate::studies::study::{Bench, Found};
-use row::{Row, Said};
+use row::{Row, Said, Worst};
 use simulator::{LATENCIES, Simulators};
 
 const PACKAGE: &str = "gates";
 /// The time limit of a program in QEMU.
 const LIMIT: Duration = Duration::from_secs(300);
-/// A sum of a product becomes one instruction, whose result is rounded once.
-const CONTRACTED: &str = "-Cllvm-args=-fp-contract=fast";
-/// A jump to an instruction across two words takes a cycle more. Functions begin at words, and
-/// calls keep their length, so that the cycles depend less on the linker's order, which follows the
-/// folder of the sources.
-const WORDS: [&str; 2] = [".text ORIGIN(FLASH) :", ".text ORIGIN(FLASH) : SUBALIGN(4)"];
-const CALLS: &str = "-Clink-arg=--no-relax";
+/// The instructions of a core in order, such as this one, whose compiler knows none of one or two
+/// stages: results are used late, after the allocation of registers too, and constants that take
+/// more than one instruction are loaded.
+pub const SCHEDULE: [&str; 3] = [
+    "-Ctarget-cpu=rocket-rv32",
+    "-Cllvm-args=-enable-post-misched=1",
+    "-Cllvm-args=-riscv-lower-fpimm-cost=1",
+];
+/// A product and the sum that takes it become one instruction, whose result is rounded once.
+pub const FUSED: &str = "-Cllvm-args=-fp-contract=fast";
+/// A jump to an instruction across two words takes a cycle more: functions begin at words, so that a
+/// change of one does not change another's cycles.
+const AT_WORDS: &str = "-Cllvm-args=-align-all-functions=2";
+
+/// How an image is built.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub enum Build {
+    /// By the compiler's own flags; the engine's algorithms alone.
+    Default,
+    Scheduled,
+    /// Scheduled, with fused arithmetic.
+    Fused,
+}
+
+const BUILDS: [Build; 3] = [Build::Default, Build::Scheduled, Build::Fused];
 
 #[derive(Serialize)]
 pub struct Report {
     rows: Vec<Row>,
+    errors: Vec<Worst>,
     rustc: String,
 }
 
@@ -49,7 +68,7 @@ pub fn measure(bench: &Bench<'_>) -> Result<Found> {
     let Some(core) = CORES.iter().find(|core| core.is_risc_v()) else {
         return Err(check!("no core has RISC-V"));
     };
-    let simulators = Simulators::set_up(workspace, options);
+    let simulators = Simulators::find(workspace, options);
     if let missing @ [_, ..] = &core.missing()[..] {
         return Err(Error::Skipped(format!("not installed: {}", missing.join(", "))));
     }
@@ -59,33 +78,34 @@ pub fn measure(bench: &Bench<'_>) -> Result<Found> {
         }
         simulators => simulators?,
     };
-    let (images, host) = thread::scope(|scope| {
+    let (made, host, images) = thread::scope(|scope| {
+        let _spinner = Spinner::start("compiling the core's source by Verilator, and the images");
+        let images = BUILDS.map(|build| scope.spawn(move || build.image(workspace, core)));
         let host = scope.spawn(|| on_host(workspace));
-        let _spinner = Spinner::start("compiling the images");
-        let images = ["", CONTRACTED].map(|flag| build(workspace, core, flag));
-        (images, host.join())
+        (simulators.make(), joined(host), images.map(joined))
     });
-    let [plain, contracted] = images;
-    let host = host.map_err(|_| check!("the run on the host panicked"))??;
-    let mut rows = Vec::new();
-    for (elf, is_contracted) in [(plain?, false), (contracted?, true)] {
+    made?;
+    let host = host?;
+    let (mut rows, mut errors) = (Vec::new(), Vec::new());
+    for (build, elf) in BUILDS.into_iter().zip(images) {
+        let elf = elf?;
         let text =
             Qemu::at(core.qemu().0)?.text(PACKAGE, &core.machine_arguments(), &elf, LIMIT)?;
         let emulated = Said::read(&text)?;
-        if !is_contracted {
+        if build != Build::Fused {
             row::same_bits("QEMU's RV32", &emulated, "the host", &host)?;
         }
-        let counted: Vec<Said> = LATENCIES
-            .iter()
-            .map(|latency| Said::read(&simulators.run(*latency, &elf)?))
-            .collect::<Result<_>>()?;
+        let counted = simulators.run_all(&elf)?;
+        let counted: Vec<Said> =
+            counted.iter().map(|text| Said::read(text)).collect::<Result<_>>()?;
         for (latency, said) in LATENCIES.iter().zip(&counted) {
             let name = format!("the core with an FPU of {latency} stages");
             row::same_bits(&name, said, "QEMU's RV32", &emulated)?;
         }
-        rows.extend(row::joined(&counted, is_contracted)?);
+        rows.extend(row::joined(&counted, build)?);
+        errors.extend(row::worst(&emulated, &host, build)?);
     }
-    let report = Report { rows, rustc: Toolchain::Native.rustc_version()? };
+    let report = Report { rows, errors, rustc: Toolchain::Native.rustc_version()? };
     Ok(Found {
         picture: Some(page::svg(&report.rows)?),
         rustc: Some(report.rustc.clone()),
@@ -94,34 +114,42 @@ pub fn measure(bench: &Bench<'_>) -> Result<Found> {
     })
 }
 
+/// What a thread returned.
+fn joined<T>(thread: thread::ScopedJoinHandle<'_, Result<T>>) -> Result<T> {
+    thread.join().map_err(|_| check!("a thread of `rtl` panicked"))?
+}
+
 fn on_host(workspace: &Workspace) -> Result<Said> {
     let mut command = workspace.cargo("run");
-    command.args(["--quiet", "--manifest-path", BOARDS, "--package", PACKAGE]);
-    command.arg("--target-dir").arg(workspace.target.join("cores"));
+    command.args(["--quiet", "--package", PACKAGE]);
     Said::read(&shell::capture(&mut command)?)
 }
 
-/// Builds the image with this flag of the compiler beside those of the core.
-fn build(workspace: &Workspace, core: &Core, flag: &str) -> Result<PathBuf> {
-    let mut flags: Vec<String> = core.flags.iter().map(ToString::to_string).collect();
-    flags.extend((!flag.is_empty()).then(|| flag.to_owned()));
-    let folder = workspace.root.join("firmware-demo/cores");
-    let script = workspace::read(&folder.join("link.x"))?;
-    refuse_if!(!script.contains(WORDS[0]), "link.x of `cores` has no {}", WORDS[0]);
-    let placed = workspace.target.join("gates/link.x");
-    workspace::write(&placed, script.replace(WORDS[0], WORDS[1]))?;
-    for script in [folder.join(format!("machines/{}.x", core.machine)), placed] {
-        flags.push(format!("-Clink-arg=-T{}", script.display()));
+impl Build {
+    /// The image.
+    fn image(self, workspace: &Workspace, core: &Core) -> Result<PathBuf> {
+        let mut flags: Vec<String> = core.flags.iter().map(ToString::to_string).collect();
+        flags.push(AT_WORDS.to_owned());
+        if self != Self::Default {
+            flags.extend(SCHEDULE.map(str::to_owned));
+        }
+        flags.extend((self == Self::Fused).then(|| FUSED.to_owned()));
+        // Paths from the workspace: symbols follow flags, and the order of functions these.
+        for script in [&*format!("machines/{}.x", core.machine), "link.x"] {
+            flags.push(format!("-Clink-arg=-Tfirmware-demo/cores/{script}"));
+        }
+        flags.extend(without_home());
+        let target = workspace.target.join(format!("gates/{self:?}").to_lowercase());
+        let mut command = workspace.cargo("build");
+        command
+            .args(["--quiet", "--profile", RELEASE, "--package", PACKAGE, "--target", core.target])
+            .arg("--target-dir")
+            .arg(&target)
+            .env("CARGO_ENCODED_RUSTFLAGS", flags.join("\u{1f}"));
+        if self == Self::Default {
+            command.args(["--features", "engine-alone"]);
+        }
+        shell::capture(&mut command)?;
+        Ok(target.join(core.target).join(RELEASE).join(PACKAGE))
     }
-    flags.push(CALLS.to_owned());
-    flags.extend(without_home());
-    let target = workspace.target.join(if flag.is_empty() { "gates/plain" } else { "gates/fused" });
-    let mut command = workspace.cargo("build");
-    command
-        .args(["--manifest-path", BOARDS, "--profile", RELEASE, "--package", PACKAGE])
-        .args(["--target", core.target, "--target-dir"])
-        .arg(&target)
-        .env("CARGO_ENCODED_RUSTFLAGS", flags.join("\u{1f}"));
-    shell::capture(&mut command)?;
-    Ok(target.join(core.target).join(RELEASE).join(PACKAGE))
 }

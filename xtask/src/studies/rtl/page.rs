@@ -1,24 +1,26 @@
 //! The page of the counted cycles, and its picture.
 
-use super::Report;
-use super::row::Row;
+use super::row::{Row, Worst};
+use super::{BUILDS, Build, FUSED, Report, SCHEDULE};
 use crate::kit::chart::{Axis, BLUE, GREEN, ORANGE, Panels, RED, SKY, Shape};
 use crate::kit::error::{Result, check};
 use crate::kit::table::{Table, thousands};
+use crate::studies::accuracy::names::digits;
 
 /// The robots, in the order of the page.
 const ROBOTS: [&str; 5] = ["ur5e", "panda", "iiwa14", "xarm7", "a1"];
 
-/// The row of this name.
-fn of<'a>(rows: &'a [Row], name: &[&str], contracted: bool) -> Option<&'a Row> {
-    rows.iter().find(|row| row.name == name && row.contracted == contracted)
+/// The cycles of the row of this name, by the number of stages.
+fn cycles(rows: &[Row], name: &[&str], build: Build, stages: usize) -> Option<u64> {
+    let row = rows.iter().find(|row| row.name == name && row.build == build)?;
+    row.cycles.get(stages).copied()
 }
 
 /// The cycles of an FPU of one stage, for the step of the tests.
 pub fn summary(rows: &[Row]) -> Result<String> {
     let cycles = |name: &[&str]| {
-        let row = of(rows, name, false).and_then(|row| row.cycles.get(1));
-        row.map(|cycles| thousands(*cycles)).ok_or_else(|| check!("no row {name:?}"))
+        let cycles = cycles(rows, name, Build::Scheduled, 1);
+        cycles.map(thousands).ok_or_else(|| check!("no row {name:?}"))
     };
     let rnea = cycles(&["ur5e", "rnea", "engine", "outside"])?;
     let tick = cycles(&["ur5e"])?;
@@ -27,38 +29,64 @@ pub fn summary(rows: &[Row]) -> Result<String> {
 
 impl Report {
     pub fn markdown(&self) -> Result<String> {
-        let (mut algorithms, mut ticks): (Vec<_>, Vec<_>) = (Vec::new(), Vec::new());
-        for row in self.rows.iter().filter(|row| !row.contracted) {
-            let fused = self.rows.iter().find(|other| other.contracted && other.name == row.name);
-            let fused = fused.ok_or_else(|| check!("{:?} was not built contracted", row.name))?;
-            let list = if row.name.len() == 1 { &mut ticks } else { &mut algorithms };
-            list.push((row, fused));
-        }
-        let table = |lines: &[(&Row, &Row)], head: &str| {
-            let cycles =
-                |row: &Row, at: usize| row.cycles.get(at).map_or("–".into(), |c| thousands(*c));
-            Table::of(
-                lines,
-                &[
-                    (head, &|(row, _)| row.name.join(" ")),
-                    ("instructions", &|(row, _)| thousands(row.instructions)),
-                    ("cycles: 0 stages", &|(row, _)| cycles(row, 0)),
-                    ("1 stage", &|(row, _)| cycles(row, 1)),
-                    ("2 stages", &|(row, _)| cycles(row, 2)),
-                    ("contracted: instructions", &|(_, row)| thousands(row.instructions)),
-                    ("cycles: 0 stages", &|(_, row)| cycles(row, 0)),
-                    ("1 stage", &|(_, row)| cycles(row, 1)),
-                    ("2 stages", &|(_, row)| cycles(row, 2)),
-                ],
-            )
-            .markdown()
+        let scheduled = self.rows.iter().filter(|row| row.build == Build::Scheduled);
+        let (algorithms, ticks): (Vec<&Row>, Vec<&Row>) =
+            scheduled.partition(|row| row.name.len() > 1);
+        let table = |rows: &[&Row], head: &str| {
+            let cell = |row: &Row, build, stages| {
+                let name: Vec<&str> = row.name.iter().map(String::as_str).collect();
+                cycles(&self.rows, &name, build, stages).map_or("–".into(), thousands)
+            };
+            let mut table = Table::new(&[
+                head,
+                "default flags: 0 stages",
+                "1 stage",
+                "2 stages",
+                "scheduled: 0 stages",
+                "1 stage",
+                "2 stages",
+                "fused: 0 stages",
+                "1 stage",
+                "2 stages",
+            ]);
+            for row in rows {
+                let builds =
+                    BUILDS.iter().flat_map(|build| [0, 1, 2].map(|stages| (*build, stages)));
+                let cells = builds.map(|(build, stages)| cell(row, build, stages));
+                table.row(std::iter::once(row.name.join(" ")).chain(cells));
+            }
+            table.markdown()
         };
         Ok(format!(
             include_str!("page.md"),
             algorithms = table(&algorithms, "robot, algorithm, form, sines"),
             ticks = table(&ticks, "scene"),
+            schedule = SCHEDULE.map(|flag| format!("`{flag}`")).join(", "),
+            fused = FUSED,
+            errors = self.errors()?,
             rustc = self.rustc,
         ))
+    }
+
+    /// The errors of torques by both arithmetics.
+    fn errors(&self) -> Result<String> {
+        let mut table = Table::new(&[
+            "robot, form",
+            "separate, N·m",
+            "fused, N·m",
+            "separate, of the largest torque",
+            "fused",
+        ]);
+        for one in self.errors.iter().filter(|one| one.build == Build::Scheduled) {
+            let is_its = |other: &&Worst| other.build == Build::Fused && other.name == one.name;
+            let other = self.errors.iter().find(is_its);
+            let other = other.ok_or_else(|| check!("{:?} was not built fused", one.name))?;
+            let errors = [one.error, other.error].map(digits);
+            let shares = [one, other].map(|worst| digits(worst.error / worst.largest));
+            let name = std::iter::once(one.name.join(" "));
+            table.row(name.chain(errors).chain(shares));
+        }
+        Ok(table.markdown())
     }
 }
 
@@ -68,16 +96,16 @@ pub fn svg(rows: &[Row]) -> Result<String> {
         let robots = ROBOTS.iter().flat_map(|robot| {
             ["outside", "inside"].map(|sines| {
                 let name = [robot, "rnea", form, sines];
-                let dot = |at: usize, contracted, shape, colour| {
-                    let cycles = *of(rows, &name, contracted)?.cycles.get(at)?;
+                let dot = |stages, build, shape, colour| {
+                    let cycles = cycles(rows, &name, build, stages)?;
                     Some((cycles as f64, shape, colour, String::new()))
                 };
                 let dots = [
-                    dot(0, false, Shape::Dot, SKY),
-                    dot(1, false, Shape::Dot, BLUE),
-                    dot(2, false, Shape::Dot, RED),
-                    dot(1, true, Shape::Ring, GREEN),
-                    dot(2, true, Shape::Ring, ORANGE),
+                    dot(0, Build::Scheduled, Shape::Dot, SKY),
+                    dot(1, Build::Scheduled, Shape::Dot, BLUE),
+                    dot(2, Build::Scheduled, Shape::Dot, RED),
+                    dot(1, Build::Fused, Shape::Ring, GREEN),
+                    dot(2, Build::Fused, Shape::Ring, ORANGE),
                 ];
                 (format!("{robot}, sines {sines}"), dots.into_iter().flatten().collect())
             })
@@ -93,8 +121,8 @@ pub fn svg(rows: &[Row]) -> Result<String> {
             ("0 stages", SKY),
             ("1 stage", BLUE),
             ("2 stages", RED),
-            ("1 stage, contracted", GREEN),
-            ("2 stages, contracted", ORANGE),
+            ("1 stage, fused", GREEN),
+            ("2 stages, fused", ORANGE),
         ],
         x,
         names: 176,
@@ -105,27 +133,38 @@ pub fn svg(rows: &[Row]) -> Result<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::row::Row;
-    use super::{Report, summary};
-
-    fn row(name: &[&str], contracted: bool) -> Row {
-        let name = name.iter().map(ToString::to_string).collect();
-        Row { name, contracted, cycles: vec![1000, 1100, 2000], instructions: 900 }
-    }
+    use super::super::row::{Row, Worst};
+    use super::{Build, Report, summary};
 
     #[test]
-    fn the_page_has_the_figures_of_both_builds() {
-        let name = ["ur5e", "rnea", "engine", "outside"];
-        let mut rows = vec![row(&name, false), row(&["ur5e"], false)];
-        rows.extend([row(&name, true), row(&["ur5e"], true)]);
-        rows[2].cycles[1] = 777;
-        assert!(summary(&rows).expect("both rows").contains("1,100 cycles"));
-        let mut report = Report { rows, rustc: "rustc 1".into() };
+    fn the_page_has_the_figures_of_each_build() {
+        let names = [vec!["ur5e", "rnea", "engine", "outside"], vec!["ur5e"]];
+        let rows = names.iter().flat_map(|name| {
+            let builds = [(Build::Default, 1), (Build::Scheduled, 2), (Build::Fused, 3)];
+            builds.map(|(build, thousands)| Row {
+                name: name.iter().map(ToString::to_string).collect(),
+                build,
+                cycles: [7, 8, 9].map(|stages| 1000 * thousands + stages).into(),
+            })
+        });
+        let errors = [(Build::Scheduled, 5e-6), (Build::Fused, 3e-6)].map(|(build, error)| Worst {
+            name: vec!["ur5e".into(), "core".into()],
+            build,
+            error,
+            largest: 100.0,
+        });
+        let errors = errors.into();
+        let mut report = Report { rows: rows.collect(), errors, rustc: "rustc 1".into() };
+        assert_eq!(summary(&report.rows).expect("both rows").matches("2,008").count(), 2);
         let page = report.markdown().expect("a page");
-        assert!(page.contains("777") && page.contains("1,100"), "{page}");
-        report.rows.truncate(2);
-        report.markdown().map(drop).expect_err("no contracted rows");
-        report.rows.truncate(1);
+        let all = ["1,007", "1,008", "1,009", "2,007", "2,008", "2,009", "3,007", "3,008", "3,009"];
+        assert!(all.iter().all(|cycles| page.matches(cycles).count() == 2), "{page}");
+        assert!(page.contains("5.0e-6") && page.contains("3.0e-8"), "{page}");
+        report.rows.pop();
+        assert_eq!(report.markdown().expect("a page").matches("3,008").count(), 1);
+        report.errors.pop();
+        report.markdown().map(drop).expect_err("no fused arithmetic");
+        report.rows.truncate(3);
         summary(&report.rows).expect_err("no tick");
     }
 }

@@ -2,12 +2,14 @@
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::thread;
 
 use crate::kit::error::{Error, Result, bail};
-use crate::kit::progress::Spinner;
 use crate::kit::setup::{self, Options, Plan};
 use crate::kit::shell;
 use crate::kit::workspace::{self, Workspace};
+
+use super::joined;
 
 /// The numbers of pipeline stages that the floating-point unit may have.
 pub const LATENCIES: [usize; 3] = [0, 1, 2];
@@ -26,40 +28,55 @@ const PROGRAMS: [(&str, &str); 5] = [
 /// What the source is silent about or its authors know: the pipelines of the FPU assign an array's
 /// first element in another way than the others, which Verilator takes for one variable.
 const SILENT: &str = "-Wno-lint -Wno-BLKANDNBLK -Wno-COMBDLY -Wno-UNOPTFLAT -Wno-WIDTHCONCAT";
-const VERILATE: &str = "--cc --exe --build -O3 --x-assign fast -CFLAGS -O2 --top-module \
+const PINNED: &str = "lab/gates/requirements.txt";
+const BENCH: &str = "lab/gates/bench.cpp";
+const VERILATE: &str = "--cc --exe --build -O3 --x-assign fast -CFLAGS -O1 --top-module \
     cv32e40p_top -GFPU=1 -o core";
 
 /// The folder with the simulators, one for each latency.
-pub struct Simulators(PathBuf);
+pub struct Simulators<'a> {
+    workspace: &'a Workspace,
+    folder: PathBuf,
+    source: PathBuf,
+}
 
-impl Simulators {
-    /// Installs what is missing if the user agrees, downloads the source and compiles it, unless
-    /// that was done before from the same files.
-    pub fn set_up(workspace: &Workspace, options: Options) -> Result<Self> {
+impl<'a> Simulators<'a> {
+    /// Installs what is missing if the user agrees, and downloads the source, unless that was done
+    /// before.
+    pub fn find(workspace: &'a Workspace, options: Options) -> Result<Self> {
         install(options)?;
-        let [pinned, bench] = ["requirements.txt", "bench.cpp"]
-            .map(|name| workspace.root.join("lab/gates").join(name));
         let folder = workspace.target.join("gates");
-        let recipe = workspace::read(&pinned)? + &workspace::read(&bench)? + VERILATE;
-        let stamp = folder.join("recipe");
-        if !std::fs::read_to_string(&stamp).is_ok_and(|made_of| made_of == recipe) {
-            let _spinner = Spinner::start("compiling the core's source by Verilator");
-            let source = download(&folder, &pinned, options)?;
-            for latency in LATENCIES {
-                compile(&folder, &source, &bench, latency)?;
-            }
-            workspace::write(&stamp, recipe)?;
-        }
-        Ok(Self(folder))
+        let source = download(&folder, &workspace.root.join(PINNED), options)?;
+        Ok(Self { workspace, folder, source })
     }
 
-    /// The output of a program on the core whose FPU has this latency.
+    /// Compiles the source, unless that was done before from the same files.
+    pub fn make(&self) -> Result<()> {
+        let [pinned, bench] = [PINNED, BENCH].map(|name| self.workspace.root.join(name));
+        let recipe = workspace::read(&pinned)? + &workspace::read(&bench)? + VERILATE;
+        let stamp = self.folder.join("recipe");
+        if std::fs::read_to_string(&stamp).is_ok_and(|made_of| made_of == recipe) {
+            return Ok(());
+        }
+        for latency in LATENCIES {
+            compile(&self.folder, &self.source, &bench, latency)?;
+        }
+        workspace::write(&stamp, recipe)
+    }
+
+    /// The output of a program on the core, for each latency of its FPU.
     ///
     /// # Errors
     /// It ends with another code than zero, does not end, or leaves its memory.
-    pub fn run(&self, latency: usize, elf: &Path) -> Result<String> {
-        let core = self.0.join(format!("latency_{latency}/core"));
-        shell::capture(Command::new(core).arg(elf).arg(LIMIT))
+    pub fn run_all(&self, elf: &Path) -> Result<Vec<String>> {
+        let run = |latency| {
+            let core = self.folder.join(format!("latency_{latency}/core"));
+            shell::capture(Command::new(core).arg(elf).arg(LIMIT))
+        };
+        thread::scope(|scope| {
+            let threads = LATENCIES.map(|latency| scope.spawn(move || run(latency)));
+            threads.into_iter().map(joined).collect()
+        })
     }
 }
 

@@ -7,7 +7,7 @@ use std::process::ExitCode;
 use crate::kit::error::{Error, Result};
 use crate::kit::importer::passed::{IMPORT, NEW, Passed};
 use crate::kit::importer::{ALL, Robot, command, measure, report};
-use crate::kit::meter::MODEL;
+use crate::kit::meter::{CHIPS, IN_FLASH, MODEL};
 use crate::kit::rows::Row;
 use crate::kit::setup::{self, Options};
 use crate::kit::table::{Table, thousands};
@@ -62,7 +62,9 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
     let is_measured = matches!(&measured, Some(Ok(rows)) if !rows.is_empty());
     output::print(if is_measured { without_estimate(&text) } else { &text })?;
     match measured {
-        Some(Ok(rows)) => output::print(&format!("\n{MODEL}:\n{}", table(&rows).text()))?,
+        Some(Ok(rows)) => {
+            output::print(&format!("\n{MODEL}. {IN_FLASH}:\n{}", table(&rows).text()))?
+        }
         Some(Err(error)) => output::note(&format!("not measured: {error}")),
         None => {}
     }
@@ -85,10 +87,14 @@ fn show(file: &Path, kept: bool) -> Result<()> {
 }
 
 pub fn table(rows: &[Row]) -> Table {
-    let mut table =
-        Table::new(&["inverse dynamics", "form", "cycles", "instructions", "code, B", "stack, B"]);
+    let [first, second] = CHIPS;
+    let head = ["inverse dynamics", "form", "cycles", first, second, "instructions"];
+    let mut table = Table::new(&[&head[..], &["code, B", "stack, B"]].concat());
     for row in rows {
-        let figures = [row.cycles.max, row.instructions.max, row.code_bytes, row.stack_bytes];
+        let [first, second] = row.in_flash.map(|flash| flash.max);
+        let cycles = [row.cycles.max, first, second];
+        let figures = [row.instructions.max, row.code_bytes, row.stack_bytes];
+        let figures = cycles.into_iter().chain(figures);
         let names = [row.inputs.clone(), row.form.clone()];
         table.row(names.into_iter().chain(figures.map(thousands)));
     }

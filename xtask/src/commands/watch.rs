@@ -221,7 +221,8 @@ fn every_tick_arrived(json: &str) -> Result<()> {
 fn verdict(heard: &[Sample], alone: &[Sample], full: &[Sample]) -> Result<String> {
     let of = |samples: &[Sample], is_mine: fn(u8) -> bool| -> Vec<Sample> {
         let mine = samples.iter().filter(|sample| is_mine(sample.region));
-        mine.copied().collect()
+        // Caches depend on what ran between two ticks, so that what flash waits for may differ.
+        mine.map(|sample| Sample { waits: [0; 2], ..*sample }).collect()
     };
     let ticks = |samples| of(samples, |region| region < RECORD);
     let (with, without) = (ticks(heard), ticks(alone));

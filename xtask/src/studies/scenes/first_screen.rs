@@ -40,7 +40,7 @@ pub fn composed(workspace: &Workspace) -> Result<String> {
 fn why([peers, readme, scenes, rtl, costs]: [&str; 5]) -> Result<String> {
     let (_, arm) = costs.split_once(BY_HAND).ok_or_else(|| check!("{COSTS} has no SO-101"))?;
     let arm = arm.split("\n## ").next().unwrap_or_default();
-    let gravity = |row| Ok(cell(arm, row, 13)?[7].to_owned());
+    let gravity = |row| Ok(cell(arm, row, 15)?[7].to_owned());
     let [by_hand, engine]: [Result<String>; 2] =
         ["gravity by_hand libm", "rnea engine gravity"].map(gravity);
     let (by_hand, engine) = (by_hand?, engine?);
@@ -51,8 +51,8 @@ fn why([peers, readme, scenes, rtl, costs]: [&str; 5]) -> Result<String> {
     let host = range(", engine / pinocchio: ns")?;
     let free = range("g1_free rnea, m4f, engine / casadi: cycles")?;
     let tick = TICK.written(scenes)?;
-    let total = cell(tick, "total", 12)?;
-    let [longest, share] = [(9, "longest tick"), (11, "share")].map(|(at, what)| {
+    let total = cell(tick, "total", 14)?;
+    let [longest, share] = [(11, "longest tick"), (13, "share")].map(|(at, what)| {
         let figure = total[at].trim_end_matches(" %").parse::<f64>();
         figure.map_err(|_| check!("{} has no {what}", TICK.file))
     });
@@ -209,7 +209,7 @@ mod tests {
         }
         let (_, arm) = costs.split_once(super::BY_HAND).expect("the arm");
         for row in ["gravity by_hand libm", "rnea engine gravity"] {
-            let cycles = super::cell(arm, row, 13).expect("a row")[7];
+            let cycles = super::cell(arm, row, 15).expect("a row")[7];
             let other = costs.replace(cycles, "9999");
             assert_ne!(why(&readme, &scenes, &rtl, &other).expect("the pages"), now, "{row}");
         }

@@ -71,6 +71,15 @@ pub struct Info {
 /// Called with the processor's index and what was registered.
 pub type ExecCallback = extern "C" fn(c_uint, *mut c_void);
 
+/// What an access to memory is like: `qemu_plugin_meminfo_t`.
+pub type MemInfo = u32;
+
+/// Called with the processor's index, the access, its address and what was registered.
+pub type MemCallback = extern "C" fn(c_uint, MemInfo, u64, *mut c_void);
+
+/// `QEMU_PLUGIN_MEM_RW`: call back at reads and writes. QEMU 7.2 takes one for the other.
+pub const ACCESSES: c_int = 3;
+
 /// `QEMU_PLUGIN_CB_NO_REGS`: the callback does not look at registers.
 pub const NO_REGISTERS: c_int = 0;
 
@@ -124,6 +133,8 @@ functions! {
         fn(*mut Tb, ExecCallback, c_int, *mut c_void);
     register_vcpu_insn_exec_cb = c"qemu_plugin_register_vcpu_insn_exec_cb":
         fn(*mut TbInsn, ExecCallback, c_int, *mut c_void);
+    register_vcpu_mem_cb = c"qemu_plugin_register_vcpu_mem_cb":
+        fn(*mut TbInsn, MemCallback, c_int, c_int, *mut c_void);
     register_atexit_cb = c"qemu_plugin_register_atexit_cb":
         fn(PluginId, extern "C" fn(PluginId, *mut c_void), *mut c_void);
     register_vcpu_tb_trans_cb_from_7 = c"qemu_plugin_register_vcpu_tb_trans_cb":

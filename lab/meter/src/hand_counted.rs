@@ -11,7 +11,7 @@ const HAND_COUNTED: &str = include_str!("hand_counted.txt");
 
 fn by_hand() -> impl Iterator<Item = (&'static str, Sample)> {
     let rows = HAND_COUNTED.lines().filter_map(|line| line.split_once(": "));
-    rows.filter_map(|(name, figures)| Some((name, sample(&format!("{figures} 0"), 0).ok()?)))
+    rows.filter_map(|(name, figures)| Some((name, sample(&format!("{figures} 0 0 0"), 0).ok()?)))
 }
 
 /// Compares the samples of a run of `meter_check` with those counted by hand and returns how many
@@ -51,8 +51,8 @@ mod tests {
         assert!(check_hand_counted(&[&*samples, &samples[..1]].concat()).is_err());
         samples[1].cycles += 1;
         let said = "divide: by hand Sample \
-                    { region: 0, instructions: 2, cycles: 13, flops: 0, at: 0 }, by the meter \
-                    Sample { region: 0, instructions: 2, cycles: 14, flops: 0, at: 0 }";
+                    { region: 0, instructions: 2, cycles: 13, flops: 0, waits: [0, 0], at: 0 }, by the meter \
+                    Sample { region: 0, instructions: 2, cycles: 14, flops: 0, waits: [0, 0], at: 0 }";
         assert_eq!(check_hand_counted(&samples), Err(said.into()));
     }
 }

@@ -130,6 +130,12 @@ impl Insn {
         self.address & !SP != 0
     }
 
+    /// Whether it may load from flash: the stack is elsewhere.
+    pub fn may_load_flash(&self) -> bool {
+        let loads = matches!(self.class, Class::Load | Class::Words(_) | Class::TableBranch);
+        loads && self.address != SP
+    }
+
     /// Floating-point operations that it does: a multiply-accumulate is two; moves, signs,
     /// comparisons and conversions are none.
     pub fn flops(&self) -> u64 {

@@ -92,6 +92,7 @@
 
 mod block;
 mod decode;
+mod fetch;
 #[cfg(unix)]
 mod ffi;
 mod hand_counted;
@@ -103,6 +104,7 @@ mod plugin;
 mod samples;
 
 pub use decode::{Operation, Relative, decode, operation, relative, size};
+pub use fetch::{COUPLED, F405, FLASHES, Flash, G474};
 pub use hand_counted::check_hand_counted;
 pub use insn::{Class, Insn, Marker};
 pub use model::{Pipe, Reading};

@@ -1,6 +1,7 @@
 //! Follows the execution from block to block and cuts it into samples.
 
 use crate::block::{Block, Mark, Tally};
+use crate::fetch::{FLASHES, Fetch, in_flash};
 use crate::insn::Marker;
 use crate::model::{Pipe, Reading};
 use crate::samples::Sample;
@@ -9,15 +10,22 @@ use crate::samples::Sample;
 ///
 /// A block is charged when the next one starts: only then is it known whether its
 /// last instruction branched.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct Meter<'b> {
     /// Everything up to the start of the current block.
     total: Tally,
     /// The pipe as the current block found it.
     entry: Pipe,
     current: Option<&'b Block>,
-    /// The count at the marks that opened them, and their addresses.
-    open: [Option<(Tally, u32)>; 8],
+    /// The count and the waits at the marks that opened them, and their addresses.
+    open: [Option<(Tally, [u64; 2], u32)>; 8],
+    /// The memories that wait. They stand still while no region is open, so that their caches are
+    /// as warm as those of a firmware that does nothing else.
+    fetches: [Fetch; 2],
+    /// The instructions of the current block that they have seen, or were to leave out.
+    fetched: usize,
+    /// What it loaded from flash, by the instruction.
+    loads: Vec<(usize, u32)>,
     samples: Vec<Sample>,
     unmatched: u64,
 }
@@ -25,7 +33,17 @@ pub struct Meter<'b> {
 impl<'b> Meter<'b> {
     /// A meter whose cycles are those of a reading of the manual.
     pub fn read_as(reading: Reading) -> Self {
-        Self { entry: Pipe::clear(reading), ..Self::default() }
+        Self {
+            total: Tally::default(),
+            entry: Pipe::clear(reading),
+            current: None,
+            open: [None; 8],
+            fetches: FLASHES.map(Fetch::new),
+            fetched: 0,
+            loads: Vec::new(),
+            samples: Vec::new(),
+            unmatched: 0,
+        }
     }
 
     /// A block starts; the one before it passed this many of its checkpoints.
@@ -35,18 +53,28 @@ impl<'b> Meter<'b> {
         }
     }
 
+    /// An instruction of the current block loads from an address.
+    pub fn load(&mut self, index: usize, address: u32) {
+        if in_flash(address) && self.open.iter().any(Option::is_some) {
+            self.loads.push((index, address));
+        }
+    }
+
     /// A marker of the current block is executed.
     pub fn mark(&mut self, mark: &Mark) {
         let Some(block) = self.current else { return };
         let now = self.total.plus(block.cost(self.entry, mark.index).0);
+        self.fetch(block, mark.index);
+        let waits = [0, 1].map(|which| self.fetches[which].waits());
         let Marker { region, opens } = mark.marker;
         let slot = &mut self.open[usize::from(region)];
         if opens {
-            self.unmatched += u64::from(slot.replace((now, block.address(mark.index))).is_some());
-        } else if let Some((then, at)) = slot.take() {
+            self.unmatched += u64::from(slot.replace((now, waits, block.address(mark.index))).is_some());
+        } else if let Some((then, waited, at)) = slot.take() {
             let cost = now.since(then);
             let sample = Sample::of(region, [cost.instructions, cost.cycles, cost.flops]);
-            self.samples.push(Sample { at, ..sample });
+            let waits = [0, 1].map(|which| waits[which] - waited[which]);
+            self.samples.push(Sample { waits, at, ..sample });
         } else {
             self.unmatched += 1;
         }
@@ -62,15 +90,42 @@ impl<'b> Meter<'b> {
         self.unmatched
     }
 
+    /// Lets the memories that wait see the block's instructions up to this one.
+    fn fetch(&mut self, block: &Block, end: usize) {
+        let begin = std::mem::replace(&mut self.fetched, end);
+        if self.open.iter().all(Option::is_none) {
+            self.fetches.iter_mut().for_each(Fetch::interrupt);
+            return;
+        }
+        let mut pipe = block.cost(self.entry, begin).1;
+        let mut address = block.address(begin);
+        for (index, insn) in (begin..).zip(block.insns().get(begin..end).unwrap_or_default()) {
+            let first = self.loads.partition_point(|(by, _)| *by < index);
+            let loads = self.loads[first..].iter().take_while(|(by, _)| *by == index);
+            let loads = loads.map(|(_, from)| *from);
+            // A mark costs nothing, but a region shall not wait for its mark's word.
+            let cycles = u64::from(pipe.step(insn)) + u64::from(insn.is_marker());
+            for fetch in &mut self.fetches {
+                fetch.step(address, insn, loads.clone(), cycles);
+            }
+            address = address.wrapping_add(u32::from(insn.size));
+        }
+    }
+
     fn settle(&mut self, last: &Block, passed: usize, next: u32) {
         let executed = last.executed(passed);
+        self.fetch(last, executed);
+        self.fetched = 0;
+        self.loads.clear();
         let (cost, pipe) = last.cost(self.entry, executed);
         self.total = self.total.plus(cost);
         self.entry = pipe;
         // A block that was left early goes on elsewhere; an interrupt is no branch.
         if executed == last.insns().len() && next != last.end() {
             if last.may_branch() {
-                self.total.cycles += u64::from(self.entry.refill());
+                let refill = u64::from(self.entry.refill());
+                self.total.cycles += refill;
+                self.fetches.iter_mut().for_each(|fetch| fetch.branch(refill));
             } else {
                 self.entry = self.entry.cleared();
             }
@@ -105,7 +160,7 @@ mod tests {
     fn run(blocks: &[&Block]) -> Vec<Sample> {
         let open = block(0, &dbg(0));
         let close = block(blocks.last().map_or(4, |last| last.end()), &dbg(1));
-        let mut meter = Meter::default();
+        let mut meter = Meter::read_as(Reading::Chosen);
         for block in [&[&open][..], blocks, &[&close]].concat() {
             meter.enter(block, usize::MAX);
             block.marks().iter().for_each(|mark| meter.mark(mark));
@@ -172,7 +227,7 @@ mod tests {
         let whole = block(4, &[NOP, LDR_R0_R1, NOP, NOP]);
         let rest = block(8, &[NOP, NOP]);
         let close = block(12, &dbg(1));
-        let mut meter = Meter::default();
+        let mut meter = Meter::read_as(Reading::Chosen);
         for (block, passed) in [(&open, 0), (&whole, 0), (&rest, 1), (&close, 0)] {
             meter.enter(block, passed);
             block.marks().iter().for_each(|mark| meter.mark(mark));
@@ -181,9 +236,28 @@ mod tests {
     }
 
     #[test]
+    fn memory_that_waits_is_charged_in_regions_only_and_stays_warm() {
+        let mark = |start, option| block(start, &dbg(option));
+        let (open, body, close) = (mark(0, 0), block(4, &[NOP; 40]), mark(84, 1));
+        let elsewhere = block(0x1000, &[NOP; 4000]);
+        let mut meter = Meter::read_as(Reading::Chosen);
+        for _ in 0..2 {
+            for block in [&elsewhere, &open, &body, &close] {
+                meter.enter(block, usize::MAX);
+                block.marks().iter().for_each(|mark| meter.mark(mark));
+            }
+        }
+        // By hand: lines of eight bytes take four cycles for the first, with the mark and two
+        // instructions, two for the next, and one for each of nine with four instructions. Lines of
+        // sixteen take five for the first; the others are read while eight instructions execute.
+        let cycles: Vec<_> = meter.samples().iter().map(Sample::all_cycles).collect();
+        assert_eq!(cycles, [[40, 40 + 4 + 2 + 9, 40 + 5], [40; 3]]);
+    }
+
+    #[test]
     fn unmatched_markers_are_counted() {
         let block = block(0, &[dbg(0), dbg(0), dbg(1), dbg(1)].concat());
-        let mut meter = Meter::default();
+        let mut meter = Meter::read_as(Reading::Chosen);
         meter.enter(&block, 0);
         block.marks().iter().for_each(|mark| meter.mark(mark));
         assert_eq!((meter.samples().len(), meter.unmatched()), (1, 2));

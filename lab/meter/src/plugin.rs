@@ -157,6 +157,12 @@ extern "C" fn translated(_: PluginId, tb: *mut Tb) {
             let insn = (qemu.tb_get_insn)(tb, index);
             (qemu.register_vcpu_insn_exec_cb)(insn, passed, ffi::NO_REGISTERS, ptr::null_mut());
         }
+        let loads = block.insns().iter().enumerate().filter(|(_, insn)| insn.may_load_flash());
+        for (index, _) in loads {
+            let insn = (qemu.tb_get_insn)(tb, index);
+            let index = ptr::without_provenance_mut(index);
+            (qemu.register_vcpu_mem_cb)(insn, loaded, ffi::NO_REGISTERS, ffi::ACCESSES, index);
+        }
         for mark in block.marks() {
             let insn = (qemu.tb_get_insn)(tb, mark.index);
             (qemu.register_vcpu_insn_exec_cb)(insn, marked, ffi::NO_REGISTERS, user_data(mark));
@@ -234,6 +240,13 @@ extern "C" fn passed(_: c_uint, _: *mut c_void) {
     // SAFETY: the only call in this callback.
     let plugin = unsafe { plugin() };
     plugin.checkpoints += 1;
+}
+
+/// An instruction loads from memory.
+extern "C" fn loaded(_: c_uint, _: ffi::MemInfo, address: u64, index: *mut c_void) {
+    // SAFETY: the only call in this callback.
+    let plugin = unsafe { plugin() };
+    plugin.meter.load(index.addr(), address as u32);
 }
 
 /// A marker is executed.

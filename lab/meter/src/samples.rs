@@ -1,21 +1,25 @@
 //! The plugin's output file.
 //!
 //! ```text
-//! cycle-meter 3 cortex-m4f zero-wait
-//! 1 390 508 308 134218012
-//! 0 1204 1657 402 134217994
+//! cycle-meter 4 cortex-m4f
+//! 1 390 508 308 201 64 134218012
+//! 0 1204 1657 402 611 208 134217994
 //! ```
 //!
 //! After the header, which names the version of the format and the model, one line for each region
 //! that was closed, in the order of closing: region, instructions, cycles, floating-point
-//! operations, and the address of the mark that opened it. A last line `unmatched n` says that n
+//! operations, the cycles waited for each of [`FLASHES`], and the address of the mark that opened
+//! it. A last line `unmatched n` says that n
 //! markers opened an open region or closed a closed one; such a file is refused. A region still
 //! open at the exit is not in it.
 
 use std::fmt::Write as _;
 
+#[cfg(doc)]
+use crate::FLASHES;
+
 /// First line of a file.
-pub const HEADER: &str = "cycle-meter 3 cortex-m4f zero-wait";
+pub const HEADER: &str = "cycle-meter 4 cortex-m4f";
 
 /// One passage through a region.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,10 +28,12 @@ pub struct Sample {
     pub region: u8,
     /// Executed, exact.
     pub instructions: u64,
-    /// Modelled.
+    /// Modelled, for memory that never waits.
     pub cycles: u64,
     /// Floating-point operations executed, exact; a multiply-accumulate is two.
     pub flops: u64,
+    /// Modelled: the cycles that code in each of [`FLASHES`] takes beyond these.
+    pub waits: [u64; 2],
     /// The address of the mark that opened it; 0 of one that was counted by hand.
     pub at: u32,
 }
@@ -35,12 +41,17 @@ pub struct Sample {
 impl Sample {
     /// A passage of these instructions, cycles and floating-point operations.
     pub const fn of(region: u8, [instructions, cycles, flops]: [u64; 3]) -> Self {
-        Self { region, instructions, cycles, flops, at: 0 }
+        Self { region, instructions, cycles, flops, waits: [0; 2], at: 0 }
     }
 
-    /// The same passage, wherever it was.
+    /// The same passage, wherever it was: what it waited for depends on that.
     pub const fn anywhere(self) -> Self {
-        Self { at: 0, ..self }
+        Self { waits: [0; 2], at: 0, ..self }
+    }
+
+    /// Its cycles without waits, and with those of each of [`FLASHES`].
+    pub const fn all_cycles(&self) -> [u64; 3] {
+        [self.cycles, self.cycles + self.waits[0], self.cycles + self.waits[1]]
     }
 }
 
@@ -65,9 +76,9 @@ pub enum Error {
 /// If the text is not such a file, or says that markers had no partner.
 ///
 /// ```
-/// let file = "cycle-meter 3 cortex-m4f zero-wait\n0 70 103 48 134217994\n";
+/// let file = "cycle-meter 4 cortex-m4f\n0 70 103 48 9 3 134217994\n";
 /// let samples = cycle_meter::parse_samples(file)?;
-/// assert_eq!(samples[0].cycles, 103);
+/// assert_eq!(samples[0].all_cycles(), [103, 112, 106]);
 /// # Ok::<(), cycle_meter::Error>(())
 /// ```
 pub fn parse_samples(text: &str) -> Result<Vec<Sample>, Error> {
@@ -87,7 +98,8 @@ pub(crate) fn sample(line: &str, number: usize) -> Result<Sample, Error> {
     }
     let words = line.split(' ').map(|word| word.parse().ok());
     match words.collect::<Option<Vec<u64>>>().as_deref() {
-        Some(&[region @ 0..8, a, b, c, at]) => Ok(Sample {
+        Some(&[region @ 0..8, a, b, c, one, two, at]) => Ok(Sample {
+            waits: [one, two],
             at: at.try_into().map_err(|_| malformed())?,
             ..Sample::of(region as u8, [a, b, c])
         }),
@@ -100,9 +112,10 @@ pub fn format_samples(samples: &[Sample], unmatched: u64) -> String {
     let mut text = format!("{HEADER}\n");
     for one in samples {
         let (region, instructions) = (one.region, one.instructions);
-        let (cycles, flops) = (one.cycles, one.flops);
+        let (cycles, flops, [first, second]) = (one.cycles, one.flops, one.waits);
         // Writing to a string does not fail.
-        let _ = writeln!(text, "{region} {instructions} {cycles} {flops} {}", one.at);
+        let figures = format!("{region} {instructions} {cycles} {flops} {first} {second}");
+        let _ = writeln!(text, "{figures} {}", one.at);
     }
     if unmatched > 0 {
         let _ = writeln!(text, "unmatched {unmatched}");
@@ -141,7 +154,10 @@ impl Summary {
 mod tests {
     use super::*;
 
-    const SAMPLES: [Sample; 2] = [Sample::of(1, [390, 508, 308]), Sample::of(0, [1204, 1657, 402])];
+    const SAMPLES: [Sample; 2] = [
+        Sample::of(1, [390, 508, 308]),
+        Sample { waits: [611, 208], ..Sample::of(0, [1204, 1657, 402]) },
+    ];
 
     #[test]
     fn what_is_written_is_read() {
@@ -156,7 +172,7 @@ mod tests {
     #[test]
     fn invalid_samples_are_refused_by_line() {
         assert_eq!(parse_samples(""), Err(Error::Header(String::new())));
-        for line in "/0 1 2 3/0 1 2 3 4 5/8 1 2 3 4/0 1 x 3 4/0 -1 2 3 4/unmatched x".split('/') {
+        for line in "/0 1 2 3 4/8 1 2 3 4 5 6/0 1 x 3 4 5 6/0 -1 2 3 4 5 6/unmatched x".split('/') {
             let read = parse_samples(&format!("{HEADER}\n{line}\n"));
             assert_eq!(read, Err(Error::Line(2, line.into())));
         }

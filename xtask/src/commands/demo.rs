@@ -287,7 +287,7 @@ mod tests {
     #[test]
     fn a_run_that_differs_is_found() {
         let file = |instructions: u64| {
-            format!("cycle-meter 3 cortex-m4f zero-wait\n0 {instructions} 9 2 8\n")
+            format!("{}\n0 {instructions} 9 2 1 0 8\n", cycle_meter::HEADER)
         };
         let samples =
             |instructions| cycle_meter::parse_samples(&file(instructions)).expect("samples");

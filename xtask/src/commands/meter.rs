@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use crate::kit::elf::Image;
 use crate::kit::error::{Error, Result, bail, check};
-use crate::kit::meter::{self, MODEL, Spread};
+use crate::kit::meter::{self, CHIPS, IN_FLASH, MODEL, Spread};
 use crate::kit::progress::Spinner;
 use crate::kit::qemu::{MACHINE, Run};
 use crate::kit::setup::{self, Options};
@@ -43,6 +43,8 @@ struct Region {
     calls: usize,
     instructions: Spread,
     cycles: Spread,
+    /// The cycles from the flash of each of the chips.
+    in_flash: [Spread; 2],
     flops: Spread,
 }
 
@@ -144,6 +146,7 @@ fn regions(samples: &[Sample]) -> Vec<Region> {
             calls: samples.iter().filter(|one| one.region == region).count(),
             instructions: spread(|one| one.instructions)?,
             cycles: spread(|one| one.cycles)?,
+            in_flash: [spread(|one| one.all_cycles()[1])?, spread(|one| one.all_cycles()[2])?],
             flops: spread(|one| one.flops)?,
         })
     };
@@ -161,20 +164,25 @@ fn foreign(image: &Image) -> Vec<Foreign> {
 
 impl Report {
     fn text(&self, name: &str, seconds: u64) -> String {
-        let head = "region,calls,insn min,median,max,cycles min,median,max,flops max";
+        let [first, second] = CHIPS;
+        let head = format!(
+            "region,calls,insn min,median,max,cycles min,median,max,{first} median,max,\
+             {second} median,max,flops max"
+        );
         let mut table = Table::new(&head.split(',').collect::<Vec<_>>());
         for region in &self.regions {
             let mut figures = vec![region.calls as u64];
             for spread in [region.instructions, region.cycles] {
                 figures.extend([spread.min, spread.median, spread.max]);
             }
+            figures.extend(region.in_flash.iter().flat_map(|flash| [flash.median, flash.max]));
             figures.push(region.flops.max);
             let cells = figures.into_iter().map(thousands);
             table.row(std::iter::once(region.region.to_string()).chain(cells));
         }
         let stopped = format!(", stopped after {seconds} s");
         let end = if self.ended { "" } else { &stopped };
-        let mut text = format!("{name}{end} ({})\n\n{}", self.model, table.text());
+        let mut text = format!("{name}{end} ({}; {IN_FLASH})\n\n{}", self.model, table.text());
         for Foreign { function, address } in &self.foreign {
             text += &format!("  not of a Cortex-M4F: {address} in `{function}`\n");
         }

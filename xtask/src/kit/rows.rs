@@ -34,7 +34,9 @@ pub struct Row {
     pub instructions: Spread,
     /// Modelled cycles of a call.
     pub cycles: Spread,
-    /// Their mean: what a call of those costs that take turns.
+    /// The same from the flash of each of [`meter::CHIPS`].
+    pub in_flash: [Spread; 2],
+    /// The mean of the cycles: what a call of those costs that take turns.
     #[serde(skip)]
     pub cycles_mean: f64,
     /// Floating-point operations of the longest call, exact.
@@ -63,6 +65,7 @@ impl Row {
             joints: 1,
             instructions: spread,
             cycles: spread,
+            in_flash: [spread; 2],
             cycles_mean: 0.0,
             flops: 0,
             code_bytes: 0,
@@ -184,8 +187,8 @@ fn cut(
             .split_at_checked(states as usize)
             .ok_or_else(|| check!("the cycle meter saw fewer calls than the firmware made"))?;
         samples = rest;
-        let cycles = || mine.iter().map(|sample| sample.cycles);
-        let cost = Cost::of(mine.iter().map(|sample| sample.instructions), cycles())?;
+        let cost = Cost::of(mine.iter().map(meter::passage))?;
+        let cycles = mine.iter().map(|sample| sample.cycles);
         rows.push(Row {
             robot: robot.into(),
             algorithm: algorithm.into(),
@@ -195,7 +198,8 @@ fn cut(
             joints: joints as usize,
             instructions: cost.instructions,
             cycles: cost.cycles,
-            cycles_mean: cycles().sum::<u64>() as f64 / mine.len() as f64,
+            in_flash: cost.in_flash,
+            cycles_mean: cycles.sum::<u64>() as f64 / mine.len() as f64,
             flops: mine.iter().map(|sample| sample.flops).max().unwrap_or(0),
             code_bytes: code_bytes(address)?,
             stack_bytes,

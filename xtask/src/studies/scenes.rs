@@ -7,7 +7,7 @@ pub mod render;
 pub mod report;
 
 use crate::kit::docs::Page;
-use crate::kit::meter::{CLOCK_MHZ, MODEL};
+use crate::kit::meter::{CLOCK_MHZ, IN_FLASH, MODEL};
 use crate::kit::protocol::label;
 use crate::kit::table::{Table, thousands};
 use crate::studies::scenes::render::{gate, milli};
@@ -28,13 +28,13 @@ pub fn markdown(reports: &[&Report]) -> String {
 
 fn foot(reports: &[&Report]) -> String {
     let rustc = reports.first().map_or("", |report| &report.rustc);
-    format!("{MODEL}. Measured with {rustc}.")
+    format!("{MODEL}. {IN_FLASH}; the longest. Measured with {rustc}.")
 }
 
 /// A row per scene, set off from those below it: one per effect, with what is saved and lost
 /// without it, and one per other law that the scene compares.
 fn table(reports: &[&Report], set_off: impl Fn(&str) -> String) -> Table {
-    let head = "scene, − effect, other law|tick, cycles|of its period|tick's code, B|flash, B|RAM, \
+    let head = "scene, − effect, other law|tick, cycles|G474|F405|of its period|tick's code, B|flash, B|RAM, \
                 B|error RMS, mrad|max|bound|of PD's|safety gate";
     let mut table = Table::new(&head.split('|').collect::<Vec<_>>());
     for report in reports {
@@ -42,7 +42,7 @@ fn table(reports: &[&Report], set_off: impl Fn(&str) -> String) -> Table {
         let saved = |saved: i64| {
             if saved == 0 { "0".into() } else { signed_change(-saved) }
         };
-        let row = |name: String, costs: [String; 5], errors: &Errors, bound: String| {
+        let row = |name: String, costs: [String; 7], errors: &Errors, bound: String| {
             let share = 100.0 * errors.rms_rad / report.tracking.pd.rms_rad;
             let [rms, max] = [errors.rms_rad, errors.max_rad].map(milli);
             let gate = gate(&errors.status);
@@ -53,6 +53,8 @@ fn table(reports: &[&Report], set_off: impl Fn(&str) -> String) -> Table {
         let period = f64::from(report.period_us) * CLOCK_MHZ;
         let costs = [
             thousands(longest),
+            thousands(report.tick["total"].in_flash[0].max),
+            thousands(report.tick["total"].in_flash[1].max),
             format!("{:.1} %", 100.0 * longest as f64 / period),
             thousands(report.tick_bytes),
             thousands(report.flash_bytes),
@@ -65,17 +67,18 @@ fn table(reports: &[&Report], set_off: impl Fn(&str) -> String) -> Table {
             let less = format!("− {name}");
             let Some(worth) = report.effects.iter().find(|worth| worth.effect == *name) else {
                 // The scene's law cannot do without it.
-                let rest = std::iter::repeat_n(dash(), 9);
+                let rest = std::iter::repeat_n(dash(), 11);
                 table.row([less, "needed".to_owned()].into_iter().chain(rest));
                 continue;
             };
             let [cycles, flash] = [worth.cycles, worth.flash_bytes].map(saved);
-            let costs = [cycles, dash(), flash, dash(), saved(worth.ram_bytes.cast_signed())];
+            let ram = saved(worth.ram_bytes.cast_signed());
+            let costs = [cycles, dash(), dash(), dash(), flash, dash(), ram];
             table.row(row(less, costs, &worth.without, dash()));
         }
         for (law, errors) in &report.tracking.beside {
             let cycles = saved(longest as i64 - errors.tick_cycles as i64);
-            let costs = [cycles, dash(), dash(), dash(), dash()];
+            let costs = std::array::from_fn(|at| if at == 0 { cycles.clone() } else { dash() });
             table.row(row(label(law), costs, errors, dash()));
         }
     }

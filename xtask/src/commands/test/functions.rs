@@ -8,7 +8,7 @@ use crate::kit::callgraph::f32_only;
 use crate::kit::elf::Image;
 use crate::kit::error::{Error, Result, bail, check, refuse_if};
 use crate::kit::host_bin::{self, SHARED};
-use crate::kit::meter::Cost;
+use crate::kit::meter::{self, Cost};
 use crate::kit::qemu::Run;
 use crate::kit::{firmware, shell};
 
@@ -128,8 +128,7 @@ fn steady(kinds: &[Kind], mut samples: &[Sample]) -> Result<Vec<String>> {
             .split_at_checked(kind.states)
             .ok_or_else(|| check!("the cycle meter saw fewer calls than were made"))?;
         samples = rest;
-        let instructions = mine.iter().map(|sample| sample.instructions);
-        let cost = Cost::of(instructions, mine.iter().map(|sample| sample.cycles))?;
+        let cost = Cost::of(mine.iter().map(meter::passage))?;
         let (name, least, most) = (&kind.name, cost.instructions.min, cost.instructions.max);
         unsteady |= kind.constant && least != most;
         costs.push(match least == most {

@@ -8,13 +8,15 @@ use crate::kit::docs::{self, cells, rustc_of};
 use crate::kit::error::{Result, refuse_if};
 
 /// The figures of a row, in the order of the table's columns.
-const FIGURES: [&str; 11] = [
+const FIGURES: [&str; 13] = [
     "insn min",
     "insn median",
     "insn max",
     "cycles min",
     "cycles median",
     "cycles max",
+    "G474",
+    "F405",
     "µs",
     "flops",
     "of floor",

@@ -1,7 +1,7 @@
 //! The rows in print.
 
 use crate::kit::bars::{self, ADDED, Bars, Compared, IMAGE, TICK, is_ratio};
-use crate::kit::meter::{CLOCK_MHZ, MODEL};
+use crate::kit::meter::{CHIPS, CLOCK_MHZ, IN_FLASH, MODEL};
 use crate::kit::rows::Row;
 use crate::kit::table::{Table, thousands};
 use crate::studies::history::{LEAST_PUBLISHED, least_published};
@@ -32,6 +32,7 @@ impl Report {
             include_str!("page.md"),
             model = MODEL,
             clock = CLOCK_MHZ,
+            in_flash = IN_FLASH,
             least = least_published(),
             robots = robots.collect::<String>(),
             ways = self.ways().markdown(),
@@ -152,7 +153,7 @@ impl Report {
 /// The rows of one robot, for a terminal.
 pub fn of_robot(rows: &[Row]) -> String {
     let name = rows.first().map_or("", |row| &row.robot);
-    format!("{name}; {MODEL}.\n\n{}", table(rows).markdown())
+    format!("{name}; {MODEL}. {IN_FLASH}.\n\n{}", table(rows).markdown())
 }
 
 fn called(row: &Row) -> String {
@@ -175,6 +176,8 @@ fn table(rows: &[Row]) -> Table {
             ("cycles min", &|row| thousands(row.cycles.min)),
             ("median", &|row| thousands(row.cycles.median)),
             ("max", &|row| thousands(row.cycles.max)),
+            (CHIPS[0], &|row| thousands(row.in_flash[0].median)),
+            (CHIPS[1], &|row| thousands(row.in_flash[1].median)),
             ("µs", &|row| format!("{:.2}", row.cycles.max as f64 / CLOCK_MHZ)),
             ("flops", &|row| thousands(row.flops)),
             ("of floor", &|row| floor_share(row).unwrap_or_default()),

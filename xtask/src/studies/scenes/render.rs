@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::kit::meter::{CLOCK_MHZ, Cost, MODEL};
+use crate::kit::meter::{CHIPS, CLOCK_MHZ, Cost, IN_FLASH, MODEL};
 use crate::kit::protocol::label;
 use crate::kit::table::{Column, Table, thousands};
 use crate::studies::scenes::report::{Errors, JointError, Report, Tracking};
@@ -13,7 +13,7 @@ impl Report {
     pub fn text(&self, plot: &Path) -> String {
         let ticks = thousands(self.ticks_measured as u64);
         let mut text = format!(
-            "\nCost of a tick, feed-forward, {ticks} ticks ({MODEL})\n\n{}",
+            "\nCost of a tick, feed-forward, {ticks} ticks ({MODEL})\n{IN_FLASH}; median to max\n\n{}",
             self.costs(&[]).text()
         );
         for (what, tracking) in self.trackings() {
@@ -58,6 +58,7 @@ impl Report {
             include_str!("readme.md"),
             ticks = thousands(self.ticks_measured as u64),
             model = MODEL,
+            in_flash = IN_FLASH,
             costs = self.costs(brackets).markdown(),
             errors = table.markdown(),
             memory = self.memory(),
@@ -125,7 +126,11 @@ impl Report {
         let of_period = format!("of {} ms", period / 1e3);
         let parts = self.tick.iter().skip(1).chain(self.tick.first());
         let parts: Vec<_> = parts.collect();
-        let columns: [Column<'_, (&String, &Cost)>; 12] = [
+        let in_flash = |cost: &Cost, chip: usize| {
+            let flash = cost.in_flash[chip];
+            format!("{} to {}", thousands(flash.median), thousands(flash.max))
+        };
+        let columns: [Column<'_, (&String, &Cost)>; 14] = [
             ("phase", &|(name, _)| (*name).clone()),
             ("insn min", &|(_, cost)| thousands(cost.instructions.min)),
             ("median", &|(_, cost)| thousands(cost.instructions.median)),
@@ -134,6 +139,8 @@ impl Report {
             ("median", &|(_, cost)| thousands(cost.cycles.median)),
             ("max", &|(_, cost)| thousands(cost.cycles.max)),
             (BY_MANUAL, &|(name, _)| by_manual(name).unwrap_or_default()),
+            (CHIPS[0], &|(_, cost)| in_flash(cost, 0)),
+            (CHIPS[1], &|(_, cost)| in_flash(cost, 1)),
             ("µs median", &|(_, cost)| microseconds(cost.cycles.median)),
             ("µs max", &|(_, cost)| microseconds(cost.cycles.max)),
             ("of the work", &|(_, cost)| {

@@ -286,9 +286,8 @@ mod tests {
 
     #[test]
     fn a_run_that_differs_is_found() {
-        let file = |instructions: u64| {
-            format!("{}\n0 {instructions} 9 2 1 0 8\n", cycle_meter::HEADER)
-        };
+        let file =
+            |instructions: u64| format!("{}\n0 {instructions} 9 2 1 0 8\n", cycle_meter::HEADER);
         let samples =
             |instructions| cycle_meter::parse_samples(&file(instructions)).expect("samples");
         let first = (b"log".to_vec(), file(7));

@@ -8,7 +8,7 @@ use std::path::Path;
 use cycle_meter::{Class, Insn, Relative};
 
 use crate::kit::elf::{Function, Image, is_f64, is_panic};
-use crate::kit::error::{Result, bail, check};
+use crate::kit::error::{Result, bail, check, refuse_if};
 
 /// The most instructions between the one that forms a table's address and the jump into it.
 const TABLE_START_BEFORE: usize = 8;
@@ -216,9 +216,18 @@ pub fn f32_only(elf: &Path, is_tick: fn(&str) -> bool) -> Result<usize> {
     Ok(count)
 }
 
+/// Fails unless a function and all that it reaches lie in memory that never waits.
+pub fn placed(image: &Image, root: &str) -> Result<()> {
+    let reach = Reach::of(image, |function| function.is_named(|name| name == root))?;
+    for (function, path) in reach.functions() {
+        refuse_if!(!image.fast.contains(&function.address), "{path} waits for flash");
+    }
+    Ok(())
+}
+
 #[cfg(test)]
 mod tests {
-    use super::Reach;
+    use super::{Reach, placed};
     use crate::kit::elf::{Function, Image};
 
     #[test]
@@ -246,6 +255,19 @@ mod tests {
         let error = error.expect("refused").to_string();
         assert!(error.contains("tick → callee calls through a register at 0x1012"), "{error}");
         assert!(Reach::of(&jumps, |_| false).is_err());
+    }
+
+    #[test]
+    fn a_function_that_is_left_in_flash_is_named_with_its_path() {
+        let caller = Function::of("tick", 0x1000, &[0xf000, 0xf806, 0x4770]); // bl 0x1010; bx lr
+        let mut image = Image::of(vec![caller, Function::of("callee", 0x1010, &[0x4770])]);
+        for (end, path) in [(0x1010, "tick → callee waits"), (0x1000, "tick waits")] {
+            image.fast = 0x1000..end;
+            let error = placed(&image, "tick").expect_err(path).to_string();
+            assert!(error.contains(path), "{error}");
+        }
+        image.fast = 0x1000..0x1012;
+        placed(&image, "tick").expect("both are placed");
     }
 
     #[test]

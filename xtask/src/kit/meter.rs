@@ -128,8 +128,7 @@ mod tests {
 
     #[test]
     fn what_is_in_no_phase_is_between_them() {
-        let mut samples =
-            [Sample { waits: [3, 0], ..Sample::of(0, [19, 39, 0]) }; REGIONS.len()];
+        let mut samples = [Sample { waits: [3, 0], ..Sample::of(0, [19, 39, 0]) }; REGIONS.len()];
         (0..).zip(&mut samples).for_each(|(region, one)| one.region = region);
         samples[0] = Sample { waits: [17, 4], ..Sample::of(0, [100, 210, 0]) };
         let costs = costs(&samples, 1, |_| true).expect("complete");

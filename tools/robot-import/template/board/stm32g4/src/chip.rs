@@ -103,7 +103,8 @@ pub struct Bus(SPI1);
 impl Bus {
     pub fn new(spi: SPI1, pins: impl Pins<SPI1>, rcc: &mut Rcc) -> Self {
         // A 32nd of the clock: a 16th is beyond the 10 MHz of the encoders.
-        Self(spi.spi(pins, MODE_1, rcc.clocks.apb2_clk / 32, rcc).release().0)
+        let rate = rcc.clocks.apb2_clk / 32;
+        Self(spi.spi(pins, MODE_1, rate, rcc).release().0)
     }
 
     /// Sends a byte, and returns the one that comes meanwhile.

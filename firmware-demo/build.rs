@@ -28,6 +28,7 @@ fn placement() -> Result<String, Box<dyn Error>> {
     let board = "../tools/robot-import/template/board/nucleo-g474re/memory.x";
     println!("cargo:rerun-if-changed={board}");
     let text = fs::read_to_string(board)?.replace("{{crate_name}}", "firmware_demo");
+    let text = text.replace(".text.TIM2", ".text.*marked_tick*");
     let (_, section) = text.split_once("\n}\n").ok_or("the board has no memory")?;
     let memory = "MEMORY { CCM : ORIGIN = 0x20008000, LENGTH = 96K }\n_stack_start = ORIGIN(CCM);";
     Ok(format!("{memory}\n{section}"))

@@ -5,7 +5,11 @@ use std::{env, error::Error, fs, path::PathBuf};
 fn main() -> Result<(), Box<dyn Error>> {
     let out = PathBuf::from(env::var("OUT_DIR")?);
     if env::var_os("CARGO_FEATURE_NETDUINOPLUS2").is_some() {
-        fs::copy("netduinoplus2.x", out.join("board.x"))?;
+        let mut memory = fs::read_to_string("netduinoplus2.x")?;
+        if env::var_os("CARGO_FEATURE_IN_CCM").is_some() {
+            memory += &placement()?;
+        }
+        fs::write(out.join("board.x"), memory)?;
         println!("cargo:rustc-link-search={}", out.display());
         println!("cargo:rerun-if-changed=netduinoplus2.x");
     }
@@ -15,4 +19,17 @@ fn main() -> Result<(), Box<dyn Error>> {
         println!("cargo:rustc-cfg=armv6m");
     }
     Ok(())
+}
+
+/// The section that a Nucleo-G474RE has in CCM. The emulated board has no such memory for code: the
+/// upper RAM stands for it, below which is the stack, and there is more of it, since a scene has the
+/// tick once for each set of effects.
+fn placement() -> Result<String, Box<dyn Error>> {
+    let board = "../tools/robot-import/template/board/nucleo-g474re/memory.x";
+    println!("cargo:rerun-if-changed={board}");
+    let text = fs::read_to_string(board)?.replace("{{crate_name}}", "firmware_demo");
+    let text = text.replace(".text.TIM2", ".text.*marked_tick*");
+    let (_, section) = text.split_once("\n}\n").ok_or("the board has no memory")?;
+    let memory = "MEMORY { CCM : ORIGIN = 0x20008000, LENGTH = 96K }\n_stack_start = ORIGIN(CCM);";
+    Ok(format!("{memory}\n{section}"))
 }

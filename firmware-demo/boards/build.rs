@@ -8,7 +8,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     let board = package.strip_suffix("-embassy").unwrap_or(&package);
     let memory = format!("../../../tools/robot-import/template/board/{board}/memory.x");
     let out = PathBuf::from(env::var("OUT_DIR")?);
-    fs::copy(&memory, out.join("memory.x"))?;
+    // A project has its own name there.
+    let text = fs::read_to_string(&memory)?.replace("{{crate_name}}", "firmware_demo");
+    fs::write(out.join("memory.x"), text)?;
     println!("cargo:rustc-link-search={}", out.display());
     println!("cargo:rerun-if-changed={memory}");
     Ok(())

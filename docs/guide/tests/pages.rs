@@ -115,7 +115,7 @@ fn dependencies(manifest: &str) -> Vec<[String; 3]> {
 fn the_page_has_the_dependencies_of_the_templates() {
     let templates = [
         (
-            "RTIC, STM32F4",
+            "RTIC, STM32F4 or STM32G4",
             include_str!("../../../tools/robot-import/template/board/rtic/Cargo.toml.liquid"),
         ),
         (
@@ -123,15 +123,18 @@ fn the_page_has_the_dependencies_of_the_templates() {
             include_str!("../../../tools/robot-import/template/board/pico2/Cargo.toml.liquid"),
         ),
     ];
+    let hals = concat!(
+        include_str!("../../../tools/robot-import/template/board/stm32f4/hal.toml"),
+        include_str!("../../../tools/robot-import/template/board/stm32g4/hal.toml"),
+    );
     let mut table = String::new();
     for (title, manifest) in templates {
         table += &format!("\n| {title} | version | features |\n|---|---|---|\n");
-        for [name, version, features] in dependencies(manifest) {
-            let features = features.replace("`{{chip_feature}}`", "that of the chip");
+        for [name, version, features] in dependencies(&manifest.replace("{{hal}}\n", hals)) {
             table += &format!("| `{name}` | {version} | {features} |\n");
         }
     }
-    assert!(table.contains("| `embassy-rp` | 0.") && table.contains("that of the chip"), "{table}");
+    assert!(table.contains("| `embassy-rp` | 0.") && table.contains("`stm32g474`"), "{table}");
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src/porting.md");
     let page = std::fs::read_to_string(&path).expect("the page");
     let line = "do not edit -->\n";

@@ -8,7 +8,7 @@ use std::path::Path;
 use cycle_meter::{Class, Insn, Relative};
 
 use crate::kit::elf::{Function, Image, is_f64, is_panic};
-use crate::kit::error::{Result, bail, check};
+use crate::kit::error::{Result, bail, check, refuse_if};
 
 /// The most instructions between the one that forms a table's address and the jump into it.
 const TABLE_START_BEFORE: usize = 8;
@@ -106,11 +106,31 @@ impl Function {
         instructions
     }
 
+    /// Where a veneer of the linker leads, which reaches what is too far for a branch: `movw ip, …;
+    /// movt ip, …; bx ip` (ARMv7-M manual, A7.7.76 and A7.7.79).
+    pub fn veneer(&self) -> Option<u64> {
+        let (halves, rest) = self.bytes.as_chunks();
+        let halves: Vec<u64> = halves.iter().map(|half| u16::from_le_bytes(*half).into()).collect();
+        let &[low, low_imm, high, high_imm, 0x4760] = halves.as_slice() else {
+            return None;
+        };
+        let imm16 = |first: u64, second: u64| {
+            (first & 15) << 12 | (first >> 10 & 1) << 11 | (second >> 12 & 7) << 8 | second & 0xFF
+        };
+        let into_ip = [low_imm, high_imm].iter().all(|second| second & 0x8F00 == 0x0C00);
+        let is_veneer = low & 0xFBF0 == 0xF240 && high & 0xFBF0 == 0xF2C0 && into_ip;
+        let target = imm16(high, high_imm) << 16 | imm16(low, low_imm) & !1;
+        (is_veneer && rest.is_empty()).then_some(target)
+    }
+
     /// The place of a jump or call through a register whose target is not known.
     ///
     /// A jump into a table of branches is known: LLVM writes the table behind the jump, where its
     /// entries are instructions of the function like any other.
     pub fn unknown_jump(&self) -> Option<u64> {
+        if self.veneer().is_some() {
+            return None;
+        }
         let all = self.instructions();
         let place = all.iter().enumerate().position(|(i, one)| {
             let before = &all[i.saturating_sub(TABLE_START_BEFORE)..i];
@@ -164,10 +184,8 @@ impl<'a> Reach<'a> {
                 let path = reach.path(index);
                 bail!("{path} calls through a register at {at:#x}: what it reaches is not known");
             }
-            for one in function.instructions() {
-                let Some(target) = one.target().filter(|to| !function.contains(*to)) else {
-                    continue;
-                };
+            let jumps = function.instructions().into_iter().filter_map(Instruction::target);
+            for target in jumps.chain(function.veneer()).filter(|to| !function.contains(*to)) {
                 let callee = image.functions.iter().position(|f| f.contains(target));
                 let callee = callee.ok_or_else(|| {
                     let jumps = format!("{} jumps to {target:#x}", reach.path(index));
@@ -216,9 +234,18 @@ pub fn f32_only(elf: &Path, is_tick: fn(&str) -> bool) -> Result<usize> {
     Ok(count)
 }
 
+/// Fails unless a function and all that it reaches lie in memory that never waits.
+pub fn placed(image: &Image, root: &str) -> Result<()> {
+    let reach = Reach::of(image, |function| function.is_named(|name| name == root))?;
+    for (function, path) in reach.functions() {
+        refuse_if!(!image.fast.contains(&function.address), "{path} waits for flash");
+    }
+    Ok(())
+}
+
 #[cfg(test)]
 mod tests {
-    use super::Reach;
+    use super::{Reach, placed};
     use crate::kit::elf::{Function, Image};
 
     #[test]
@@ -246,6 +273,25 @@ mod tests {
         let error = error.expect("refused").to_string();
         assert!(error.contains("tick → callee calls through a register at 0x1012"), "{error}");
         assert!(Reach::of(&jumps, |_| false).is_err());
+    }
+
+    #[test]
+    fn a_function_that_is_left_in_flash_is_named_with_its_path() {
+        let caller = Function::of("tick", 0x1000, &[0xf000, 0xf806, 0x4770]); // bl 0x1010; bx lr
+        let mut image = Image::of(vec![caller, Function::of("callee", 0x1010, &[0x4770])]);
+        for (end, path) in [(0x1010, "tick → callee waits"), (0x1000, "tick waits")] {
+            image.fast = 0x1000..end;
+            let error = placed(&image, "tick").expect_err(path).to_string();
+            assert!(error.contains(path), "{error}");
+        }
+        image.fast = 0x1000..0x1012;
+        placed(&image, "tick").expect("both are placed");
+        // movw ip, #0x2001; movt ip, #0x0800; bx ip
+        let veneer = [0xf242, 0x0c01, 0xf6c0, 0x0c00, 0x4760];
+        image.functions[1] = Function::of("veneer", 0x1010, &veneer);
+        image.functions.push(Function::of("far", 0x0800_2000, &[0x4770]));
+        let error = placed(&image, "tick").expect_err("a veneer into flash").to_string();
+        assert!(error.contains("tick → veneer → far waits"), "{error}");
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! The contents of an ELF: sizes, functions, and the places of Thumb code.
 
 use std::collections::BTreeSet;
+use std::ops::Range;
 use std::path::Path;
 
 use object::{Architecture, Object, ObjectSection, ObjectSymbol, SectionKind, SymbolKind};
@@ -40,6 +41,8 @@ pub struct Image {
     pub functions: Vec<Function>,
     /// Every aligned word of its code and constants.
     pub words: BTreeSet<u32>,
+    /// The addresses of the code that start-up copies into memory that never waits.
+    pub fast: Range<u64>,
 }
 
 #[cfg(test)]
@@ -65,6 +68,7 @@ impl Image {
             sizes: Sizes { flash: 0, ram: 0 },
             functions,
             words: BTreeSet::new(),
+            fast: 0..0,
         }
     }
 }
@@ -79,6 +83,9 @@ impl Image {
             sizes: sizes(&file),
             functions: functions(&file),
             words: words(&file),
+            fast: file
+                .section_by_name(".fast_text")
+                .map_or(0..0, |section| section.address()..section.address() + section.size()),
         })
     }
 }

@@ -5,6 +5,7 @@ mod boards;
 mod frame;
 mod list;
 mod page;
+mod placed;
 mod run;
 mod walk;
 
@@ -24,6 +25,7 @@ use crate::studies::study::Bench;
 use boards::Board;
 pub use list::{CORES, Core, without_home};
 use page::{PAGE, rows_of};
+use placed::Placed;
 use run::{Row, Torques};
 
 #[derive(Clone, Copy, clap::Args)]
@@ -42,6 +44,7 @@ struct Report {
     torques: Vec<Torques>,
     rows: Vec<Row>,
     boards: Vec<Board>,
+    placed: Placed,
     rustc: String,
 }
 
@@ -151,6 +154,7 @@ impl Report {
             torques,
             rows,
             boards: boards::measure(workspace, &bars)?,
+            placed: Placed::measure(workspace, &bars)?,
             rustc: Toolchain::Native.rustc_version()?,
         })
     }

@@ -37,18 +37,18 @@ pub struct Board {
     pub target: &'static str,
     /// The chip, for probe-rs.
     chip: &'static str,
-    /// The chip, for its HAL.
-    chip_feature: &'static str,
+    /// The chip's HAL, as a dependency, if the framework's manifest has none.
+    hal: &'static str,
     /// The rate of the encoders' bus.
     spi_rate: &'static str,
     /// The connections of the board, in Markdown.
     pub(super) pins: &'static str,
     /// The files beside those of all boards.
-    files: [&'static [File]; 2],
+    files: [&'static [File]; 3],
 }
 
 /// The boards.
-pub static BOARDS: [Board; 2] = [
+pub static BOARDS: [Board; 3] = [
     Board {
         name: "nucleo-f446re",
         title: "Nucleo-F446RE",
@@ -56,10 +56,30 @@ pub static BOARDS: [Board; 2] = [
         most_joints: 6,
         target: "thumbv7em-none-eabihf",
         chip: "STM32F446RETx",
-        chip_feature: "stm32f446",
+        hal: include_str!("../../template/board/stm32f4/hal.toml"),
         spi_rate: ", 10 MHz",
         pins: include_str!("../../template/board/nucleo-f446re/pins.md"),
-        files: [RTIC, files!["board/nucleo-f446re": "memory.x", "src/pins.rs"]],
+        files: [
+            RTIC,
+            files!["board/stm32f4": "src/chip.rs"],
+            files!["board/nucleo-f446re": "memory.x", "src/pins.rs"],
+        ],
+    },
+    Board {
+        name: "nucleo-g474re",
+        title: "Nucleo-G474RE",
+        framework: Framework::Rtic,
+        most_joints: 6,
+        target: "thumbv7em-none-eabihf",
+        chip: "STM32G474RETx",
+        hal: include_str!("../../template/board/stm32g4/hal.toml"),
+        spi_rate: ", 5.3 MHz",
+        pins: include_str!("../../template/board/nucleo-g474re/pins.md"),
+        files: [
+            RTIC,
+            files!["board/stm32g4": "src/chip.rs", "src/fast.rs"],
+            files!["board/nucleo-g474re": "memory.x", "src/pins.rs"],
+        ],
     },
     Board {
         name: "pico2",
@@ -68,7 +88,7 @@ pub static BOARDS: [Board; 2] = [
         most_joints: 6,
         target: "thumbv8m.main-none-eabihf",
         chip: "RP235x",
-        chip_feature: "rp235xa",
+        hal: "",
         spi_rate: ", 9.4 MHz",
         pins: include_str!("../../template/board/pico2/pins.md"),
         files: [
@@ -82,6 +102,7 @@ pub static BOARDS: [Board; 2] = [
                 "src/devices.rs",
                 "src/periods.rs",
             ],
+            &[],
             &[],
         ],
     },
@@ -104,7 +125,7 @@ impl Board {
             ("framework_name", self.framework.to_string()),
             ("target", self.target.to_owned()),
             ("chip", self.chip.to_owned()),
-            ("chip_feature", self.chip_feature.to_owned()),
+            ("hal", self.hal.trim_end().to_owned()),
             ("spi_rate", self.spi_rate.to_owned()),
         ]
     }

@@ -39,7 +39,8 @@ const PICO_2: &str = "thumbv8m.main-none-eabihf";
 pub fn guide(context: &Context) -> Result<()> {
     let check = |words: &str| format!("clippy --manifest-path {BOARDS} {words} -- -D warnings");
     context.cargo(&[check(
-        "--package guide-firmware --package nucleo-f446re --target thumbv7em-none-eabihf",
+        "--package guide-firmware --package nucleo-f446re --package nucleo-g474re --target \
+         thumbv7em-none-eabihf",
     )])?;
     if !toolchain::native_has(PICO_2) {
         setup::for_cores(context.options, &[PICO_2], &[])

@@ -5,6 +5,7 @@ use serde::Serialize;
 use super::list::without_home;
 use super::walk;
 use crate::kit::bars::{self, Bars, IMAGE};
+use crate::kit::callgraph::placed;
 use crate::kit::elf::Image;
 use crate::kit::error::{Result, check};
 use crate::kit::shell;
@@ -23,13 +24,16 @@ struct Bin {
     /// Whether an executor calls the tick through a pointer, and start-up too: their stack has then
     /// no bound that the code says.
     is_polled: bool,
+    /// Whether the tick has to lie in memory that never waits.
+    is_placed: bool,
 }
 
 #[rustfmt::skip]
-const BINS: [Bin; 3] = [
-    Bin { package: "nucleo-f446re", name: "control", profile: SMALL, target: toolchain::TARGET, tick: Some("TIM2"), is_polled: false },
-    Bin { package: "nucleo-f446re", name: "replay", profile: RELEASE, target: toolchain::TARGET, tick: None, is_polled: false },
-    Bin { package: "pico2-embassy", name: "control", profile: SMALL, target: "thumbv8m.main-none-eabihf", tick: Some("8firmware4tick17h"), is_polled: true },
+const BINS: [Bin; 4] = [
+    Bin { package: "nucleo-f446re", name: "control", profile: SMALL, target: toolchain::TARGET, tick: Some("TIM2"), is_polled: false, is_placed: false },
+    Bin { package: "nucleo-f446re", name: "replay", profile: RELEASE, target: toolchain::TARGET, tick: None, is_polled: false, is_placed: false },
+    Bin { package: "nucleo-g474re", name: "control", profile: RELEASE, target: toolchain::TARGET, tick: Some("TIM2"), is_polled: false, is_placed: true },
+    Bin { package: "pico2-embassy", name: "control", profile: SMALL, target: "thumbv8m.main-none-eabihf", tick: Some("8firmware4tick17h"), is_polled: true, is_placed: false },
 ];
 
 /// The stack that the hardware takes for an interrupt: a frame with the FPU's registers, aligned.
@@ -44,6 +48,8 @@ pub struct Board {
     target: &'static str,
     /// Code, constants and initial values.
     flash: u64,
+    /// The code of it that is copied into memory that never waits.
+    fast: u64,
     /// Variables, without the stack.
     ram: u64,
     /// The bound of the stack of start-up, if it has one.
@@ -120,12 +126,16 @@ fn read(workspace: &Workspace, bin: &Bin) -> Result<Board> {
         let start = walk::stack_of_start(&image, address("main")?)?;
         (Some(start), tick.map(|stack| stack + INTERRUPT))
     };
+    if let Some(tick) = bin.tick.filter(|_| bin.is_placed) {
+        placed(&image, tick)?;
+    }
     Ok(Board {
         package: bin.package,
         bin: bin.name,
         profile: bin.profile,
         target: bin.target,
         flash: image.sizes.flash,
+        fast: image.fast.end - image.fast.start,
         ram: image.sizes.ram,
         start,
         tick,
@@ -143,13 +153,17 @@ fn within_bars(board: &Board, bars: &Bars) -> Result<()> {
 
 pub fn markdown(boards: &[Board]) -> String {
     let bound = |bytes: Option<u64>| bytes.map_or("–".into(), thousands);
-    let columns: [Column<'_, Board>; 9] = [
+    let columns: [Column<'_, Board>; 10] = [
         ("board", &|board| format!("`{}`", board.package)),
         ("bin", &|board| format!("`{}`", board.bin)),
         ("target", &|board| format!("`{}`", board.target)),
         ("profile", &|board| format!("`{}`", board.profile)),
         // Its last digits depend on the folder of the sources, whose path orders the functions.
         ("flash, kB", &|board| ((board.flash + 500) / 1000).to_string()),
+        ("of it in CCM, B", &|board| match board.fast {
+            0 => "–".into(),
+            bytes => thousands(bytes),
+        }),
         ("variables, B", &|board| thousands(board.ram)),
         ("stack of start-up, bound", &|board| bound(board.start)),
         ("of a tick in its interrupt, bound", &|board| bound(board.tick)),
@@ -170,6 +184,7 @@ mod tests {
             bin: "control",
             profile: "small",
             flash,
+            fast: 0,
             target: "target",
             ram: 1000,
             start,

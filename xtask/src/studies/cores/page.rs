@@ -50,6 +50,7 @@ impl Report {
         text += &format!("\n{}", Table::of(&both, &columns).markdown());
         text += "\nThe images of real boards, without a simulation:\n\n";
         text += &boards::markdown(&self.boards);
+        text += &self.placed.text();
         text += &format!("\nMeasured with {}.\n", self.rustc);
         Ok(text)
     }

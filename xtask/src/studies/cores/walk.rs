@@ -74,7 +74,7 @@ fn flow(function: &Function) -> Result<(u64, Vec<u64>)> {
     if let Some(at) = function.unknown_jump() {
         bail!("it calls through a register at {at:#x}");
     }
-    let (mut frame, mut targets) = (0, Vec::new());
+    let (mut frame, mut targets) = (0, Vec::from_iter(function.veneer()));
     for one in function.instructions() {
         frame += frame::thumb(one.code)
             .ok_or_else(|| check!("its frame at {:#x} is of an unknown size", one.address))?;

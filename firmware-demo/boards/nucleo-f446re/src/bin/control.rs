@@ -8,6 +8,11 @@ mod board;
 #[cfg(target_arch = "arm")]
 // Formatted as users' files are.
 #[rustfmt::skip]
+#[path = "../../../../../tools/robot-import/template/board/stm32f4/src/chip.rs"]
+mod chip;
+#[cfg(target_arch = "arm")]
+// Formatted as users' files are.
+#[rustfmt::skip]
 #[path = "../../../../../tools/robot-import/template/board/rtic/src/devices.rs"]
 mod devices;
 #[cfg(target_arch = "arm")]

@@ -12,7 +12,8 @@ use stm32f4xx_hal::rcc::{Config, Rcc};
 use stm32f4xx_hal::spi::Spi;
 
 use crate::board::Devices;
-use crate::devices::{Channel, Encoder, drives, encoders};
+use crate::chip::{Channel, drives};
+use crate::devices::{Encoder, encoders};
 
 /// The bus of the encoders.
 pub type Bus = Spi<SPI1>;

@@ -4,28 +4,16 @@
 //! motion. A tick that does not end within its period feeds no watchdog; 20 of them restart the
 //! processor, which sets the brake.
 
-#[rtic::app(device = stm32f4xx_hal::pac, peripherals = true)]
+#[rtic::app(device = crate::chip::pac, peripherals = true)]
 mod app {
     use embedded_hal_bus::util::AtomicCell;
-    use motion_control::{CompletedTick, Gains, Mode, Watchdog};
-    use stm32f4xx_hal::pac::TIM2;
-    use stm32f4xx_hal::prelude::*;
-    use stm32f4xx_hal::timer::{CounterHz, Event, Flag};
-    use stm32f4xx_hal::watchdog::IndependentWatchdog;
+    use motion_control::{Gains, Mode, Watchdog};
 
     use crate::board::{self, Devices, Law, Motion, N};
-    use crate::devices::{Channel, Encoder};
+    use crate::chip::{Channel, Period, Starved};
+    use crate::devices::Encoder;
     use crate::log::{Log, impossible};
     use crate::pins::{Brake, Bus, Button, Connected, Light, connect, is_pressed};
-
-    /// The watchdog of the board, which only a completed tick feeds.
-    pub struct Starved(IndependentWatchdog);
-
-    impl Watchdog for Starved {
-        fn feed(&mut self, _: CompletedTick) {
-            self.0.feed();
-        }
-    }
 
     #[shared]
     struct Shared {}
@@ -38,7 +26,7 @@ mod app {
         // In their places already: moved through the stack, they would take as much of it again.
         control: &'static mut Control,
         motion: &'static Motion,
-        timer: CounterHz<TIM2>,
+        period: Period,
         watchdog: Starved,
         button: Button,
         light: Light,
@@ -94,20 +82,16 @@ mod app {
                 cortex_m::asm::wfi();
             }
         };
-        let mut timer = timer.counter_hz(&mut rcc);
-        let Ok(()) = timer.start(1.kHz()) else {
+        let Some(period) = Period::start(timer, &mut rcc) else {
             loop {
                 cortex_m::asm::wfi();
             }
         };
-        timer.listen(Event::Update);
-        let mut watchdog = IndependentWatchdog::new(watchdog);
-        watchdog.start(20.millis());
         let local = Local {
             control,
             motion,
-            timer,
-            watchdog: Starved(watchdog),
+            period,
+            watchdog: Starved::start(watchdog),
             button,
             light,
             log: Log::new(),
@@ -117,17 +101,17 @@ mod app {
 
     #[task(
         binds = TIM2,
-        local = [control, motion, timer, watchdog, button, light, log, count: u32 = 0],
+        local = [control, motion, period, watchdog, button, light, log, count: u32 = 0],
         priority = 2
     )]
     fn tick(cx: tick::Context) {
         let local = cx.local;
         let motion: &Motion = local.motion;
-        local.timer.clear_flags(Flag::Update);
+        local.period.begin();
         *local.count = local.count.wrapping_add(1);
         let now = *local.count;
         // A period that has ended since then is pending.
-        let count = || now.wrapping_add(u32::from(local.timer.flags().contains(Flag::Update)));
+        let count = || now.wrapping_add(u32::from(local.period.has_ended()));
         let (telemetry, completed) = local.control.tick_at::<Law, _, ()>(motion, &(), count);
         if let Some(completed) = completed {
             local.watchdog.feed(completed);

@@ -1,0 +1,10 @@
+//! Runs the scene [`ur5e`](firmware_demo::scenes::ur5e) with its tick placed as a project for a
+//! Nucleo-G474RE places it: in memory that never waits.
+#![no_std]
+#![no_main]
+
+#[rustfmt::skip]
+#[path = "../../../tools/robot-import/template/board/stm32g4/src/fast.rs"]
+mod fast;
+
+firmware_demo::scene_main!(ur5e::PickAndPlace, 6, 6, 6, 6);

@@ -11,20 +11,20 @@ use firmware_demo::digest::Digest;
 #[cfg(target_os = "none")]
 use semihosting::println;
 
-use crate::counters;
+use crate::counters::{self, Count};
 
 /// The states on which each function is counted, and those whose torques are printed.
 const COUNTED: usize = 4;
 const STATES: usize = 16;
 
-struct Ask<const N: usize> {
-    state: State<f32, N, N>,
-    trig: JointTrig<f32, N>,
+pub struct Ask<const N: usize> {
+    pub state: State<f32, N, N>,
+    pub trig: JointTrig<f32, N>,
 }
 
 /// Some states within ranges of a power of two, from a fixed seed: these numbers are exact, and
 /// fused arithmetic does not change them.
-fn asks<T: Robot<B, N, N>, const B: usize, const N: usize>() -> [Ask<N>; STATES] {
+pub fn asks<T: Robot<B, N, N>, const B: usize, const N: usize>() -> [Ask<N>; STATES] {
     let mut seed = 1_u32;
     let mut number = |bound: f32| {
         seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
@@ -43,21 +43,28 @@ fn asks<T: Robot<B, N, N>, const B: usize, const N: usize>() -> [Ask<N>; STATES]
 
 /// Prints a function's row; the function is called through its address, as a user's would be that
 /// is not inlined.
-fn row<A, O>(
+fn row<A, O>(name: [&str; 4], asks: &[A], run: fn(&A) -> O, bits: impl Fn(&O, &mut Digest)) {
+    counted(name, asks, |ask, digest| {
+        let begin = counters::read();
+        // The function writes it here: a copy would be counted.
+        let result = black_box(run)(black_box(ask));
+        let count = counters::between(begin, counters::read());
+        bits(&result, digest);
+        count
+    });
+}
+
+/// Prints the row of what counts a call and adds its result to the digest.
+pub fn counted<A>(
     [robot, algorithm, form, sines]: [&str; 4],
     asks: &[A],
-    run: fn(&A) -> O,
-    bits: impl Fn(&O, &mut Digest),
+    mut call: impl FnMut(&A, &mut Digest) -> Count,
 ) {
     let (mut digest, mut cycles, mut instructions) = (Digest::EMPTY, 0, 0);
     // Before the first call the core has not read the robot's constants; here that costs nothing,
     // since no memory has a cache.
     for ask in &asks[..COUNTED] {
-        let begin = counters::read();
-        // The function writes it here: a copy would be counted.
-        let result = black_box(run)(black_box(ask));
-        let count = counters::between(begin, counters::read());
-        bits(&result, &mut digest);
+        let count = call(ask, &mut digest);
         (cycles, instructions) = (count.cycles.max(cycles), count.instructions.max(instructions));
     }
     println!("row {robot} {algorithm} {form} {sines} {cycles} {instructions} {:016x}", digest.0);

@@ -11,7 +11,7 @@ mod subject;
 use std::error::Error;
 use std::path::PathBuf;
 
-use dynamics_core::robots::{A1, A1Free, G1, G1Free, Iiwa14, Panda, Ur5e};
+use dynamics_core::robots::{A1, A1Free, G1, G1Free, Iiwa14, Panda, Ur5e, XArm7};
 use firmware_demo::robots::{AnkleLeg, FourBarLeg, StewartPlatform};
 use loop_tests::clusters::DeltaRobot;
 use loop_tests::machines::{Delta, Stewart};
@@ -46,7 +46,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             robot::run::<$robot, $n, $n, $n, $n>(&manifest, ARM, known)?;
         )*};
     }
-    arms! { Ur5e 6 5; Panda 7 6; Iiwa14 7 6; }
+    arms! { Ur5e 6 5; Panda 7 6; Iiwa14 7 6; XArm7 7 6; }
     let known =
         (ours::inverse::<A1, _, 16, 12, 12> as _, Some(ours::inverse::<A1, _, 16, 12, 12> as _));
     robot::run::<A1, 16, 12, 12, 12>(&manifest, &ARM[..5], known)?;

@@ -16,8 +16,18 @@ use crate::studies::scenes::report::Report;
 const OTHER_RUSTC_FLASH: f64 = 0.06;
 
 /// The figures that bars are set for.
-const BARRED: [&str; 7] =
-    ["instructions", "cycles", "code_bytes", "stack_bytes", "flash_bytes", "ram_bytes", "ns"];
+const BARRED: [&str; 10] = [
+    "instructions",
+    "cycles",
+    "code_bytes",
+    "stack_bytes",
+    "flash_bytes",
+    "ram_bytes",
+    "ns",
+    "stages_0",
+    "stages_1",
+    "stages_2",
+];
 
 const FILE: &str = "budgets.toml";
 

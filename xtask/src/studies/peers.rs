@@ -2,8 +2,10 @@
 
 mod bars;
 mod build;
+mod gates;
 mod host;
 mod report;
+mod robot_dynamics;
 mod robots;
 mod target;
 #[cfg(test)]
@@ -63,16 +65,18 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
     let (others, pinocchio) = thread::scope(|scope| {
         let pinocchio = scope.spawn(|| host::pinocchio(&shop));
         let others = || {
-            let bench = host::bench(&workspace)?;
+            let benches = host::benches(&workspace)?;
             shop.generate(&robots)?;
             let on_target = target::measure(&workspace, &shop, &tools, &robots)?;
-            Ok((on_target, host::casadi(&shop, &robots)?, bench))
+            let on_gates = gates::measure(&workspace, &shop, options, &robots)?;
+            Ok((on_target, on_gates, host::casadi(&shop, &robots)?, benches))
         };
         (others(), pinocchio.join())
     });
-    let ((mut rows, builds), casadi, bench) = others?;
+    let ((mut rows, builds), on_gates, casadi, benches) = others?;
     pinocchio.map_err(|_| check!("a build of Pinocchio panicked"))??;
-    rows.extend(host::measure(&shop, &robots, casadi, &bench)?);
+    rows.extend(on_gates);
+    rows.extend(host::measure(&shop, &robots, casadi, &benches)?);
     let versions = versions(&tools, &peers)?;
     let ratios = budgets::bars(&workspace)?;
     let compared = bars::compared(&ratios, &rows);

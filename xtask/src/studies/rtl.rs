@@ -2,10 +2,11 @@
 //! source. The results must have the same bits there, in QEMU and on the host.
 
 mod page;
-mod row;
+pub mod row;
 pub mod simulator;
 
 use std::path::PathBuf;
+use std::process::Command;
 use std::thread;
 use std::time::Duration;
 
@@ -127,7 +128,18 @@ fn on_host(workspace: &Workspace) -> Result<Said> {
 
 impl Build {
     /// The image.
-    fn image(self, workspace: &Workspace, core: &Core) -> Result<PathBuf> {
+    pub fn image(self, workspace: &Workspace, core: &Core) -> Result<PathBuf> {
+        let (mut command, folder) = self.cargo("build", workspace, core);
+        command.args(["--bin", PACKAGE]);
+        if self == Self::Default {
+            command.args(["--features", "engine-alone"]);
+        }
+        shell::capture(&mut command)?;
+        Ok(folder.join(PACKAGE))
+    }
+
+    /// A command of cargo for the package, and the folder of its images.
+    pub fn cargo(self, verb: &str, workspace: &Workspace, core: &Core) -> (Command, PathBuf) {
         let mut flags: Vec<String> = core.flags.iter().map(ToString::to_string).collect();
         flags.push(AT_WORDS.to_owned());
         if self != Self::Default {
@@ -140,16 +152,12 @@ impl Build {
         }
         flags.extend(without_home());
         let target = workspace.target.join(format!("gates/{self:?}").to_lowercase());
-        let mut command = workspace.cargo("build");
+        let mut command = workspace.cargo(verb);
         command
             .args(["--quiet", "--profile", RELEASE, "--package", PACKAGE, "--target", core.target])
             .arg("--target-dir")
             .arg(&target)
             .env("CARGO_ENCODED_RUSTFLAGS", flags.join("\u{1f}"));
-        if self == Self::Default {
-            command.args(["--features", "engine-alone"]);
-        }
-        shell::capture(&mut command)?;
-        Ok(target.join(core.target).join(RELEASE).join(PACKAGE))
+        (command, target.join(core.target).join(RELEASE))
     }
 }

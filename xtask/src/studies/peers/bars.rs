@@ -2,13 +2,21 @@
 
 use crate::kit::bars::{Bars, Compared};
 use crate::studies::peers::PRECISIONS;
-use crate::studies::peers::report::{HOST, M4F, OURS, Row};
+use crate::studies::peers::gates::INSIDE;
+use crate::studies::peers::report::{GATES, HOST, M4F, OURS, Row};
 
 /// CasADi's C by gcc on the target: the one with fewer cycles is the peer.
 const BUILDS: [&str; 2] = ["casadi gcc", "casadi gcc -ffp-contract=off"];
 
 /// Others, on the host, by how their names begin.
 const OTHERS: [&str; 2] = ["casadi", "pinocchio"];
+
+/// Ours and others on the gates, each with fused arithmetic, and the ends of their names.
+const ON_GATES: [([&str; 2], &str); 3] = [
+    (["engine", "casadi"], ""),
+    (["engine", "RobotDynamics"], INSIDE),
+    (["core", "RobotDynamics"], INSIDE),
+];
 
 /// The bars of `budgets.toml` that this run has the figures for.
 pub fn compared(ratios: &Bars, rows: &[Row]) -> Vec<Compared> {
@@ -30,6 +38,24 @@ pub fn compared(ratios: &Bars, rows: &[Row]) -> Vec<Compared> {
             all.extend(
                 pair.and_then(|(a, b)| Compared::of(ratios, &key, figure, a as f64 / b as f64)),
             );
+        }
+    }
+    for (robot, algorithm) in pairs(rows, GATES[0]) {
+        for ([ours, theirs], inside) in ON_GATES {
+            let key = format!("{robot} {algorithm}, gates, {ours} / {theirs}");
+            for (stages, target) in GATES.iter().enumerate() {
+                let cycles = |peer: &str, arithmetic| {
+                    let peer = format!("{peer}{arithmetic}{inside}");
+                    let is_its = |row: &&Row| {
+                        is_of(row, target, robot, algorithm, "f32") && row.peer == peer
+                    };
+                    rows.iter().find(is_its).and_then(|row| row.cycles)
+                };
+                let theirs = cycles(theirs, " fused").or(cycles(theirs, ""));
+                let ratio = cycles(ours, " fused").zip(theirs).map(|(a, b)| a as f64 / b as f64);
+                let figure = format!("stages_{stages}");
+                all.extend(ratio.and_then(|ratio| Compared::of(ratios, &key, &figure, ratio)));
+            }
         }
     }
     for (robot, algorithm) in pairs(rows, HOST) {
@@ -70,7 +96,7 @@ fn is_of(row: &Row, target: &str, robot: &str, algorithm: &str, precision: &str)
 
 #[cfg(test)]
 mod tests {
-    use super::{HOST, M4F, Row, compared};
+    use super::{GATES, HOST, M4F, Row, compared};
     use crate::kit::bars::{Bar, Bars};
 
     #[test]
@@ -83,7 +109,7 @@ mod tests {
             precision: "f32".into(),
             cycles,
             code_bytes: cycles,
-            ratios: [engine, None],
+            ratios: [engine, None, Some(0.125)],
             ..Row::default()
         };
         let rows = [
@@ -91,6 +117,13 @@ mod tests {
             row(M4F, "casadi gcc -ffp-contract=off", Some(1000), None),
             row(M4F, "casadi clang", Some(10), None),
             row(M4F, "engine", Some(500), None),
+            row(GATES[0], "engine fused", Some(400), None),
+            row(GATES[0], "casadi fused", Some(1000), None),
+            row(GATES[0], "casadi separate", Some(10), None),
+            row(GATES[1], "engine fused", Some(451), None),
+            row(GATES[1], "casadi fused", Some(1000), None),
+            row(GATES[0], "core fused, sines inside", Some(700), None),
+            row(GATES[0], "RobotDynamics, sines inside", Some(1000), None),
             row(HOST, "casadi gcc", None, Some(0.4)),
             row(HOST, "casadi clang", None, Some(0.5)),
             row(HOST, "engine", None, Some(1.0)),
@@ -101,12 +134,18 @@ mod tests {
                 Bar::of([("cycles", 0.47), ("code_bytes", 0.47)]),
             ),
             ("ur5e rnea, host f32, engine / casadi".into(), Bar::of([("ns", 0.8)])),
+            ("ur5e rnea, host f32, engine fused / casadi".into(), Bar::of([("ns", 0.12)])),
+            (
+                "ur5e rnea, gates, engine / casadi".into(),
+                Bar::of([("stages_0", 0.4), ("stages_1", 0.45), ("stages_2", 0.5)]),
+            ),
+            ("ur5e rnea, gates, core / RobotDynamics".into(), Bar::of([("stages_0", 0.69)])),
         ]);
         let compared = compared(&ratios, &rows);
         let measured: Vec<f64> = compared.iter().map(|compared| compared.measured).collect();
-        assert_eq!(measured, [0.5, 0.5, 0.5]);
+        assert_eq!(measured, [0.5, 0.5, 0.4, 0.451, 0.7, 0.5, 0.125]);
         let unmet: Vec<bool> =
             compared.iter().map(|compared| compared.complaint().is_some()).collect();
-        assert_eq!(unmet, [true, true, false]);
+        assert_eq!(unmet, [true, true, false, true, true, false, true]);
     }
 }

@@ -26,7 +26,7 @@ pub fn words(line: &str) -> Vec<&str> {
 
 /// `--version` of the compilers, first lines.
 pub fn compilers() -> Vec<String> {
-    ["gcc", "clang", "arm-none-eabi-gcc"]
+    ["gcc", "clang", "arm-none-eabi-gcc", "riscv64-unknown-elf-gcc"]
         .iter()
         .filter_map(|program| shell::capture(Command::new(program).arg("--version")).ok())
         .filter_map(|text| text.lines().next().map(str::to_owned))

@@ -49,7 +49,7 @@ pub fn measure(
     shop: &Workshop<'_>,
     robots: &[Robot],
     mut foreign: Vec<Value>,
-    bench: &Path,
+    benches: &[PathBuf; 2],
 ) -> Result<Vec<Row>> {
     foreign.extend(trees(shop, robots)?);
     let loops = CPP_COMPILERS.map(|compiler| {
@@ -61,12 +61,15 @@ pub fn measure(
     let path = shop.built.join("manifest.json");
     workspace::write(&path, manifest.to_string())?;
     let spinner = Spinner::start("timing on the host");
-    let mut rows: Vec<Row> = Vec::new();
+    let mut rows = [Vec::new(), Vec::new()];
     for number in 1..=RUNS {
         spinner.say(format!("timing on the host: run {number} of {RUNS}"));
-        rows.extend(run(bench, &path)?);
+        for (bench, rows) in benches.iter().zip(&mut rows) {
+            rows.extend(run(bench, &path)?);
+        }
     }
-    Ok(report::of_runs(rows))
+    let [rows, fused] = rows.map(report::of_runs);
+    Ok(report::with_fused(rows, fused))
 }
 
 /// Pinocchio's functions of the robots without loops.
@@ -141,11 +144,22 @@ fn foreign(
     })
 }
 
-/// Our side, for this very processor like the others: in a directory of its own, since other flags
-/// rebuild everything.
-pub fn bench(workspace: &Workspace) -> Result<PathBuf> {
-    let _spinner = Spinner::start("compiling our side for this processor");
-    let target = workspace.target.join("peers/native");
+/// The flags of our side, and the same with fused arithmetic, which that of gcc is on this machine;
+/// each with the name of a directory of its own, since other flags rebuild everything.
+const NATIVE: [[&str; 2]; 2] = [
+    ["native", "-Ctarget-cpu=native"],
+    ["fused", "-Ctarget-cpu=native -Ctarget-feature=+fma -Cllvm-args=-fp-contract=fast"],
+];
+
+/// Our side, for this very processor like the others.
+pub fn benches(workspace: &Workspace) -> Result<[PathBuf; 2]> {
+    let [plain, fused] = NATIVE.map(|of| bench(workspace, of));
+    Ok([plain?, fused?])
+}
+
+fn bench(workspace: &Workspace, [name, flags]: [&str; 2]) -> Result<PathBuf> {
+    let _spinner = Spinner::start(&format!("compiling our side for this processor: {name}"));
+    let target = workspace.target.join("peers").join(name);
     let mut command = workspace.cargo("build");
     command
         .args([
@@ -159,7 +173,7 @@ pub fn bench(workspace: &Workspace) -> Result<PathBuf> {
             "--target-dir",
         ])
         .arg(&target)
-        .env("RUSTFLAGS", "-Ctarget-cpu=native")
+        .env("RUSTFLAGS", flags)
         // It would take precedence.
         .env_remove("CARGO_ENCODED_RUSTFLAGS");
     shell::capture(&mut command)?;

@@ -6,15 +6,19 @@ use crate::kit::bars::{self, Compared};
 use crate::kit::meter::MODEL;
 use crate::kit::table::{Table, thousands};
 use crate::studies::peers::ALGORITHMS;
+use crate::studies::peers::gates::{self, INSIDE, WAYS};
+use crate::studies::peers::robot_dynamics;
 
 /// The processor that runs xtask.
 pub const HOST: &str = "host";
 pub const M4F: &str = "cortex-m4f";
+/// A RISC-V core with an FPU of 0, 1 and 2 stages.
+pub const GATES: [&str; 3] = ["cv32e40p, 0 stages", "cv32e40p, 1 stage", "cv32e40p, 2 stages"];
 
 /// A measurement. Its fields, but for those that are skipped, are those of the JSON.
 #[derive(Debug, Default, Deserialize, Serialize)]
 pub struct Row {
-    /// [`HOST`] or [`M4F`].
+    /// [`HOST`], [`M4F`] or one of [`GATES`].
     #[serde(skip_deserializing)]
     pub target: &'static str,
     pub robot: String,
@@ -32,10 +36,14 @@ pub struct Row {
     pub runs: Vec<f64>,
     /// The median over the runs of the time of each of [`OURS`] divided by this one's.
     #[serde(skip_deserializing)]
-    pub ratios: [Option<f64>; 2],
-    /// Modelled cycles on the target, with sines and cosines computed before.
+    pub ratios: [Option<f64>; 3],
+    /// Modelled cycles on the target, counted ones on the gates, with sines and cosines computed
+    /// before.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cycles: Option<u64>,
+    /// How C was compiled for the gates: one of [`gates::WAYS`].
+    #[serde(skip_serializing_if = "String::is_empty", default)]
+    pub way: String,
     /// Instructions and literals of the function and what it calls; not known on the host.
     pub code_bytes: Option<u64>,
     /// Instructions executed, on the target.
@@ -44,7 +52,9 @@ pub struct Row {
 }
 
 /// Ours that others are compared with on the host.
-pub const OURS: [&str; 2] = ["engine", "core run-time model"];
+pub const OURS: [&str; 3] = ["engine", "core run-time model", FUSED];
+/// The engine in a program whose arithmetic is fused, as that of the others is.
+pub const FUSED: &str = "engine fused";
 
 fn median(mut numbers: Vec<f64>) -> Option<f64> {
     numbers.sort_by(f64::total_cmp);
@@ -78,6 +88,24 @@ pub fn of_runs(all: Vec<Row>) -> Vec<Row> {
     rows
 }
 
+/// The rows of a program with the engine of another one, whose arithmetic is fused: that one ran the
+/// others' functions, too, and its engine is compared with those times.
+pub fn with_fused(mut rows: Vec<Row>, fused: Vec<Row>) -> Vec<Row> {
+    for mut row in fused {
+        let Some(at) = rows.iter().position(|other| other.is_of(&row, &row.peer)) else {
+            continue;
+        };
+        let ratio = row.ratios[0];
+        if row.peer == OURS[0] {
+            (row.peer, row.ratios) = (FUSED.to_owned(), [None, None, ratio]);
+            rows.insert(at + 1, row);
+        } else if !row.peer.contains("core") {
+            rows[at].ratios[2] = ratio;
+        }
+    }
+    rows
+}
+
 impl Row {
     /// Whether it is of this code, and else of what `row` is.
     fn is_of(&self, row: &Row, peer: &str) -> bool {
@@ -100,6 +128,9 @@ pub struct Report {
     pub date: String,
 }
 
+const ON_GATES: &str = "Counted cycles, f32, sines and cosines computed outside unless said; ways to \
+    compile the C are named for each number of stages.";
+
 fn text(value: Option<f64>, digits: usize) -> String {
     value.map_or("–".into(), |x| format!("{x:.digits$}"))
 }
@@ -115,20 +146,24 @@ const ON_HOST: &str =
 
 impl Report {
     pub fn markdown(&self) -> String {
-        let section = |target: &str, what: &str, table: &dyn Fn(&str) -> Table| {
-            let tables = ALGORITHMS.map(|algorithm| {
+        let section = |target: &str, what: &str, table: &dyn Fn(&str) -> Table, all: &[&str]| {
+            let tables = all.iter().map(|algorithm| {
                 let table = table(algorithm).markdown();
                 format!("\n## {target}: {algorithm}\n\n{what}\n\n{table}")
             });
-            tables.concat()
+            tables.collect::<String>()
         };
+        let ways = WAYS.iter().map(|(way, flags)| format!("`{way}` {flags}"));
         let versions = self.versions.iter().map(|version| format!("- {version}\n"));
         format!(
             include_str!("page.md"),
             date = self.date,
             model = MODEL,
-            target = section("Cortex-M4F", ON_TARGET, &|algorithm| self.on_target(algorithm)),
-            host = section("Host", ON_HOST, &|algorithm| self.on_host(algorithm)),
+            target = section("Cortex-M4F", ON_TARGET, &|a| self.on_target(a), &ALGORITHMS),
+            gates = section("CV32E40P", ON_GATES, &|a| self.on_gates(a), &gates::ALGORITHMS),
+            ways = ways.collect::<Vec<_>>().join("; "),
+            robot_dynamics = robot_dynamics::table(&self.rows).markdown(),
+            host = section("Host", ON_HOST, &|a| self.on_host(a), &ALGORITHMS),
             builds = self.build_times().markdown(),
             inverse = self.in_a_row("loops inverse").markdown(),
             forward = self.in_a_row("loops forward").markdown(),
@@ -182,6 +217,45 @@ impl Report {
         )
     }
 
+    fn on_gates(&self, algorithm: &str) -> Table {
+        let row = |robot: &str, peer: &str, stages: usize| {
+            self.of(GATES[stages], algorithm).find(|row| (&*row.robot, &*row.peer) == (robot, peer))
+        };
+        let ratio = |line: &Row, stages| {
+            // The engine with the same arithmetic and sines.
+            let arithmetic = if line.peer.contains("separate") { "separate" } else { "fused" };
+            let inside = if line.peer.ends_with(INSIDE) { INSIDE } else { "" };
+            let engine =
+                row(&line.robot, &format!("engine {arithmetic}{inside}"), stages)?.cycles?;
+            let this = row(&line.robot, &line.peer, stages)?.cycles?;
+            Some(engine as f64 / this as f64)
+        };
+        let cycles = |line: &Row, stages| {
+            number(row(&line.robot, &line.peer, stages).and_then(|row| row.cycles))
+        };
+        let ways = |line: &Row| {
+            let ways =
+                [0, 1, 2].map(|k| row(&line.robot, &line.peer, k).map_or("", |row| &row.way));
+            ways.join(" ")
+        };
+        let mut lines: Vec<&Row> = self.of(GATES[0], algorithm).collect();
+        let place = |line: &&Row| gates::ROBOTS.iter().position(|robot| *robot == line.robot);
+        lines.sort_by_key(place);
+        Table::of(
+            lines,
+            &[
+                ("robot, code", &|line| format!("{}, {}", line.robot, line.peer)),
+                ("0 stages", &|line| cycles(line, 0)),
+                ("1 stage", &|line| cycles(line, 1)),
+                ("2 stages", &|line| cycles(line, 2)),
+                ("engine / this, 0", &|line| text(ratio(line, 0), 2)),
+                ("1", &|line| text(ratio(line, 1), 2)),
+                ("2", &|line| text(ratio(line, 2), 2)),
+                ("ways", &ways),
+            ],
+        )
+    }
+
     fn on_host(&self, algorithm: &str) -> Table {
         let mut lines: Vec<&Row> = Vec::new();
         for row in self.of(HOST, algorithm) {
@@ -210,6 +284,8 @@ impl Report {
                 ("f32", &|line| time(line, "f32")),
                 ("engine / this, f64", &|line| ratio(line, 0, "f64")),
                 ("f32", &|line| ratio(line, 0, "f32")),
+                ("engine fused / this, f64", &|line| ratio(line, 2, "f64")),
+                ("f32", &|line| ratio(line, 2, "f32")),
                 ("core run-time / this, f64", &|line| ratio(line, 1, "f64")),
                 ("f32", &|line| ratio(line, 1, "f32")),
             ],
@@ -223,7 +299,7 @@ impl Report {
 
 #[cfg(test)]
 mod tests {
-    use super::{Row, of_runs};
+    use super::{FUSED, Row, of_runs, with_fused};
 
     #[test]
     fn a_ratio_is_the_median_of_those_of_the_runs() {
@@ -234,7 +310,13 @@ mod tests {
         let rows = of_runs(all.into_iter().flatten().collect());
         let [engine, casadi] = &rows[..] else { panic!("two functions") };
         assert_eq!((engine.ns, casadi.ns), (Some(20.0), Some(100.0)));
-        assert_eq!(engine.ratios, [Some(1.0), None]);
-        assert_eq!(casadi.ratios, [Some(0.1), None]);
+        assert_eq!(engine.ratios, [Some(1.0), None, None]);
+        assert_eq!(casadi.ratios, [Some(0.1), None, None]);
+        // In the other program the engine takes half of that, and the disturbances are others.
+        let fused = of_runs(vec![row("engine", 7.0), row("casadi gcc", 140.0)]);
+        let rows = with_fused(rows, fused);
+        let found: Vec<_> = rows.iter().map(|row| (&*row.peer, row.ratios)).collect();
+        let fused = [None, None, Some(1.0)];
+        assert_eq!(found[1..], [(FUSED, fused), ("casadi gcc", [Some(0.1), None, Some(0.05)])]);
     }
 }

@@ -38,7 +38,7 @@ struct Placement {
 
 /// The library's robots that are compared: of revolute joints, as the peers' form is, and a free
 /// base.
-const COMPARED: [&str; 7] = ["ur5e", "panda", "iiwa14", "a1", "a1_free", "g1", "g1_free"];
+const COMPARED: [&str; 8] = ["ur5e", "panda", "iiwa14", "xarm7", "a1", "a1_free", "g1", "g1_free"];
 /// The comparison of a free base and of a robot with many joints.
 const DYNAMICS: [&str; 3] = ["rnea", "crba", "aba"];
 
@@ -76,7 +76,8 @@ impl Robot {
             let (first, rest) = word.split_at(1);
             first.to_uppercase() + rest
         });
-        words.collect()
+        // The one name with two capitals.
+        words.collect::<String>().replace("Xarm", "XArm")
     }
 
     /// Whether its base is free.

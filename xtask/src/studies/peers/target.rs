@@ -20,7 +20,7 @@ const BIN: &str = "peers";
 
 /// Largest error relative to full scale of a function that is worth measuring: forward dynamics and
 /// Λ⁻¹ are ill-conditioned.
-fn bound(algorithm: &str) -> f64 {
+pub fn bound(algorithm: &str) -> f64 {
     match algorithm {
         "aba" | "osim" => 1e-3,
         _ => 1e-5,
@@ -59,7 +59,7 @@ pub fn measure(
     for robot in robots.iter().filter(|robot| robot.is_on_target()) {
         let most = if robot.is_free() { 1 } else { ALGORITHMS.len() };
         for algorithms in robot.algorithms().chunks(most) {
-            let made = compile(shop, robot, algorithms)?;
+            let made = compile(shop, robot, algorithms, &ways())?;
             let (rows, seconds) = firmware(workspace, tools, made)?;
             found.extend(rows);
             if let ([algorithm], true) = (algorithms, robot.is_free()) {
@@ -111,11 +111,29 @@ fn processor_time(said: &str) -> Result<f64> {
     sum.ok_or_else(|| check!("the shell says of its children's time: {last:?}"))
 }
 
-/// Objects, and the table of their functions for the firmware, which calls ours of the same.
-fn compile(
+/// A way to compile the C: the end of its symbols, the compiler and its flags.
+pub struct Way {
+    pub mark: String,
+    pub compiler: &'static str,
+    pub flags: String,
+}
+
+fn ways() -> Vec<Way> {
+    let ways = BUILDS.iter().flat_map(|build| OVERLAP.map(|overlap| (build, overlap)));
+    let ways = ways.map(|(&[build, _, compiler, flags], (keyword, mark))| Way {
+        mark: format!("{build}{mark}"),
+        compiler,
+        flags: format!("{flags} {COMMON} -DRESTRICT={keyword}"),
+    });
+    ways.collect()
+}
+
+/// Objects, and the table of their functions for a program that calls ours of the same.
+pub fn compile(
     shop: &Workshop<'_>,
     robot: &Robot,
     algorithms: &[&str],
+    ways: &[Way],
 ) -> Result<(Vec<PathBuf>, PathBuf)> {
     let spinner = Spinner::start("building CasADi's C for the target");
     let (mut objects, mut externs, mut calls) = (Vec::new(), String::new(), String::new());
@@ -124,17 +142,14 @@ fn compile(
         let name = format!("{}_{algorithm}_cs_f32", robot.name);
         let source = shop.code.join(format!("{name}.c"));
         let mut peers = String::new();
-        let builds = BUILDS.iter().flat_map(|build| OVERLAP.map(|overlap| (build, overlap)));
-        for (&[build, _, compiler, flags], (keyword, mark)) in builds {
-            let suffix = format!("{build}{mark}");
-            let symbol = format!("{name}_{suffix}");
+        for Way { mark, compiler, flags } in ways {
+            let symbol = format!("{name}_{mark}");
             spinner.say(format!("compiling {symbol}"));
-            let peer = format!("-DPEER(name)=name##_{suffix}");
-            let restrict = format!("-DRESTRICT={keyword}");
-            let args: [&[&str]; 3] = [&words(flags), &words(COMMON), &[&peer, &restrict]];
+            let peer = format!("-DPEER(name)=name##_{mark}");
+            let args: [&[&str]; 2] = [&words(flags), &[&peer]];
             objects.push(shop.make(&format!("{symbol}.o"), compiler, &args, &[&source])?);
             externs += &format!("    fn {symbol}({inputs}_: *mut f32);\n");
-            peers += &format!("Peer {{ build: {build:?}, run: {symbol} }}, ");
+            peers += &format!("Peer {{ build: {mark:?}, run: {symbol} }}, ");
         }
         let [bodies, positions, velocities] = robot.size();
         let tip = match *algorithm {
@@ -153,7 +168,7 @@ fn compile(
 
 /// The name of a peer whose row is of this form.
 fn peer(form: &str) -> &str {
-    let build = BUILDS.iter().find(|build| build[0] == form);
+    let build = BUILDS.iter().find(|build| build[0] == form.trim_end_matches("_r"));
     build.map_or(form, |[_, name, ..]| name)
 }
 

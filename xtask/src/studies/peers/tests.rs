@@ -10,7 +10,8 @@ const PAGE: &str = "docs/peers.md";
 fn promised() -> Bars {
     let budgets: serde_json::Value = toml_edit::de::from_str(&read("budgets.toml")).expect("TOML");
     let mut ratios: Bars = serde_json::from_value(budgets["ratios"].clone()).expect("ratios");
-    ratios.retain(|key, _| key.contains(", m4f, ") || key.contains(", host "));
+    let targets = [", m4f, ", ", gates, ", ", host "];
+    ratios.retain(|key, _| targets.iter().any(|target| key.contains(target)));
     ratios
 }
 

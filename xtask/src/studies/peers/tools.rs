@@ -9,12 +9,13 @@ use crate::kit::workspace::{self, Workspace};
 use crate::kit::{output, shell};
 
 /// Programs, and Debian's packages of them.
-const PROGRAMS: [(&str, &str); 6] = [
+const PROGRAMS: [(&str, &str); 7] = [
     ("gcc", "gcc"),
     ("g++", "g++"),
     ("clang", "clang"),
     ("clang++", "clang"),
     ("arm-none-eabi-gcc", "gcc-arm-none-eabi"),
+    ("riscv64-unknown-elf-gcc", "gcc-riscv64-unknown-elf"),
     ("python3", "python3"),
 ];
 

@@ -17,7 +17,7 @@ use core::hint::black_box;
 use dynamics_core::Engine;
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::model::Robot;
-use dynamics_core::robots::{A1, Iiwa14, Panda, Ur5e, XArm7};
+use dynamics_core::robots::*;
 use dynamics_core::state::State;
 use firmware_demo::scene::larger;
 use semihosting::println;

@@ -50,6 +50,7 @@ fn why([peers, readme, scenes, rtl, costs]: [&str; 5]) -> Result<String> {
     let forward = range(" aba, m4f, engine / casadi: cycles")?;
     let host = range(", engine / pinocchio: ns")?;
     let free = range("g1_free rnea, m4f, engine / casadi: cycles")?;
+    let gates = range(" rnea, gates, engine / casadi: stages_1")?;
     let tick = TICK.written(scenes)?;
     let total = cell(tick, "total", 14)?;
     let [longest, share] = [(11, "longest tick"), (13, "share")].map(|(at, what)| {
@@ -76,8 +77,8 @@ fn why([peers, readme, scenes, rtl, costs]: [&str; 5]) -> Result<String> {
          - A whole tick of a UR5e, from six encoders to six drives, takes {longest:.1} µs at \
          {CLOCK_MHZ} MHz: **{share:.1} % of a millisecond**. The arm\n  \
          then follows its reference with {ratio} of the error of PD control alone.\n\
-         - Counted, not modelled, on the gates of a RISC-V core ([CV32E40P]({RTL}), FPU of one \
-         stage): a UR5e's inverse dynamics takes {counted} cycles, its tick {counted_tick}.\n\n\
+         - Counted on a RISC-V core's gates ([CV32E40P]({RTL}), FPU of one stage): a UR5e's tick \
+         takes {counted_tick} cycles, inverse dynamics {counted}; fused, {gates} of the best C's.\n\n\
          {wishes}"
     ))
 }

@@ -63,6 +63,8 @@ pub fn measure(
 ) -> Result<Vec<Row>> {
     let core = CORES.iter().find(|core| core.is_risc_v());
     let core = core.ok_or_else(|| check!("no core has RISC-V"))?;
+    let missing = core.missing();
+    refuse_if!(!missing.is_empty(), "not installed: {}", missing.join(", "));
     let simulators = Simulators::find(workspace, options)?;
     let spinner = Spinner::start("compiling a core's source by Verilator");
     simulators.make()?;

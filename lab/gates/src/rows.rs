@@ -11,10 +11,10 @@ use firmware_demo::digest::Digest;
 #[cfg(target_os = "none")]
 use semihosting::println;
 
-use crate::counters::{self, Count};
+use crate::counters;
 
 /// The states on which each function is counted, and those whose torques are printed.
-const COUNTED: usize = 4;
+pub const COUNTED: usize = 4;
 const STATES: usize = 16;
 
 pub struct Ask<const N: usize> {
@@ -43,28 +43,21 @@ pub fn asks<T: Robot<B, N, N>, const B: usize, const N: usize>() -> [Ask<N>; STA
 
 /// Prints a function's row; the function is called through its address, as a user's would be that
 /// is not inlined.
-fn row<A, O>(name: [&str; 4], asks: &[A], run: fn(&A) -> O, bits: impl Fn(&O, &mut Digest)) {
-    counted(name, asks, |ask, digest| {
-        let begin = counters::read();
-        // The function writes it here: a copy would be counted.
-        let result = black_box(run)(black_box(ask));
-        let count = counters::between(begin, counters::read());
-        bits(&result, digest);
-        count
-    });
-}
-
-/// Prints the row of what counts a call and adds its result to the digest.
-pub fn counted<A>(
+fn row<A, O>(
     [robot, algorithm, form, sines]: [&str; 4],
     asks: &[A],
-    mut call: impl FnMut(&A, &mut Digest) -> Count,
+    run: fn(&A) -> O,
+    bits: impl Fn(&O, &mut Digest),
 ) {
     let (mut digest, mut cycles, mut instructions) = (Digest::EMPTY, 0, 0);
     // Before the first call the core has not read the robot's constants; here that costs nothing,
     // since no memory has a cache.
     for ask in &asks[..COUNTED] {
-        let count = call(ask, &mut digest);
+        let begin = counters::read();
+        // The function writes it here: a copy would be counted.
+        let result = black_box(run)(black_box(ask));
+        let count = counters::between(begin, counters::read());
+        bits(&result, &mut digest);
         (cycles, instructions) = (count.cycles.max(cycles), count.instructions.max(instructions));
     }
     println!("row {robot} {algorithm} {form} {sines} {cycles} {instructions} {:016x}", digest.0);

@@ -210,8 +210,7 @@ fn complete(rows: &[Row]) -> Result<()> {
 
 #[cfg(test)]
 mod tests {
-    use super::{ALGORITHMS, Counted, GATES, ROBOTS, best, by_stages, complete, ours, theirs};
-    use crate::studies::rtl::Build;
+    use super::{ALGORITHMS, GATES, ROBOTS, best, by_stages, complete, theirs};
 
     const TEXT: &str = "row ur5e rnea p_fused outside 12 10 00ff\nerror 1e-7\n\
                         row ur5e rnea n_fused outside 13 10 00ff\nerror 1e-7\ndone\n";
@@ -241,27 +240,5 @@ mod tests {
         complete(&rows).expect("all");
         rows.pop();
         complete(&rows).expect_err("one less");
-    }
-
-    #[test]
-    fn ours_are_those_that_are_compared() {
-        let row = |name: [&str; 4]| Counted {
-            name: name.map(str::to_owned).into(),
-            build: Build::Fused,
-            cycles: vec![7, 8, 9],
-        };
-        let rows = ours(
-            &[
-                row(["a1", "forward_dynamics", "engine", "outside"]),
-                row(["a1", "rnea", "engine", "inside"]),
-                row(["a1", "gravity", "engine", "outside"]),
-                row(["xarm7", "rnea", "core", "inside"]),
-            ],
-            "fused",
-        );
-        let found: Vec<_> = rows.iter().map(|row| (&*row.algorithm, &*row.peer)).collect();
-        let expected = [("aba", "engine fused"), ("rnea", "core fused, sines inside")];
-        assert_eq!(found, expected.map(|of| [of; 3]).concat());
-        assert_eq!(rows[1].cycles, Some(8));
     }
 }

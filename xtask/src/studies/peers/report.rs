@@ -153,7 +153,7 @@ impl Report {
             });
             tables.collect::<String>()
         };
-        let ways = WAYS.iter().map(|(way, flags)| format!("`{way}` {flags}"));
+        let ways = WAYS.iter().map(|(way, flags)| format!("- {way}: `{flags}`\n"));
         let versions = self.versions.iter().map(|version| format!("- {version}\n"));
         format!(
             include_str!("page.md"),
@@ -161,7 +161,7 @@ impl Report {
             model = MODEL,
             target = section("Cortex-M4F", ON_TARGET, &|a| self.on_target(a), &ALGORITHMS),
             gates = section("CV32E40P", ON_GATES, &|a| self.on_gates(a), &gates::ALGORITHMS),
-            ways = ways.collect::<Vec<_>>().join("; "),
+            ways = ways.collect::<String>(),
             robot_dynamics = robot_dynamics::table(&self.rows).markdown(),
             host = section("Host", ON_HOST, &|a| self.on_host(a), &ALGORITHMS),
             builds = self.build_times().markdown(),
@@ -239,8 +239,10 @@ impl Report {
             ways.join(" ")
         };
         let mut lines: Vec<&Row> = self.of(GATES[0], algorithm).collect();
-        let place = |line: &&Row| gates::ROBOTS.iter().position(|robot| *robot == line.robot);
-        lines.sort_by_key(place);
+        lines.sort_by_key(|line| {
+            let robot = gates::ROBOTS.iter().position(|robot| *robot == line.robot);
+            (robot, line.peer.ends_with(INSIDE), line.peer.contains("separate"))
+        });
         Table::of(
             lines,
             &[

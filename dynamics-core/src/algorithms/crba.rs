@@ -11,18 +11,17 @@
 
 use heapless::Vec;
 
-use super::tree_pass::{Passed, inward, recalled};
+use super::tree_pass::{Passed, inward};
 use crate::algorithms::MassMatrix;
 use crate::effects::{Declared, Effect, add_inertia, body_inertia, rotor_force};
-use crate::model::{LinkView, RobotModel};
+use crate::model::{JointKind, RobotModel};
 use crate::scalar::Real;
 use crate::spatial::Xform;
 use crate::spatial::inertia::CompositeInertia;
 use crate::state::JointTrig;
 
 /// The results of the outward pass for the inward one.
-struct Body<'a, R: Real> {
-    link: LinkView<'a, R>,
+struct Body<R: Real> {
     x: Xform<R>,
     ic: CompositeInertia<R>,
 }
@@ -39,47 +38,97 @@ where
     E: Effect<R, B, V>,
 {
     let turns = &trig.coordinates;
-    let mut bodies: Vec<Body<'_, R>, B> = Vec::new();
-    for i in 0..B {
-        let Some(link) = robot.link(i) else {
-            break;
-        };
+    let mut bodies: Vec<Body<R>, B> = Vec::new();
+    for (i, link) in robot.links().enumerate() {
         let ic = body_inertia(effects, i, &link).into();
         let x = link.xform(turns);
-        let _ = bodies.push(Body { link, x, ic });
+        let _ = bodies.push(Body { x, ic });
     }
 
+    // Without a reference to it, the compiler builds M where the caller wants it.
     let mut m = MassMatrix::ZERO;
     let mut pass = inward(&mut bodies);
     let mut passed = Passed::NONE;
     while let Some((body, inner)) = pass.next() {
-        let link = recalled(robot, &body.link);
-        let ic = passed.onto(&body.ic);
         let i = inner.len();
-        if let Some(parent) = inner.get_mut(body.link.parent) {
-            passed.add(&body.link, i, &mut parent.ic, ic.at_parent(&body.x));
-        }
-        for (k, joint) in link.coordinates().enumerate() {
-            let mut f = ic.along(&link.subspace(turns, k));
-            for (l, earlier) in link.coordinates().enumerate().take(k + 1) {
-                m.set(joint, earlier, link.subspace(turns, l).dot(f));
-            }
-            if let Some(diagonal) = m.diagonal_mut(joint) {
-                add_inertia(effects, joint, diagonal);
-            }
-            if E::GYROSCOPIC_ROTORS {
-                f += rotor_force(effects, &body.link);
-            }
-            let mut child = &*body;
-            while let Some(parent) = inner.get(child.link.parent) {
-                f = child.x.transpose_mul(f);
-                let link = recalled(robot, &parent.link);
-                for (l, ancestor) in link.coordinates().enumerate() {
-                    m.set(joint, ancestor, link.subspace(turns, l).dot(f));
+        let Some(link) = robot.link(i) else {
+            break;
+        };
+        let ic = passed.onto(&body.ic);
+        // M_ii = S_iᵀ Iᶜ_i S_i
+        if link.kind() == JointKind::Free {
+            let first = link.idx_v().min(V.saturating_sub(6));
+            if V >= 6 {
+                for (k, column) in ic.columns().into_iter().enumerate() {
+                    for (l, value) in column.components().into_iter().enumerate() {
+                        m.rows[first + k][first + l] = value;
+                    }
                 }
-                child = parent;
+            }
+        } else {
+            for (k, joint) in link.coordinates().take(const { D::KINDS.most_but_free() }).enumerate() {
+                let f = ic.along(&link.subspace(turns, k));
+                project!(m, joint, link, turns, f);
+            }
+        }
+        for joint in link.coordinates() {
+            let mut armature = entry!(m, joint, joint);
+            add_inertia(effects, joint, &mut armature);
+            set!(m, joint, joint, armature);
+        }
+        let Some(parent) = inner.get_mut(link.parent) else {
+            continue;
+        };
+        passed.add(&link, i, &mut parent.ic, ic.at_parent(&body.x));
+        for (k, joint) in link.coordinates().take(const { D::KINDS.most() }).enumerate() {
+            let mut f = ic.along(&link.subspace(turns, k));
+            if E::GYROSCOPIC_ROTORS {
+                f += rotor_force(effects, &link);
+            }
+            let (mut x, mut at) = (&body.x, link.parent);
+            while let (Some(parent), Some(link)) = (inner.get(at), robot.link(at)) {
+                f = x.transpose_mul(f);
+                project!(m, joint, link, turns, f);
+                (x, at) = (&parent.x, link.parent);
             }
         }
     }
     m
 }
+
+macro_rules! set {
+    ($m:ident, $i:expr, $j:expr, $value:expr) => {
+        if $i < V && $j < V {
+            $m.rows[$i][$j] = $value;
+            $m.rows[$j][$i] = $value;
+        }
+    };
+}
+use set;
+macro_rules! entry {
+    ($m:ident, $i:expr, $j:expr) => {
+        if $i < V && $j < V { $m.rows[$i][$j] } else { R::ZERO }
+    };
+}
+use entry;
+
+/// M_ij = S_iᵀ f
+macro_rules! project {
+    ($m:ident, $joint:ident, $link:ident, $turns:ident, $f:ident) => {
+        if $link.kind() == JointKind::Free {
+            let first = $link.idx_v().min(V.saturating_sub(6));
+            if V >= 6 && $joint < V {
+                for (l, value) in $f.components().into_iter().enumerate() {
+                    $m.rows[$joint][first + l] = value;
+                    $m.rows[first + l][$joint] = value;
+                }
+            }
+        } else {
+            for (l, i) in $link.coordinates().take(const { D::KINDS.most_but_free() }).enumerate() {
+                let value = $link.subspace($turns, l).dot($f);
+                set!($m, $joint, i, value);
+            }
+        }
+    };
+}
+use project;

@@ -1,6 +1,7 @@
 //! A column of S, the motion subspace of a joint, in an aligned frame.
 
 use super::{Force, Motion};
+use crate::math::entry;
 use crate::scalar::{Real, Vector};
 
 /// The velocity of a joint at unit rate of one of its coordinates.
@@ -10,6 +11,8 @@ pub(crate) enum MotionSubspace<R: Real> {
     RevoluteZ,
     /// A translation along z.
     PrismaticZ,
+    /// The unit vector of this number, of a joint that has it among several.
+    Unit(usize),
     /// Any other.
     General(Motion<R>),
 }
@@ -21,6 +24,7 @@ impl<R: Real> MotionSubspace<R> {
         match self {
             Self::RevoluteZ => f.ang.array()[2],
             Self::PrismaticZ => f.lin.array()[2],
+            Self::Unit(k) => entry(&f.components(), *k),
             Self::General(s) => s.dot(f),
         }
     }
@@ -31,6 +35,7 @@ impl<R: Real> MotionSubspace<R> {
         match self {
             Self::RevoluteZ => Motion::new(raised(m.ang, rate), m.lin),
             Self::PrismaticZ => Motion::new(m.ang, raised(m.lin, rate)),
+            Self::Unit(k) => m + Motion::unit(*k) * rate,
             Self::General(s) => m + *s * rate,
         }
     }

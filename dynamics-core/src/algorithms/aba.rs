@@ -30,7 +30,7 @@ use crate::effects::{
 use crate::model::{JointKind, LinkView, RobotModel};
 use crate::scalar::{Matrix, Real};
 use crate::spatial::inertia::ArticulatedInertia;
-use crate::spatial::{Force, Motion, Xform};
+use crate::spatial::{Force, Motion, MotionSubspace, Xform};
 use crate::state::{JointTrig, State, entry};
 
 /// The data of a body that the outward passes and the inward pass share.
@@ -134,20 +134,41 @@ where
         };
         let (mut ia, mut pa) = (*inertias.onto(&body.ia), *forces.onto(&body.pa));
         let magnitude = magnitudes.onto(&body.magnitude);
+        let mut about_z = None;
         if link.has_several() {
             let mut pivots = PivotCheck::of(*magnitude);
             for (k, joint) in link.coordinates().enumerate().rev() {
-                let (at, of) = ((&link, k, joint), (&mut ia, &mut pa, &mut pivots));
-                let _ = factors.push(eliminated(at, trig, state, effects, given(joint), of)?);
+                let (at, of) = ((&link, k, joint), (&ia, &mut pa, &mut pivots));
+                let factor = eliminated(at, trig, state, effects, given(joint), of)?;
+                if matches!(given(joint), Prescribed::Torque(_)) {
+                    ia = ia.minus_outer(factor.u_a, factor.d_inv);
+                }
+                let _ = factors.push(factor);
             }
         } else if let Some(joint) = link.coordinates().next() {
             let mut pivots = PivotCheck::of(*magnitude);
-            let (at, of) = ((&link, 0, joint), (&mut ia, &mut pa, &mut pivots));
-            let _ = factors.push(eliminated(at, trig, state, effects, given(joint), of)?);
+            let (at, of) = ((&link, 0, joint), (&ia, &mut pa, &mut pivots));
+            let factor = eliminated(at, trig, state, effects, given(joint), of)?;
+            if matches!(given(joint), Prescribed::Torque(_)) {
+                if D::KINDS.has(JointKind::Free)
+                    && matches!(link.subspace(&trig.coordinates, 0), MotionSubspace::RevoluteZ)
+                    && effects.inertia(joint).is_none()
+                {
+                    about_z = Some(ia.free_about_z(factor.u_a, factor.d_inv));
+                } else {
+                    ia = ia.minus_outer(factor.u_a, factor.d_inv);
+                }
+            }
+            let _ = factors.push(factor);
         }
         if let (i, Some(parent)) = (inner.len(), inner.get_mut(link.parent)) {
-            pa += ia.times(body.c); // Iᵃ c, after the update of `ia`: pᵃ = pᴬ + Iᵃ c + U D⁻¹ u
-            inertias.add(&link, i, &mut parent.ia, ia.at_parent(&body.x));
+            // Iᵃ c after the update of Iᴬ: pᵃ = pᴬ + Iᵃ c + U D⁻¹ u.
+            let (ia_c, ia) = match about_z {
+                Some(ia) => (ia.times_across(body.c), ia.at_parent(&body.x)),
+                None => (ia.times(body.c), ia.at_parent(&body.x)),
+            };
+            pa += ia_c;
+            inertias.add(&link, i, &mut parent.ia, ia);
             let of_parent = &mut parent.magnitude;
             magnitudes.add(&link, i, of_parent, magnitude.at_parent(body.x.pos));
             forces.add(&link, i, &mut parent.pa, body.x.transpose_mul(pa));
@@ -165,7 +186,7 @@ fn eliminated<R: Real, E, const B: usize, const Q: usize, const V: usize>(
     state: &State<R, Q, V>,
     effects: &E,
     given: Prescribed<R>,
-    (ia, pa, pivots): (&mut ArticulatedInertia<R>, &mut Force<R>, &mut PivotCheck<R>),
+    (ia, pa, pivots): (&ArticulatedInertia<R>, &mut Force<R>, &mut PivotCheck<R>),
 ) -> Result<JointFactor<R>, NotPositiveDefinite>
 where
     E: Effect<R, B, V>,
@@ -185,7 +206,6 @@ where
     let tau = transmitted(effects, joint, joint_state(link, state, joint), tau);
     let u = tau - joint_torque(effects, link, state, joint) - s.dot(*pa);
     let u_a = with_rotor(effects, link, u_a);
-    *ia = ia.minus_outer(u_a, d_inv);
     *pa += u_a * (u * d_inv);
     Ok(JointFactor { u_a, d_inv, u })
 }

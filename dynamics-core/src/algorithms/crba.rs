@@ -47,6 +47,34 @@ where
 
     // Without a reference to it, the compiler builds M where the caller wants it.
     let mut m = MassMatrix::ZERO;
+    // M_ij = M_ji = S_iᵀ f for the coordinates i of a link.
+    macro_rules! project {
+        ($joint:expr, $link:expr, $f:expr) => {
+            if $link.kind() == JointKind::Free {
+                let first = $link.idx_v().min(V.saturating_sub(6));
+                if V >= 6 && $joint < V {
+                    for (l, entry) in $f.components().into_iter().enumerate() {
+                        m.rows[$joint][first + l] = entry;
+                        m.rows[first + l][$joint] = entry;
+                    }
+                }
+            } else if $link.has_several() {
+                for (l, i) in $link.coordinates().enumerate() {
+                    if $joint < V && i < V {
+                        let entry = $link.subspace(turns, l).dot($f);
+                        m.rows[$joint][i] = entry;
+                        m.rows[i][$joint] = entry;
+                    }
+                }
+            } else if let Some(i) = $link.coordinates().next() {
+                if $joint < V && i < V {
+                    let entry = $link.subspace(turns, 0).dot($f);
+                    m.rows[$joint][i] = entry;
+                    m.rows[i][$joint] = entry;
+                }
+            }
+        };
+    }
     let mut pass = inward(&mut bodies);
     let mut passed = Passed::NONE;
     while let Some((body, inner)) = pass.next() {
@@ -65,70 +93,45 @@ where
                     }
                 }
             }
-        } else {
-            for (k, joint) in link.coordinates().take(const { D::KINDS.most_but_free() }).enumerate() {
-                let f = ic.along(&link.subspace(turns, k));
-                project!(m, joint, link, turns, f);
+        } else if link.has_several() {
+            for (k, joint) in link.coordinates().enumerate() {
+                project!(joint, link, ic.along(&link.subspace(turns, k)));
             }
+        } else if let Some(joint) = link.coordinates().next() {
+            project!(joint, link, ic.along(&link.subspace(turns, 0)));
         }
         for joint in link.coordinates() {
-            let mut armature = entry!(m, joint, joint);
-            add_inertia(effects, joint, &mut armature);
-            set!(m, joint, joint, armature);
+            if joint < V {
+                let mut diagonal = m.rows[joint][joint];
+                add_inertia(effects, joint, &mut diagonal);
+                m.rows[joint][joint] = diagonal;
+            }
         }
         let Some(parent) = inner.get_mut(link.parent) else {
             continue;
         };
         passed.add(&link, i, &mut parent.ic, ic.at_parent(&body.x));
-        for (k, joint) in link.coordinates().take(const { D::KINDS.most() }).enumerate() {
-            let mut f = ic.along(&link.subspace(turns, k));
-            if E::GYROSCOPIC_ROTORS {
-                f += rotor_force(effects, &link);
+        macro_rules! ancestors {
+            ($joint:expr, $f:expr) => {
+                let mut f = $f;
+                if E::GYROSCOPIC_ROTORS {
+                    f += rotor_force(effects, &link);
+                }
+                let (mut x, mut at) = (&body.x, link.parent);
+                while let (Some(parent), Some(link)) = (inner.get(at), robot.link(at)) {
+                    f = x.transpose_mul(f);
+                    project!($joint, link, f);
+                    (x, at) = (&parent.x, link.parent);
+                }
+            };
+        }
+        if link.has_several() {
+            for (k, joint) in link.coordinates().enumerate() {
+                ancestors!(joint, ic.along(&link.subspace(turns, k)));
             }
-            let (mut x, mut at) = (&body.x, link.parent);
-            while let (Some(parent), Some(link)) = (inner.get(at), robot.link(at)) {
-                f = x.transpose_mul(f);
-                project!(m, joint, link, turns, f);
-                (x, at) = (&parent.x, link.parent);
-            }
+        } else if let Some(joint) = link.coordinates().next() {
+            ancestors!(joint, ic.along(&link.subspace(turns, 0)));
         }
     }
     m
 }
-
-macro_rules! set {
-    ($m:ident, $i:expr, $j:expr, $value:expr) => {
-        if $i < V && $j < V {
-            $m.rows[$i][$j] = $value;
-            $m.rows[$j][$i] = $value;
-        }
-    };
-}
-use set;
-macro_rules! entry {
-    ($m:ident, $i:expr, $j:expr) => {
-        if $i < V && $j < V { $m.rows[$i][$j] } else { R::ZERO }
-    };
-}
-use entry;
-
-/// M_ij = S_iᵀ f
-macro_rules! project {
-    ($m:ident, $joint:ident, $link:ident, $turns:ident, $f:ident) => {
-        if $link.kind() == JointKind::Free {
-            let first = $link.idx_v().min(V.saturating_sub(6));
-            if V >= 6 && $joint < V {
-                for (l, value) in $f.components().into_iter().enumerate() {
-                    $m.rows[$joint][first + l] = value;
-                    $m.rows[first + l][$joint] = value;
-                }
-            }
-        } else {
-            for (l, i) in $link.coordinates().take(const { D::KINDS.most_but_free() }).enumerate() {
-                let value = $link.subspace($turns, l).dot($f);
-                set!($m, $joint, i, value);
-            }
-        }
-    };
-}
-use project;

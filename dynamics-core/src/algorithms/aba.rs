@@ -245,8 +245,14 @@ where
                 let Some(factor) = factors.pop() else {
                     break;
                 };
-                let (tau, qdd) =
-                    accelerated((&link, k, joint), trig, state, effects, given, (&factor, &mut a_i));
+                let (tau, qdd) = accelerated(
+                    (&link, k, joint),
+                    trig,
+                    state,
+                    effects,
+                    given,
+                    (&factor, &mut a_i),
+                );
                 joints.set(joint, tau, qdd);
             }
             if free {

@@ -8,6 +8,8 @@
 //!
 //! Composite inertias are accumulated from the tips to the base; column j of M is the force of a unit
 //! acceleration of joint j on its composite body, projected on every joint between it and the base.
+//! A free joint's S is the unit matrix: its block of M is Iᶜ itself, and the projection on it the
+//! whole force.
 
 use heapless::Vec;
 
@@ -45,33 +47,32 @@ where
         let _ = bodies.push(Body { x, ic });
     }
 
-    // Without a reference to it, the compiler builds M where the caller wants it.
+    // Nothing borrows it, so that the compiler builds it where the caller wants it, without a copy.
     let mut m = MassMatrix::ZERO;
-    // M_ij = M_ji = S_iᵀ f for the coordinates i of a link.
+    macro_rules! set {
+        ($i:expr, $j:expr, $entry:expr) => {
+            if $i < V && $j < V {
+                let entry = $entry;
+                m.rows[$i][$j] = entry;
+                m.rows[$j][$i] = entry;
+            }
+        };
+    }
+    // M_ij = M_ji = S_iᵀ f
     macro_rules! project {
-        ($joint:expr, $link:expr, $f:expr) => {
-            if $link.kind() == JointKind::Free {
-                let first = $link.idx_v().min(V.saturating_sub(6));
-                if V >= 6 && $joint < V {
-                    for (l, entry) in $f.components().into_iter().enumerate() {
-                        m.rows[$joint][first + l] = entry;
-                        m.rows[first + l][$joint] = entry;
-                    }
+        ($link:expr, $joint:expr, $f:expr) => {
+            if $link.kind() == JointKind::Free && V >= 6 {
+                // The bound by which the compiler knows that all six are within M.
+                let first = $link.idx_v().min(V - 6);
+                for (l, entry) in $f.components().into_iter().enumerate() {
+                    set!($joint, first + l, entry);
                 }
             } else if $link.has_several() {
                 for (l, i) in $link.coordinates().enumerate() {
-                    if $joint < V && i < V {
-                        let entry = $link.subspace(turns, l).dot($f);
-                        m.rows[$joint][i] = entry;
-                        m.rows[i][$joint] = entry;
-                    }
+                    set!($joint, i, $link.subspace(turns, l).dot($f));
                 }
             } else if let Some(i) = $link.coordinates().next() {
-                if $joint < V && i < V {
-                    let entry = $link.subspace(turns, 0).dot($f);
-                    m.rows[$joint][i] = entry;
-                    m.rows[i][$joint] = entry;
-                }
+                set!($joint, i, $link.subspace(turns, 0).dot($f));
             }
         };
     }
@@ -83,22 +84,16 @@ where
             break;
         };
         let ic = passed.onto(&body.ic);
-        // M_ii = S_iᵀ Iᶜ_i S_i
         if link.kind() == JointKind::Free {
-            let first = link.idx_v().min(V.saturating_sub(6));
-            if V >= 6 {
-                for (k, column) in ic.columns().into_iter().enumerate() {
-                    for (l, value) in column.components().into_iter().enumerate() {
-                        m.rows[first + k][first + l] = value;
-                    }
-                }
+            for (joint, column) in link.coordinates().zip(ic.columns()) {
+                project!(link, joint, column);
             }
         } else if link.has_several() {
             for (k, joint) in link.coordinates().enumerate() {
-                project!(joint, link, ic.along(&link.subspace(turns, k)));
+                project!(link, joint, ic.along(&link.subspace(turns, k)));
             }
         } else if let Some(joint) = link.coordinates().next() {
-            project!(joint, link, ic.along(&link.subspace(turns, 0)));
+            project!(link, joint, ic.along(&link.subspace(turns, 0)));
         }
         for joint in link.coordinates() {
             if joint < V {
@@ -111,7 +106,7 @@ where
             continue;
         };
         passed.add(&link, i, &mut parent.ic, ic.at_parent(&body.x));
-        macro_rules! ancestors {
+        macro_rules! project_inward {
             ($joint:expr, $f:expr) => {
                 let mut f = $f;
                 if E::GYROSCOPIC_ROTORS {
@@ -120,17 +115,17 @@ where
                 let (mut x, mut at) = (&body.x, link.parent);
                 while let (Some(parent), Some(link)) = (inner.get(at), robot.link(at)) {
                     f = x.transpose_mul(f);
-                    project!($joint, link, f);
+                    project!(link, $joint, f);
                     (x, at) = (&parent.x, link.parent);
                 }
             };
         }
         if link.has_several() {
             for (k, joint) in link.coordinates().enumerate() {
-                ancestors!(joint, ic.along(&link.subspace(turns, k)));
+                project_inward!(joint, ic.along(&link.subspace(turns, k)));
             }
         } else if let Some(joint) = link.coordinates().next() {
-            ancestors!(joint, ic.along(&link.subspace(turns, 0)));
+            project_inward!(joint, ic.along(&link.subspace(turns, 0)));
         }
     }
     m

@@ -121,20 +121,6 @@ impl JointKinds {
         self.0 & !single.with(Helical).0 == 0
     }
 
-    /// The most velocity coordinates of one joint.
-    pub(crate) const fn most(self) -> usize {
-        if self.has(JointKind::Free) { 6 } else { self.most_but_free() }
-    }
-
-    /// The same, free joints apart.
-    pub(crate) const fn most_but_free(self) -> usize {
-        use JointKind::*;
-        if self.has(Spherical) || self.has(Planar) {
-            return 3;
-        }
-        if self.has(Cylindrical) || self.has(Universal) { 2 } else { 1 }
-    }
-
     /// Whether this kind is one of them.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) const fn has(self, kind: JointKind) -> bool {

@@ -321,4 +321,3 @@ fn row_z<R: Real>(m: &R::Mat3) -> R::Vec3 {
     let [x, y, z] = m.cols().map(|column| column.array()[2]);
     R::Vec3::new(x, y, z)
 }
-

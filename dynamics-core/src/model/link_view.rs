@@ -32,12 +32,6 @@ impl<'a, R: Real> LinkView<'a, R> {
         Self { link, kind: kinds.of(link.joint.kind), idx_q, idx_v }
     }
 
-    /// The same link, its joint one of `kinds`.
-    #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn of_kinds(self, kinds: JointKinds) -> Self {
-        Self { kind: kinds.of(self.kind), ..self }
-    }
-
     /// The kind of its joint.
     #[cfg_attr(optimised, inline(always))]
     pub fn kind(&self) -> JointKind {

@@ -11,7 +11,8 @@
 //! q̈_i  = D_i⁻¹ (u_i − U_iᵀ a′_i)             a_i  = a′_i + S_i q̈_i
 //! ```
 //!
-//! A joint of several degrees of freedom is eliminated a coordinate at a time, which is the same as
+//! A revolute joint without inertia of its own leaves zeros in row and column z of Iᵃ, which robots
+//! with a free joint leave out. A joint of several degrees of freedom is eliminated a coordinate at a time, which is the same as
 //! by its block D. Nothing is eliminated where [`hybrid_dynamics`](super::hybrid_dynamics()) prescribes a
 //! coordinate's motion, RBDA section 9.2.
 
@@ -125,6 +126,8 @@ where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
+    // Robots on a fixed base keep the bits of the rule that has no exception.
+    let floating = D::KINDS.has(JointKind::Free) && robot.model().kinds().has(JointKind::Free);
     // Not by `inward`, which costs 1.5 % of the UR5e's cycles here.
     let (mut inertias, mut magnitudes, mut forces) = (Passed::NONE, Passed::NONE, Passed::NONE);
     let mut left = bodies;
@@ -134,26 +137,26 @@ where
         };
         let (mut ia, mut pa) = (*inertias.onto(&body.ia), *forces.onto(&body.pa));
         let magnitude = magnitudes.onto(&body.magnitude);
+        // What remains of Iᴬ when a joint turns freely about z.
         let mut about_z = None;
         if link.has_several() {
             let mut pivots = PivotCheck::of(*magnitude);
             for (k, joint) in link.coordinates().enumerate().rev() {
                 let (at, of) = ((&link, k, joint), (&ia, &mut pa, &mut pivots));
-                let factor = eliminated(at, trig, state, effects, given(joint), of)?;
+                let factor = factor(at, trig, state, effects, given(joint), of)?;
                 if matches!(given(joint), Prescribed::Torque(_)) {
                     ia = ia.minus_outer(factor.u_a, factor.d_inv);
                 }
                 let _ = factors.push(factor);
             }
         } else if let Some(joint) = link.coordinates().next() {
-            let mut pivots = PivotCheck::of(*magnitude);
-            let (at, of) = ((&link, 0, joint), (&ia, &mut pa, &mut pivots));
-            let factor = eliminated(at, trig, state, effects, given(joint), of)?;
+            let (at, mut pivots) = ((&link, 0, joint), PivotCheck::of(*magnitude));
+            let of = (&ia, &mut pa, &mut pivots);
+            let factor = factor(at, trig, state, effects, given(joint), of)?;
             if matches!(given(joint), Prescribed::Torque(_)) {
-                if D::KINDS.has(JointKind::Free)
-                    && matches!(link.subspace(&trig.coordinates, 0), MotionSubspace::RevoluteZ)
-                    && effects.inertia(joint).is_none()
-                {
+                let s = link.subspace(&trig.coordinates, 0);
+                let alone = matches!(s, MotionSubspace::RevoluteZ);
+                if floating && alone && effects.inertia(joint).is_none() {
                     about_z = Some(ia.free_about_z(factor.u_a, factor.d_inv));
                 } else {
                     ia = ia.minus_outer(factor.u_a, factor.d_inv);
@@ -178,9 +181,9 @@ where
     Ok(())
 }
 
-/// U, D and u of a coordinate, which Iᴬ and pᴬ lose.
+/// U, D and u of a coordinate, and pᴬ + U D⁻¹ u.
 #[cfg_attr(optimised, inline(always))]
-fn eliminated<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+fn factor<R: Real, E, const B: usize, const Q: usize, const V: usize>(
     (link, k, joint): (&LinkView<'_, R>, usize, usize),
     trig: &JointTrig<R, Q>,
     state: &State<R, Q, V>,
@@ -269,7 +272,7 @@ where
     joints
 }
 
-/// Torque and acceleration of a coordinate, and its part of the body's acceleration.
+/// Torque and acceleration of a coordinate, and a + S q̈.
 #[cfg_attr(optimised, inline(always))]
 fn accelerated<R: Real, E, const B: usize, const Q: usize, const V: usize>(
     (link, k, joint): (&LinkView<'_, R>, usize, usize),

@@ -11,10 +11,10 @@
 //! q̈_i  = D_i⁻¹ (u_i − U_iᵀ a′_i)             a_i  = a′_i + S_i q̈_i
 //! ```
 //!
-//! A revolute joint without inertia of its own leaves zeros in row and column z of Iᵃ, which robots
-//! with a free joint leave out. A joint of several degrees of freedom is eliminated a coordinate at a time, which is the same as
+//! A joint of several degrees of freedom is eliminated a coordinate at a time, which is the same as
 //! by its block D. Nothing is eliminated where [`hybrid_dynamics`](super::hybrid_dynamics()) prescribes a
-//! coordinate's motion, RBDA section 9.2.
+//! coordinate's motion, RBDA section 9.2. A revolute joint without inertia of its own leaves zeros
+//! in row and column z of Iᵃ; of robots with a free joint they are left out.
 
 use heapless::Vec;
 
@@ -154,7 +154,7 @@ where
             let of = (&ia, &mut pa, &mut pivots);
             let factor = factor(at, trig, state, effects, given(joint), of)?;
             if matches!(given(joint), Prescribed::Torque(_)) {
-                let s = link.subspace(&trig.coordinates, 0);
+                let s = link.unit_subspace(&trig.coordinates, 0);
                 let alone = matches!(s, MotionSubspace::RevoluteZ);
                 if floating && alone && effects.inertia(joint).is_none() {
                     about_z = Some(ia.free_about_z(factor.u_a, factor.d_inv));
@@ -194,7 +194,7 @@ fn factor<R: Real, E, const B: usize, const Q: usize, const V: usize>(
 where
     E: Effect<R, B, V>,
 {
-    let s = link.subspace(&trig.coordinates, k);
+    let s = link.unit_subspace(&trig.coordinates, k);
     let u_a = ia.along(&s);
     let tau = match given {
         Prescribed::Torque(tau) => tau,
@@ -285,7 +285,7 @@ fn accelerated<R: Real, E, const B: usize, const Q: usize, const V: usize>(
 where
     E: Effect<R, B, V>,
 {
-    let (s, &JointFactor { u_a, d_inv, u }) = (link.subspace(&trig.coordinates, k), factor);
+    let (s, &JointFactor { u_a, d_inv, u }) = (link.unit_subspace(&trig.coordinates, k), factor);
     let (tau, qdd) = match given(joint) {
         Prescribed::Torque(tau) => (tau, (u - a.dot(u_a)) * d_inv),
         Prescribed::Acceleration(qdd) => {

@@ -69,10 +69,10 @@ where
                 }
             } else if $link.has_several() {
                 for (l, i) in $link.coordinates().enumerate() {
-                    set!($joint, i, $link.subspace(turns, l).dot($f));
+                    set!($joint, i, $link.unit_subspace(turns, l).dot($f));
                 }
             } else if let Some(i) = $link.coordinates().next() {
-                set!($joint, i, $link.subspace(turns, 0).dot($f));
+                set!($joint, i, $link.unit_subspace(turns, 0).dot($f));
             }
         };
     }
@@ -90,10 +90,10 @@ where
             }
         } else if link.has_several() {
             for (k, joint) in link.coordinates().enumerate() {
-                project!(link, joint, ic.along(&link.subspace(turns, k)));
+                project!(link, joint, ic.along(&link.unit_subspace(turns, k)));
             }
         } else if let Some(joint) = link.coordinates().next() {
-            project!(link, joint, ic.along(&link.subspace(turns, 0)));
+            project!(link, joint, ic.along(&link.unit_subspace(turns, 0)));
         }
         for joint in link.coordinates() {
             if joint < V {
@@ -122,10 +122,10 @@ where
         }
         if link.has_several() {
             for (k, joint) in link.coordinates().enumerate() {
-                project_inward!(joint, ic.along(&link.subspace(turns, k)));
+                project_inward!(joint, ic.along(&link.unit_subspace(turns, k)));
             }
         } else if let Some(joint) = link.coordinates().next() {
-            project_inward!(joint, ic.along(&link.subspace(turns, 0)));
+            project_inward!(joint, ic.along(&link.unit_subspace(turns, 0)));
         }
     }
     m

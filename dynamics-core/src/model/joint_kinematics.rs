@@ -245,11 +245,24 @@ impl<R: Real> LinkView<'_, R> {
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn subspace(&self, turns: &[JointCoordinate<R>], k: usize) -> MotionSubspace<R> {
         match self.kind {
-            // A fixed joint has no column: whichever is known already takes no code.
-            Revolute | Continuous | Fixed => MotionSubspace::RevoluteZ,
-            JointKind::Prismatic => MotionSubspace::PrismaticZ,
-            JointKind::Spherical | JointKind::Free => MotionSubspace::Unit(k),
+            Revolute | Continuous => MotionSubspace::RevoluteZ,
+            Prismatic => MotionSubspace::PrismaticZ,
             _ => MotionSubspace::General(self.column(turns, k)),
+        }
+    }
+
+    /// The same where the compiler knows the kinds of joint: unit vectors by their numbers, and for
+    /// a fixed joint, which has no column, one that takes no code.
+    #[cfg_attr(optimised, inline(always))]
+    pub(crate) fn unit_subspace(
+        &self,
+        turns: &[JointCoordinate<R>],
+        k: usize,
+    ) -> MotionSubspace<R> {
+        match self.kind {
+            Spherical | Free => MotionSubspace::Unit(k),
+            Fixed => MotionSubspace::RevoluteZ,
+            _ => self.subspace(turns, k),
         }
     }
 

@@ -68,8 +68,9 @@ where
                     set!($joint, first + l, entry);
                 }
             } else if $link.has_several() {
+                let f = $f;
                 for (l, i) in $link.coordinates().enumerate() {
-                    set!($joint, i, $link.unit_subspace(turns, l).dot($f));
+                    set!($joint, i, $link.unit_subspace(turns, l).dot(f));
                 }
             } else if let Some(i) = $link.coordinates().next() {
                 set!($joint, i, $link.unit_subspace(turns, 0).dot($f));
@@ -84,6 +85,7 @@ where
             break;
         };
         let ic = passed.onto(&body.ic);
+        // M_ii = S_iᵀ Iᶜ_i S_i
         if link.kind() == JointKind::Free {
             for (joint, column) in link.coordinates().zip(ic.columns()) {
                 project!(link, joint, column);

@@ -21,15 +21,15 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// The section that a Nucleo-G474RE has in CCM. The emulated board has no such memory for code: the
-/// upper RAM stands for it, below which is the stack, and there is more of it, since a scene has the
-/// tick once for each set of effects.
+/// The section that a Nucleo-G474RE has in CCM. The emulated board has no such memory for code: its
+/// RAM from `cycle_meter::COUPLED` on stands for it, below which is the stack, and there is more of
+/// it, since a scene has the tick once for each set of effects.
 fn placement() -> Result<String, Box<dyn Error>> {
     let board = "../tools/robot-import/template/board/nucleo-g474re/memory.x";
     println!("cargo:rerun-if-changed={board}");
     let text = fs::read_to_string(board)?.replace("{{crate_name}}", "firmware_demo");
     let text = text.replace(".text.TIM2", ".text.*marked_tick*");
     let (_, section) = text.split_once("\n}\n").ok_or("the board has no memory")?;
-    let memory = "MEMORY { CCM : ORIGIN = 0x20008000, LENGTH = 96K }\n_stack_start = ORIGIN(CCM);";
+    let memory = "MEMORY { CCM : ORIGIN = 0x20010000, LENGTH = 64K }\n_stack_start = ORIGIN(CCM);";
     Ok(format!("{memory}\n{section}"))
 }

@@ -11,17 +11,19 @@ use std::sync::LazyLock;
 use crate::files::{files, root};
 
 /// Items of other crates and of written files, options, and parameters.
-const OTHERS: [&str; 10] = [
+const OTHERS: [&str; 12] = [
     "BODY",
     "Deserialize",
     "Format",
     "I",
     "InterruptExecutor",
+    "MEMORY",
     "MyRobot",
     "PYTHONPATH",
     "R",
     "Serialize",
     "T",
+    "TIM2",
 ];
 
 /// The crates whose items the guide names, as `cargo` and as `rustdoc` call them.

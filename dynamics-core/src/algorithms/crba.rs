@@ -8,21 +8,22 @@
 //!
 //! Composite inertias are accumulated from the tips to the base; column j of M is the force of a unit
 //! acceleration of joint j on its composite body, projected on every joint between it and the base.
+//! A free joint's S is the unit matrix: its block of M is Iᶜ itself, and the projection on it the
+//! whole force.
 
 use heapless::Vec;
 
-use super::tree_pass::{Passed, inward, recalled};
+use super::tree_pass::{Passed, inward};
 use crate::algorithms::MassMatrix;
 use crate::effects::{Declared, Effect, add_inertia, body_inertia, rotor_force};
-use crate::model::{LinkView, RobotModel};
+use crate::model::{JointKind, RobotModel};
 use crate::scalar::Real;
 use crate::spatial::Xform;
 use crate::spatial::inertia::CompositeInertia;
 use crate::state::JointTrig;
 
 /// The results of the outward pass for the inward one.
-struct Body<'a, R: Real> {
-    link: LinkView<'a, R>,
+struct Body<R: Real> {
     x: Xform<R>,
     ic: CompositeInertia<R>,
 }
@@ -39,46 +40,94 @@ where
     E: Effect<R, B, V>,
 {
     let turns = &trig.coordinates;
-    let mut bodies: Vec<Body<'_, R>, B> = Vec::new();
-    for i in 0..B {
-        let Some(link) = robot.link(i) else {
-            break;
-        };
+    let mut bodies: Vec<Body<R>, B> = Vec::new();
+    for (i, link) in robot.links().enumerate() {
         let ic = body_inertia(effects, i, &link).into();
         let x = link.xform(turns);
-        let _ = bodies.push(Body { link, x, ic });
+        let _ = bodies.push(Body { x, ic });
     }
 
+    // Nothing borrows it, so that the compiler builds it where the caller wants it, without a copy.
     let mut m = MassMatrix::ZERO;
+    macro_rules! set {
+        ($i:expr, $j:expr, $entry:expr) => {
+            if $i < V && $j < V {
+                let entry = $entry;
+                m.rows[$i][$j] = entry;
+                m.rows[$j][$i] = entry;
+            }
+        };
+    }
+    // M_ij = M_ji = S_iᵀ f
+    macro_rules! project {
+        ($link:expr, $joint:expr, $f:expr) => {
+            if $link.kind() == JointKind::Free && V >= 6 {
+                // The bound by which the compiler knows that all six are within M.
+                let first = $link.idx_v().min(V - 6);
+                for (l, entry) in $f.components().into_iter().enumerate() {
+                    set!($joint, first + l, entry);
+                }
+            } else if $link.has_several() {
+                let f = $f;
+                for (l, i) in $link.coordinates().enumerate() {
+                    set!($joint, i, $link.unit_subspace(turns, l).dot(f));
+                }
+            } else if let Some(i) = $link.coordinates().next() {
+                set!($joint, i, $link.unit_subspace(turns, 0).dot($f));
+            }
+        };
+    }
     let mut pass = inward(&mut bodies);
     let mut passed = Passed::NONE;
     while let Some((body, inner)) = pass.next() {
-        let link = recalled(robot, &body.link);
-        let ic = passed.onto(&body.ic);
         let i = inner.len();
-        if let Some(parent) = inner.get_mut(body.link.parent) {
-            passed.add(&body.link, i, &mut parent.ic, ic.at_parent(&body.x));
+        let Some(link) = robot.link(i) else {
+            break;
+        };
+        let ic = passed.onto(&body.ic);
+        // M_ii = S_iᵀ Iᶜ_i S_i
+        if link.kind() == JointKind::Free {
+            for (joint, column) in link.coordinates().zip(ic.columns()) {
+                project!(link, joint, column);
+            }
+        } else if link.has_several() {
+            for (k, joint) in link.coordinates().enumerate() {
+                project!(link, joint, ic.along(&link.unit_subspace(turns, k)));
+            }
+        } else if let Some(joint) = link.coordinates().next() {
+            project!(link, joint, ic.along(&link.unit_subspace(turns, 0)));
         }
-        for (k, joint) in link.coordinates().enumerate() {
-            let mut f = ic.along(&link.subspace(turns, k));
-            for (l, earlier) in link.coordinates().enumerate().take(k + 1) {
-                m.set(joint, earlier, link.subspace(turns, l).dot(f));
+        for joint in link.coordinates() {
+            if joint < V {
+                let mut diagonal = m.rows[joint][joint];
+                add_inertia(effects, joint, &mut diagonal);
+                m.rows[joint][joint] = diagonal;
             }
-            if let Some(diagonal) = m.diagonal_mut(joint) {
-                add_inertia(effects, joint, diagonal);
-            }
-            if E::GYROSCOPIC_ROTORS {
-                f += rotor_force(effects, &body.link);
-            }
-            let mut child = &*body;
-            while let Some(parent) = inner.get(child.link.parent) {
-                f = child.x.transpose_mul(f);
-                let link = recalled(robot, &parent.link);
-                for (l, ancestor) in link.coordinates().enumerate() {
-                    m.set(joint, ancestor, link.subspace(turns, l).dot(f));
+        }
+        let Some(parent) = inner.get_mut(link.parent) else {
+            continue;
+        };
+        passed.add(&link, i, &mut parent.ic, ic.at_parent(&body.x));
+        macro_rules! project_inward {
+            ($joint:expr, $f:expr) => {
+                let mut f = $f;
+                if E::GYROSCOPIC_ROTORS {
+                    f += rotor_force(effects, &link);
                 }
-                child = parent;
+                let (mut x, mut at) = (&body.x, link.parent);
+                while let (Some(parent), Some(link)) = (inner.get(at), robot.link(at)) {
+                    f = x.transpose_mul(f);
+                    project!(link, $joint, f);
+                    (x, at) = (&parent.x, link.parent);
+                }
+            };
+        }
+        if link.has_several() {
+            for (k, joint) in link.coordinates().enumerate() {
+                project_inward!(joint, ic.along(&link.unit_subspace(turns, k)));
             }
+        } else if let Some(joint) = link.coordinates().next() {
+            project_inward!(joint, ic.along(&link.unit_subspace(turns, 0)));
         }
     }
     m

@@ -82,6 +82,8 @@ impl<R: Real> Magnitude<R> {
         match s {
             MotionSubspace::RevoluteZ => self.second,
             MotionSubspace::PrismaticZ => self.mass,
+            MotionSubspace::Unit(0..3) => self.second,
+            MotionSubspace::Unit(_) => self.mass,
             MotionSubspace::General(s) => {
                 s.ang.dot(s.ang) * self.second + s.lin.dot(s.lin) * self.mass
             }
@@ -122,10 +124,10 @@ impl<R: Real> PivotCheck<R> {
         joint: usize,
     ) -> Result<(), NotPositiveDefinite> {
         let inherited = self.inherited.get(k).copied().unwrap_or_default();
-        let size = self.magnitude.along(&link.subspace(turns, k)) + inherited;
+        let size = self.magnitude.along(&link.unit_subspace(turns, k)) + inherited;
         check(d, size * (R::EPSILON * R::from_f64(ROUNDINGS)), joint)?;
         for (l, inherited) in self.inherited.iter_mut().enumerate().take(k) {
-            let multiplier = link.subspace(turns, l).dot(u_a) / d;
+            let multiplier = link.unit_subspace(turns, l).dot(u_a) / d;
             *inherited += multiplier * multiplier * size;
         }
         Ok(())

@@ -91,19 +91,6 @@ fn read<T: Copy>(stored: &T, _: impl FnOnce(T) -> T) -> impl Deref<Target = T> {
     stored
 }
 
-/// A link that was stored, of a `robot` whose kinds of joint are known at compile time: the
-/// compiler does not see them in memory.
-#[cfg_attr(optimised, inline(always))]
-pub(crate) fn recalled<'a, D, R: Real, const B: usize, const Q: usize, const V: usize>(
-    _: &D,
-    link: &LinkView<'a, R>,
-) -> impl Deref<Target = LinkView<'a, R>>
-where
-    D: RobotModel<R, B, Q, V>,
-{
-    read(link, |link| link.of_kinds(D::KINDS))
-}
-
 /// The share of a sum over children that belongs to the next body of the inward pass.
 ///
 /// It is not written to memory, where processors with vectors would wait for a sum that is written

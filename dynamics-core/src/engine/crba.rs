@@ -5,6 +5,7 @@
 //! composite bodies are known zeros behind revolute joints, and h travels as R h.
 
 use core::borrow::Borrow;
+use core::hint::black_box;
 
 use super::acceleration_field::{Inertia, Wrench, along_z};
 use super::call::Call;
@@ -66,6 +67,8 @@ impl<Arm, Sines> Engine<Arm, Sines> {
 struct Task<'a, Scalar: Real, Tree, Effects, const B: usize, const Q: usize, const V: usize> {
     call: Call<'a, Scalar, Tree, Effects, B, Q, V>,
     m: &'a mut MassMatrix<Scalar, V>,
+    /// Zero, for joints on two branches.
+    zero: Scalar,
 }
 
 impl<Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize>
@@ -75,10 +78,16 @@ where
     Tree: Compiled,
     Effects: Effect<Scalar, B, V>,
 {
-    /// Writes M(q), both triangles; what is zero by the tree's branches stays as it is.
+    /// Writes M(q), both triangles, and what is zero by the tree's branches.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn mass_matrix(self, m: &mut MassMatrix<Scalar, V>) {
-        let mut task = Task { call: self, m };
+        let mut zero = Scalar::ZERO;
+        if !const { is_chain(Tree::SUPPORT) } {
+            // The compiler makes fills of zeros that it knows. On some processors these are calls,
+            // which take longer than the rest of the algorithm.
+            zero = black_box(zero);
+        }
+        let mut task = Task { call: self, m, zero };
         for_each_joint!(
             J,
             CompiledJoint::<Tree, J>::IS_ON_BASE,
@@ -187,6 +196,10 @@ where
         wrench = self.call.borne(wrench, couple);
         // From joint I to the base: parents come before their children.
         for_each_joint_reversed!(K, {
+            if K < I && !JointPair::<Tree, K, I>::SUPPORTS {
+                self.m.rows[I][K] = self.zero;
+                self.m.rows[K][I] = self.zero;
+            }
             if JointPair::<Tree, K, I>::SUPPORTS {
                 let joint = CompiledJoint::<Tree, K>::JOINT;
                 if joint.parent != BASE {
@@ -230,4 +243,12 @@ where
 /// the body.
 const fn keeps_axis(motion: JointMotion) -> bool {
     matches!(motion, JointMotion::Turn | JointMotion::Slide | JointMotion::Screw)
+}
+
+/// Whether the last joint is supported by all others.
+const fn is_chain(support: &[u64]) -> bool {
+    match support {
+        [.., last] => last.count_ones() as usize == support.len(),
+        [] => true,
+    }
 }

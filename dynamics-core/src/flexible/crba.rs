@@ -212,8 +212,11 @@ where
         if !JOINTS {
             continue;
         }
-        for (k, joint) in body.link.coordinates().enumerate() {
-            let f = composite.along(&body.link.subspace(turns, k));
+        let Some(link) = robot.link(inner.len()) else {
+            break;
+        };
+        for (k, joint) in link.coordinates().enumerate() {
+            let f = composite.along(&link.subspace(turns, k));
             let of = Joint(joint);
             climb::<R, V, M, JOINTS>(modes, turns, body, inner, of, f, &mut m);
             if let Some(diagonal) = m.joints.diagonal_mut(joint) {

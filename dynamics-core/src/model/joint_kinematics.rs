@@ -229,14 +229,14 @@ impl<R: Real> LinkView<'_, R> {
             Revolute | Continuous => Motion::new(z(R::ONE), zero),
             Prismatic => Motion::new(zero, z(R::ONE)),
             Helical => Motion::new(z(R::ONE), z(self.joint.pitch)),
-            Cylindrical => unit(2 + 3 * k),
+            Cylindrical => Motion::unit(2 + 3 * k),
             Universal if k == 0 => {
                 let turn = entry(turns, self.idx_q + 1);
                 Motion::new(R::Vec3::new(turn.cos, -turn.sin, R::ZERO), zero)
             }
-            Universal => unit(2),
-            Planar => unit(2 + k),
-            Spherical | Free => unit(k),
+            Universal => Motion::unit(2),
+            Planar => Motion::unit(2 + k),
+            Spherical | Free => Motion::unit(k),
             Fixed => Motion::ZERO,
         }
     }
@@ -245,9 +245,24 @@ impl<R: Real> LinkView<'_, R> {
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn subspace(&self, turns: &[JointCoordinate<R>], k: usize) -> MotionSubspace<R> {
         match self.kind {
-            JointKind::Revolute | JointKind::Continuous => MotionSubspace::RevoluteZ,
-            JointKind::Prismatic => MotionSubspace::PrismaticZ,
+            Revolute | Continuous => MotionSubspace::RevoluteZ,
+            Prismatic => MotionSubspace::PrismaticZ,
             _ => MotionSubspace::General(self.column(turns, k)),
+        }
+    }
+
+    /// The same where the compiler knows the kinds of joint: unit vectors by their numbers, and for
+    /// a fixed joint, which has no column, one that takes no code.
+    #[cfg_attr(optimised, inline(always))]
+    pub(crate) fn unit_subspace(
+        &self,
+        turns: &[JointCoordinate<R>],
+        k: usize,
+    ) -> MotionSubspace<R> {
+        match self.kind {
+            Spherical | Free => MotionSubspace::Unit(k),
+            Fixed => MotionSubspace::RevoluteZ,
+            _ => self.subspace(turns, k),
         }
     }
 
@@ -318,11 +333,4 @@ fn plus_cross_z<R: Real>(a: R::Vec3, v: R::Vec3, r: R) -> R::Vec3 {
 fn row_z<R: Real>(m: &R::Mat3) -> R::Vec3 {
     let [x, y, z] = m.cols().map(|column| column.array()[2]);
     R::Vec3::new(x, y, z)
-}
-
-/// The k-th unit vector of M⁶.
-#[cfg_attr(optimised, inline(always))]
-fn unit<R: Real>(k: usize) -> Motion<R> {
-    let at = |i| if i == k { R::ONE } else { R::ZERO };
-    Motion::new(R::Vec3::new(at(0), at(1), at(2)), R::Vec3::new(at(3), at(4), at(5)))
 }

@@ -32,12 +32,6 @@ impl<'a, R: Real> LinkView<'a, R> {
         Self { link, kind: kinds.of(link.joint.kind), idx_q, idx_v }
     }
 
-    /// The same link, its joint one of `kinds`.
-    #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn of_kinds(self, kinds: JointKinds) -> Self {
-        Self { kind: kinds.of(self.kind), ..self }
-    }
-
     /// The kind of its joint.
     #[cfg_attr(optimised, inline(always))]
     pub fn kind(&self) -> JointKind {
@@ -64,6 +58,13 @@ impl<'a, R: Real> LinkView<'a, R> {
             return 0..0;
         }
         self.idx_v..self.idx_v + count
+    }
+
+    /// Whether its joint has more coordinates than one.
+    #[cfg_attr(optimised, inline(always))]
+    pub(crate) fn has_several(&self) -> bool {
+        let (_, count) = self.kind.coordinates();
+        count > 1
     }
 
     /// The position that belongs to the velocity coordinate k; zero where none does, as with the ω

@@ -147,7 +147,23 @@ macro_rules! vector_space {
 vector_space!(Motion, "motion");
 vector_space!(Force, "force");
 
+impl<R: Real> Force<R> {
+    /// The couple, then the force.
+    #[cfg_attr(optimised, inline(always))]
+    pub(crate) fn components(self) -> [R; 6] {
+        let ([nx, ny, nz], [fx, fy, fz]) = (self.ang.array(), self.lin.array());
+        [nx, ny, nz, fx, fy, fz]
+    }
+}
+
 impl<R: Real> Motion<R> {
+    /// The k-th unit vector of M⁶.
+    #[cfg_attr(optimised, inline(always))]
+    pub(crate) fn unit(k: usize) -> Self {
+        let at = |i| if i == k { R::ONE } else { R::ZERO };
+        Self::new(R::Vec3::new(at(0), at(1), at(2)), R::Vec3::new(at(3), at(4), at(5)))
+    }
+
     /// Six NaNs: the motion of a body that the robot does not have.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn nan() -> Self {

@@ -25,8 +25,8 @@ pub const FLASHES: [Flash; 2] = [G474, F405];
 
 /// From here on the model fetches code without waits. The machine of QEMU has no memory where these
 /// chips have one that is coupled to the core (0x1000_0000), so that code which a board runs there
-/// is linked to this address, the end of the chip's RAM, when it is measured.
-pub const COUPLED: u32 = 0x2002_0000;
+/// is linked to this address, the upper half of the machine's RAM, when it is measured.
+pub const COUPLED: u32 = 0x2001_0000;
 
 /// RAM on the system bus, from which a core fetches a word in two cycles at least.
 const RAM: u32 = 0x2000_0000;

@@ -39,10 +39,8 @@ fn work() {
     rows::of::<Iiwa14, 7, 7>();
     rows::of::<XArm7, 7, 7>();
     rows::of::<A1, 16, 12>();
-    if !cfg!(feature = "engine-alone") {
-        ticks::of::<PickAndPlace, 6, 6, 6, 6>(&UR5E);
-        ticks::of::<TaughtPath, 6, 6, 6, 6>(&SO101);
-    }
+    ticks::of::<PickAndPlace, 6, 6, 6, 6>(&UR5E);
+    ticks::of::<TaughtPath, 6, 6, 6, 6>(&SO101);
     println!("done");
 }
 

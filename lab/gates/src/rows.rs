@@ -130,10 +130,7 @@ pub fn of<T: Robot<B, N, N>, const B: usize, const N: usize>() {
                 |ask| $Form::<T>::rnea(ask.trig.with(&ask.state), &RIGID_BODY));
         )*};
     }
-    #[cfg(not(feature = "engine-alone"))]
-    {
-        rows! { "core": Core, aba; }
-    }
+    rows! { "core": Core, aba; }
     rows! { "engine": Engine, forward_dynamics; }
     #[cfg(not(target_os = "none"))]
     exact::<T, B, N>(asks);

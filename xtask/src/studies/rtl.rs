@@ -48,14 +48,12 @@ const AT_WORDS: &str = "-Cllvm-args=-align-all-functions=2";
 /// How an image is built.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum Build {
-    /// By the compiler's own flags; the engine's algorithms alone.
-    Default,
     Scheduled,
     /// Scheduled, with fused arithmetic.
     Fused,
 }
 
-const BUILDS: [Build; 3] = [Build::Default, Build::Scheduled, Build::Fused];
+const BUILDS: [Build; 2] = [Build::Scheduled, Build::Fused];
 
 #[derive(Serialize)]
 pub struct Report {
@@ -136,9 +134,6 @@ impl Build {
     pub fn image(self, workspace: &Workspace, core: &Core) -> Result<PathBuf> {
         let (mut command, folder) = self.cargo("build", workspace, core);
         command.args(["--bin", PACKAGE]);
-        if self == Self::Default {
-            command.args(["--features", "engine-alone"]);
-        }
         shell::capture(&mut command)?;
         Ok(folder.join(PACKAGE))
     }
@@ -147,9 +142,7 @@ impl Build {
     pub fn cargo(self, verb: &str, workspace: &Workspace, core: &Core) -> (Command, PathBuf) {
         let mut flags: Vec<String> = core.flags.iter().map(ToString::to_string).collect();
         flags.push(AT_WORDS.to_owned());
-        if self != Self::Default {
-            flags.extend(SCHEDULE.map(str::to_owned));
-        }
+        flags.extend(SCHEDULE.map(str::to_owned));
         flags.extend((self == Self::Fused).then(|| FUSED.to_owned()));
         // Paths from the workspace: symbols follow flags, and the order of functions these.
         for script in [&*format!("machines/{}.x", core.machine), "link.x"] {

@@ -39,9 +39,6 @@ impl Report {
             };
             let mut table = Table::new(&[
                 head,
-                "default flags: 0 stages",
-                "1 stage",
-                "2 stages",
                 "scheduled: 0 stages",
                 "1 stage",
                 "2 stages",
@@ -140,7 +137,7 @@ mod tests {
     fn the_page_has_the_figures_of_each_build() {
         let names = [vec!["ur5e", "rnea", "engine", "outside"], vec!["ur5e"]];
         let rows = names.iter().flat_map(|name| {
-            let builds = [(Build::Default, 1), (Build::Scheduled, 2), (Build::Fused, 3)];
+            let builds = [(Build::Scheduled, 2), (Build::Fused, 3)];
             builds.map(|(build, thousands)| Row {
                 name: name.iter().map(ToString::to_string).collect(),
                 build,
@@ -157,14 +154,14 @@ mod tests {
         let mut report = Report { rows: rows.collect(), errors, rustc: "rustc 1".into() };
         assert_eq!(summary(&report.rows).expect("both rows").matches("2,008").count(), 2);
         let page = report.markdown().expect("a page");
-        let all = ["1,007", "1,008", "1,009", "2,007", "2,008", "2,009", "3,007", "3,008", "3,009"];
+        let all = ["2,007", "2,008", "2,009", "3,007", "3,008", "3,009"];
         assert!(all.iter().all(|cycles| page.matches(cycles).count() == 2), "{page}");
         assert!(page.contains("5.0e-6") && page.contains("3.0e-8"), "{page}");
         report.rows.pop();
         assert_eq!(report.markdown().expect("a page").matches("3,008").count(), 1);
         report.errors.pop();
         report.markdown().map(drop).expect_err("no fused arithmetic");
-        report.rows.truncate(3);
+        report.rows.truncate(2);
         summary(&report.rows).expect_err("no tick");
     }
 }

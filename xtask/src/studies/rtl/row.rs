@@ -186,10 +186,10 @@ mod tests {
         same_bits("a", &fewer, "b", &said(TEXT)).expect("a part");
         same_bits("a", &said(TEXT), "b", &fewer).expect_err("a missing line");
         let slower = said(&TEXT.replace("ur5e 30", "ur5e 40"));
-        let rows = joined(&[said(TEXT), slower], Build::Default).expect("the same instructions");
+        let rows = joined(&[said(TEXT), slower], Build::Scheduled).expect("the same instructions");
         assert_eq!(rows[1].cycles, [30, 40]);
         let longer = said(&TEXT.replace("30 20", "30 21"));
-        joined(&[said(TEXT), longer], Build::Default).expect_err("other instructions");
+        joined(&[said(TEXT), longer], Build::Scheduled).expect_err("other instructions");
     }
     #[test]
     fn an_error_is_counted_from_the_torques_in_f64() {

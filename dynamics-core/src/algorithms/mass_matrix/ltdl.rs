@@ -272,9 +272,8 @@ impl<R: Real, const V: usize> Sizes<R, V> {
 /// Whether a pivot is a number and more than a rounding error.
 #[cfg_attr(optimised, inline(always))]
 pub(crate) fn check<R: Real>(pivot: R, noise: R, joint: usize) -> Result<(), NotPositiveDefinite> {
-    // Comparisons that a NaN fails too, and that zero on zero does. The last one asks whether it is
-    // finite: `is_finite` becomes thirty instructions on integers.
-    if pivot > noise && pivot > R::ZERO && pivot * R::ZERO == R::ZERO {
+    // Comparisons that a NaN fails too, and that zero on zero does.
+    if pivot > noise && pivot > R::ZERO && pivot.is_finite() {
         return Ok(());
     }
     Err(NotPositiveDefinite { joint })

@@ -10,7 +10,7 @@ const FLOOR_JOINTS: usize = 6;
 
 /// Between the names of two rows in a bar on the difference of their figures.
 const OVER: &str = " over ";
-/// The same in a bar on their ratio; names of other reports' pairs have a comma.
+/// The same in a bar on their ratio; names of other reports' rows have a comma.
 const PER: &str = " / ";
 const OTHERS: &str = ", ";
 
@@ -65,7 +65,7 @@ impl Report {
         let compared = self.compared();
         let unmet = compared.iter().filter_map(Compared::complaint);
         let bars = self.bars.keys();
-        let bars = bars.filter(|key| !is_ratio(key) || !key.contains(OTHERS));
+        let bars = bars.filter(|key| !key.contains(OTHERS));
         let unknown = bars
             .filter(|key| ![TICK, ADDED, IMAGE].iter().any(|end| key.ends_with(end)))
             .filter(|key| self.figures(key).is_none())

@@ -21,6 +21,11 @@ const ON_GATES: [([&str; 2], &str); 3] = [
 /// The bars of `budgets.toml` that this run has the figures for.
 pub fn compared(ratios: &Bars, rows: &[Row]) -> Vec<Compared> {
     let mut all = Vec::new();
+    for row in rows.iter().filter(|row| row.target == M4F && row.peer == "core") {
+        let key = format!("{} {}, m4f, core", row.robot, row.algorithm);
+        let cycles = row.cycles.map(|cycles| cycles as f64);
+        all.extend(cycles.and_then(|cycles| Compared::of(ratios, &key, "cycles", cycles)));
+    }
     for (robot, algorithm) in pairs(rows, M4F) {
         let key = format!("{robot} {algorithm}, m4f, engine / casadi");
         let of = |peer: &str| {

@@ -6,10 +6,13 @@ use crate::kit::docs::repository::{read, rows_of};
 
 const PAGE: &str = "docs/peers.md";
 
-/// The ratios that `budgets.toml` promises of peers.
+/// The ratios and the core's cycles that `budgets.toml` promises beside peers.
 fn promised() -> Bars {
     let budgets: serde_json::Value = toml_edit::de::from_str(&read("budgets.toml")).expect("TOML");
-    let mut ratios: Bars = serde_json::from_value(budgets["ratios"].clone()).expect("ratios");
+    let part =
+        |name: &str| -> Bars { serde_json::from_value(budgets[name].clone()).expect("bars") };
+    let mut ratios = part("ratios");
+    ratios.extend(part("bars"));
     let targets = [", m4f, ", ", gates, ", ", host "];
     ratios.retain(|key, _| targets.iter().any(|target| key.contains(target)));
     ratios
@@ -21,7 +24,7 @@ fn check(page: &str, promised: &Bars) -> Result<(), String> {
     let part = part.split("\n## ").next().unwrap_or_default();
     let compared = |cells: &Vec<&str>| {
         let (key, figure) = cells[0].rsplit_once(": ")?;
-        let now = cells[2].trim_end_matches('×').parse().ok()?;
+        let now = cells[2].trim_end_matches('×').replace(',', "").parse().ok()?;
         Compared::of(promised, key, figure, now)
     };
     let rows: Option<Vec<Compared>> = rows_of(part).iter().map(compared).collect();

@@ -61,7 +61,7 @@ fn why([peers, readme, scenes, rtl, costs]: [&str; 5]) -> Result<String> {
     let exact = cell(tick, "feed-forward", 3)?[1];
     let ratio = exact.split_once('(').and_then(|(_, ratio)| ratio.strip_suffix(')'));
     let ratio = ratio.ok_or_else(|| check!("{} has no share of PD's error", TICK.file))?;
-    // The third column of cycles is that of an FPU of one stage.
+    // The second column of cycles is that of an FPU of one stage.
     let [counted, counted_tick] =
         ["ur5e rnea engine outside", "ur5e"].map(|row| Ok(cell(rtl, row, 7)?[2].to_owned()));
     let (counted, counted_tick): (String, String) = (counted?, counted_tick?);

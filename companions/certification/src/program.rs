@@ -55,11 +55,7 @@ impl Program {
         };
         let mut functions = Vec::new();
         for function in asked {
-            // The core's M of the leg, whose foot is on a fixed joint, loads what nothing has written
-            // and nothing uses: that has no certificate.
-            let is_declined = self.robot == "a1_leg"
-                && matches!(function, Function::CoreCrba | Function::CoreForwardDynamics);
-            if !is_declined && !functions.contains(function) {
+            if !functions.contains(function) {
                 functions.push(*function);
             }
         }

@@ -134,9 +134,9 @@ impl<R: Real> PivotCheck<R> {
     }
 }
 
-/// Whether a pivot is a number and more than a rounding error, as
-/// [`check`](super::mass_matrix::check) asks of those of M; but `is_finite` becomes thirty
-/// instructions on integers.
+/// Fails unless a pivot is finite and exceeds the rounding error `noise`. The pivots of M have the
+/// same check with `is_finite`, which compiles to thirty integer instructions: here zero times the
+/// pivot is compared with zero.
 #[cfg_attr(optimised, inline(always))]
 fn exceeds<R: Real>(pivot: R, noise: R, joint: usize) -> Result<(), NotPositiveDefinite> {
     if pivot > noise && pivot > R::ZERO && pivot * R::ZERO == R::ZERO {

@@ -337,17 +337,18 @@ impl<R: Real> FreeAboutZ<R> {
         let (ex, ey) = (R::Vec3::new(xx, xy, xz), R::Vec3::new(yx, yy, yz));
         let [px, py, pz] = (ex * self.xx + ey * self.xy).array();
         let [qx, qy, qz] = (ex * self.xy + ey * self.yy).array();
-        let (i_yy, i_zz) = (xy * py + yy * qy, xz * pz + yz * qz);
+        let (i_xx, i_zz) = (xx * px + yx * qx, xz * pz + yz * qz);
         let along_x = x.rot.transpose_mul(self.coupling_x);
         let along_y = x.rot.transpose_mul(self.coupling_y);
         let [ax, ay, az] = along_x.array();
         let [bx, by, bz] = along_y.array();
         ArticulatedInertia {
             inertia: Symmetric {
-                xx: xx * px + yx * qx,
+                xx: i_xx,
                 xy: xx * py + yx * qy,
                 xz: xx * pz + yx * qz,
-                yy: i_yy,
+                // E keeps the trace.
+                yy: (self.xx + self.yy) - i_xx - i_zz,
                 yz: xy * pz + yy * qz,
                 zz: i_zz,
             },

@@ -165,4 +165,4 @@ pub(super) fn rows() -> Vec<Row> {
     rows
 }
 
-const BOUNDS: [[f64; 2]; 2] = [[5e-6, 8e-15], [1e-6, 5e-15]];
+const BOUNDS: [[f64; 2]; 2] = [[5e-6, 8e-15], [1e-6, 3e-15]];

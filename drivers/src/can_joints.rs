@@ -296,9 +296,11 @@ impl<Bus: Can, Joint: PdCanJoint, const V: usize> PdDrives<V> for &CanJoints<Bus
 /// # let data = [0x24, 4, 0, 0x0a, 0, 0x50, 0, 0, 1, 0x70, 0xff, 0x23, 0x0d, 0x18, 0x14, 0];
 /// # let mut hal = Hal(vec![FdFrame::new(ExtendedId::new(0x100).unwrap(), &data).unwrap()]);
 /// let joints = CanJoints::new(Outbox::new(), [Moteus::new(1, 0, 10.0, mapping)?]);
-/// # let ticked = core::pin::pin!(tick(&mut hal, &joints));
-/// # let mut context = core::task::Context::from_waker(core::task::Waker::noop());
-/// # assert!(core::future::Future::poll(ticked, &mut context).is_ready());
+/// # {
+/// #     let ticked = core::pin::pin!(tick(&mut hal, &joints));
+/// #     let mut context = core::task::Context::from_waker(core::task::Waker::noop());
+/// #     assert!(core::future::Future::poll(ticked, &mut context).is_ready());
+/// # }
 /// # assert_eq!(hal.0[0].data()[9..13], 0.5_f32.to_le_bytes());
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```

@@ -189,9 +189,9 @@ pub enum Reply {
 /// let reply = FdFrame::new(StandardId::new(0x11).unwrap(), &data).unwrap();
 /// let Reply::State(state) = drive.reply(&reply)? else { panic!("another message") };
 /// assert!(state.position.abs() < 2e-4 && (state.torque - 1.0).abs() < 5e-3);
-/// let hold = Setpoint { position: 0.5, kp: 50.0, kd: 1.0, ..Setpoint::default() };
+/// let hold = Setpoint { position: 0.5, kp: 40.0, kd: 1.0, ..Setpoint::default() };
 /// let command: FdFrame = drive.command(&hold)?;
-/// assert_eq!(command.data(), [0x85, 0x1e, 0x80, 0x01, 0x9a, 0x33, 0x38, 0x00]);
+/// assert_eq!(command.data(), [0x85, 0x1e, 0x80, 0x01, 0x48, 0x33, 0x38, 0x00]);
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -303,7 +303,7 @@ impl<P: Protocol> Drive<P> {
     /// A spring, a damper and a feed-forward torque, which is limited to the greatest.
     ///
     /// Velocity and gains are limited to their scales. The gains are zero if a quantity is not
-    /// finite or a gain is below zero, if the position is beyond the scale, and before the first
+    /// finite or a gain is below zero, if the position is not within the scale, and before the first
     /// reply, since the turn of the joint is not known. A torque of NaN is zero torque with zero
     /// gains.
     ///
@@ -392,8 +392,11 @@ impl<P: Protocol> Drive<P> {
         let mapping = self.mapping.mapping();
         let position = self.shaft_at(position)?;
         let velocity = velocity * mapping.shaft_per_joint();
-        let is_sent = position.abs() <= self.axes.position.most
-            && velocity.is_finite()
+        let count = self.axes.position.count(position);
+        // The ends of the scale are what a position beyond it becomes, and the start of the frames
+        // without quantities.
+        let is_sent = (count != 0 && count != u16::MAX)
+            && (position.is_finite() && velocity.is_finite())
             && (kp >= 0.0 && kp.is_finite())
             && (kd >= 0.0 && kd.is_finite())
             && !torque.is_nan();
@@ -403,7 +406,7 @@ impl<P: Protocol> Drive<P> {
         // A gain of the joint is the square of the ratio times that of the shaft.
         let at_shaft = |gain| mapping.shaft_torque(mapping.shaft_torque(gain).ok()?).ok();
         Some(Counts {
-            position: self.axes.position.count(position),
+            position: count,
             velocity: self.axes.velocity.count(velocity),
             kp: self.axes.kp.count(at_shaft(kp)?),
             kd: self.axes.kd.count(at_shaft(kd)?),
@@ -467,29 +470,35 @@ fn not_finite(_: MappingError) -> CanError {
     CanError::NotFinite
 }
 
-/// The counts of a quantity from `least` to `most`.
+/// The counts of a quantity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Axis {
-    least: f32,
     most: f32,
     per_unit: f32,
     per_count: f32,
+    /// The count of zero: half of the last one, or zero for a gain.
+    zero: f32,
 }
 
 impl Axis {
-    fn new(least: f32, most: f32, top: u16) -> Self {
-        let (top, span) = (f32::from(top), most - least);
-        Self { least, most, per_unit: top / span, per_count: span / top }
+    fn gain(most: f32, top: u16) -> Self {
+        let top = f32::from(top);
+        Self { most, per_unit: top / most, per_count: most / top, zero: 0.0 }
+    }
+
+    fn signed(most: f32, top: u16) -> Self {
+        let half = 0.5 * f32::from(top);
+        Self { most, per_unit: half / most, per_count: most / half, zero: half }
     }
 
     /// The nearest count; that of the end for a quantity beyond it.
     fn count(&self, quantity: f32) -> u16 {
         // The conversion makes zero of what is below it.
-        ((can::limit(quantity, self.most) - self.least) * self.per_unit + 0.5) as u16
+        (can::limit(quantity, self.most) * self.per_unit + (self.zero + 0.5)) as u16
     }
 
     fn value(&self, count: u16) -> f32 {
-        f32::from(count) * self.per_count + self.least
+        (f32::from(count) - self.zero) * self.per_count
     }
 }
 
@@ -511,13 +520,12 @@ impl Axes {
         if ![position, velocity, torque, kp, kd].into_iter().all(is_one) {
             return Err(CanError::NotFinite);
         }
-        let signed = |most: f32| Axis::new(-most, most, top);
         Ok(Self {
-            position: Axis::new(-position, position, u16::MAX),
-            velocity: signed(velocity),
-            torque: signed(torque),
-            kp: Axis::new(0.0, kp, top),
-            kd: Axis::new(0.0, kd, top),
+            position: Axis::signed(position, u16::MAX),
+            velocity: Axis::signed(velocity, top),
+            torque: Axis::signed(torque, top),
+            kp: Axis::gain(kp, top),
+            kd: Axis::gain(kd, top),
         })
     }
 }

@@ -8,30 +8,30 @@ use crate::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, Robot};
 ///
 /// The base frame is that of the shoulder, z upwards and the arm on the side of −y.
 ///
-/// | joints | motor by Damiao | gear | torque held, peak, N·m | current held, peak, A | speed, rad/s |
-/// |---|---|---|---|---|---|
-/// | 1, 2 | DM-J8009P-2EC | 9 | 20, 40 | 20, 50 | 16.755 |
-/// | 3, 4 | DM-J4340-2EC, 24 V | 40 | 9, 27 | 2.5, 8 | 5.4454 |
-/// | 5, 6, 7 | DM-J4310-2EC V1.1 | 10 | 3, 7 | 2.5, 7.5 | 20.944 |
+/// | joints | motor by Damiao | gear | N·m held, peak | N·m/A | rotor, kg m² | rad/s |
+/// |---|---|---|---|---|---|---|
+/// | 1, 2 | DM-J8009P-2EC | 9 | 20, 40 | 1.2616 | 1.95e-4 | 16.755 |
+/// | 3, 4 | DM-J4340P-2EC, DM-J4340-2EC | 40 | 9, 27 | 4.074 | 2e-5 | 5.4454 |
+/// | 5, 6, 7 | DM-J4310-2EC V1.1 | 10 | 3, 7 | 0.945 | 1.8e-5 | 20.944 |
 ///
-/// The limits of torque are peaks, and those of speed the speeds without load at 24 V, so that no
-/// motor reaches both at once. The maker publishes neither torque constants nor rotor inertias.
-/// Torque over current is no constant: 1 N·m/A held and 0.8 N·m/A at the peak for the first motor,
-/// 3.6 and 3.375 for the second, 1.2 and 0.933 for the third, at the joint.
+/// Torque constants are at the joint, per ampere of phase current and without losses of the gear;
+/// rotors are before the gear. The limits of torque are peaks, and those of speed the speeds
+/// without load at 24 V, so that no motor reaches both at once.
 ///
 /// # Source
 ///
 /// - Kinematics, inertias, positions, torques: enactic/openarm_mujoco 2.1.0 (commit 396c88d8,
 ///   `v2/openarm_bimanual.xml`, Apache-2.0).
-/// - Motors: the maker's manuals in enactic/openarm (commit 1080ae9a,
+/// - Torques and speeds of motors: the maker's manuals in enactic/openarm (commit 1080ae9a,
 ///   `website/static/file/hardware/specification/motor`): `dm8009.pdf`, page 8; `dm4340.pdf`, page
-///   8; `dm4310.pdf`, page 9. `website/docs/hardware/openarm-2.0/motor.mdx` there has the same. The
-///   manual is of the DM-J8009, whose data the project uses for the DM-J8009P.
+///   8; `dm4310.pdf`, page 9. The project takes the DM-J8009's for the DM-J8009P.
+/// - Torque constants and rotors, which the manuals do not have: the table of Seeed, who sells
+///   these motors, wiki.seeedstudio.com/cn/damiao_series of 2025-06-01.
 ///
 /// # Changed
 ///
-/// - The numbers are those of `robot-import`, inertias rounded to seven digits or 1e-12 kg m². The base link is
-///   omitted since it does not move.
+/// - The numbers are those of `robot-import`, inertias rounded to seven digits or 1e-12 kg m². The
+///   base link is omitted since it does not move.
 /// - The two fingers, 0.24 kg, are part of the hand, at half of their stroke of 0.7854 rad. Closed
 ///   or open, they move the centre of mass of hand and fingers by less than 2 mm and change their
 ///   moments of inertia by at most 25 %.
@@ -50,14 +50,11 @@ use crate::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, Robot};
 pub struct OpenArm;
 
 impl OpenArm {
-    /// The rotors' inertias as the joints feel them, kg m²: estimates of others times the squares
-    /// of the gears.
+    /// The rotors' inertias as the joints feel them, kg m²: those of the table above times the
+    /// squares of the gears.
     ///
-    /// They are 1.95e-4 kg m² for the DM8009 (ting5619/RL_wheellegged, commit d0e05fd5,
-    /// `source/rl_wheellegged/robot.py`, MIT), 2e-5 for the DM4340 and 1.8e-5 for the DM4310
-    /// (mujocolab/mjlab, commit 5c26efb3, `src/mjlab/asset_zoo/robots/i2rt_yam/yam_constants.py`,
-    /// Apache-2.0, at the joint). The source of the links has 1e-4 kg m² for every rotor whatever
-    /// its size: 0.0081, 0.16 and 0.01 kg m² at the joint.
+    /// The source of the links has 1e-4 kg m² before the gear for each of these motors, large or
+    /// small: 0.0081, 0.16 and 0.01 kg m² at the joint.
     pub const ARMATURE: Armature<f32, 7> = {
         let [a, b, c] = [1.95e-4 * 81.0, 2e-5 * 1600.0, 1.8e-5 * 100.0];
         Armature([a, a, b, b, c, c, c])

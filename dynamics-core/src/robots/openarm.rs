@@ -40,10 +40,11 @@ use crate::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, Robot};
 /// use dynamics_core::effects::{Coriolis, Gravity, Inertia};
 /// use dynamics_core::{Engine, robots::OpenArm, state::State};
 /// let scene = (Gravity::EARTH, Inertia, Coriolis, OpenArm::ARMATURE, OpenArm::FRICTION);
-/// let mut state = State::<f32, 7, 7>::default();
+/// let mut state = State::at([0.0_f32; 7]);
 /// let hanging = Engine::<OpenArm>::rnea(&state, &scene);
 /// state.qd[3] = 0.5;
 /// let moving = Engine::<OpenArm>::rnea(&state, &scene);
+/// // The elbow's friction, of which two thirds grow with speed.
 /// assert!((moving[3] - hanging[3] - (0.166 + 0.813 * 0.5)).abs() < 0.01);
 /// ```
 #[derive(Clone, Copy, Debug, Default)]
@@ -63,9 +64,9 @@ impl OpenArm {
     /// Friction as the project compensates it: enactic/openarm_teleop (commit a0ca06ab,
     /// `config/follower.yaml`, Apache-2.0), which fits F_c tanh(k q̇) + F_v q̇ + F_o.
     ///
-    /// The width is 1.5/k of joints 1 to 3, where the slopes at rest agree; k is 130, 152, 242 and 8
-    /// s/rad in the others, and the project's code uses a tenth of each. The signs of F_o are those
-    /// of the drives, and the same for both arms. The fit is of a moving arm: stiction is not in it.
+    /// The width is 1.5/k of joints 1 to 3, where the slopes at rest agree; k is 130, 152, 242 and
+    /// 8 s/rad in the others, and the project's code uses a tenth of each. It has the same F_o for
+    /// its left and its right arm, so that their signs are not certain. Stiction is not in the fit.
     pub const FRICTION: (Coulomb<f32, 7>, Viscous<f32, 7>, ConstantTorque<f32, 7>) = (
         Coulomb {
             torque: [0.306, 0.306, 0.4, 0.166, 0.05, 0.093, 0.172],

@@ -28,6 +28,7 @@ fn each_robot(ask: &mut impl Ask) {
     ask.ask(&G1Free::MODEL);
     ask.ask(&Gen3::MODEL);
     ask.ask(&Iiwa14::MODEL);
+    ask.ask(&OpenArm::MODEL);
     ask.ask(&Panda::MODEL);
     ask.ask(&So101::MODEL);
     ask.ask(&Ur5e::MODEL);

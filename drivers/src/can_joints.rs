@@ -9,7 +9,8 @@ use motion_control::PreviousTick;
 use nb::Error::{Other, WouldBlock};
 
 use crate::can::CanError;
-use crate::mit::SetpointAt;
+use crate::mit::protocol::Protocol;
+use crate::mit::{Drive, SetpointAt};
 use crate::odrive::{AxisState, Reply};
 use crate::{EncoderType, JointDrives, JointEncoders, JointError, PdDrives, moteus, odrive};
 
@@ -138,6 +139,26 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> CanJoints<Bus, Joint, V> {
     /// Returns the bus to its owner.
     pub fn release(self) -> Bus {
         self.0.into_inner().bus
+    }
+}
+
+impl<Bus: Can, P: Protocol, const V: usize> CanJoints<Bus, Drive<P>, V> {
+    /// Lets the drives deliver torque: that of their last command, send one of zero before.
+    ///
+    /// # Errors
+    /// The first joint whose frame was not sent.
+    pub fn enable(&self) -> Result<(), JointError<CanError>> {
+        let error = JointError { joint: 0, error: CanError::Full };
+        self.0.try_borrow_mut().map_err(|_| error)?.send(&[(); V], |drive, ()| drive.enable())
+    }
+
+    /// Takes the torque from the drives.
+    ///
+    /// # Errors
+    /// The first joint whose frame was not sent.
+    pub fn disable(&self) -> Result<(), JointError<CanError>> {
+        let error = JointError { joint: 0, error: CanError::Full };
+        self.0.try_borrow_mut().map_err(|_| error)?.send(&[(); V], |drive, ()| drive.disable())
     }
 }
 

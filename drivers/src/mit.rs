@@ -47,7 +47,7 @@ use crate::{EncoderMapping, MappingError};
 
 pub mod cubemars;
 pub mod damiao;
-mod protocol;
+pub(crate) mod protocol;
 pub mod robstride;
 
 use protocol::{Counts, Feedback, Protocol, Special};

@@ -26,7 +26,7 @@ use crate::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, Robot};
 ///   `website/static/file/hardware/specification/motor`): `dm8009.pdf`, page 8; `dm4340.pdf`, page
 ///   8; `dm4310.pdf`, page 9. The project takes the DM-J8009's for the DM-J8009P.
 /// - Torque constants and rotors, which the manuals do not have: the table of Seeed, who sells
-///   these motors, wiki.seeedstudio.com/cn/damiao_series of 2025-06-01.
+///   these motors, wiki.seeedstudio.com/damiao_series of 2025-06-01.
 ///
 /// # Changed
 ///

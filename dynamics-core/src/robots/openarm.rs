@@ -26,12 +26,12 @@ use crate::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, Robot};
 ///   `website/static/file/hardware/specification/motor`): `dm8009.pdf`, page 8; `dm4340.pdf`, page
 ///   8; `dm4310.pdf`, page 9. The project takes the DM-J8009's for the DM-J8009P.
 /// - Torque constants and rotors, which the manuals do not have: the table of Seeed, who sells
-///   these motors, wiki.seeedstudio.com/cn/damiao_series of 2025-06-01.
+///   these motors, wiki.seeedstudio.com/damiao_series of 2025-06-01.
 ///
 /// # Changed
 ///
-/// - The numbers are those of `robot-import`, inertias rounded to seven digits or 1e-12 kg m². The
-///   base link is omitted since it does not move.
+/// - The numbers are those of `robot-import`, inertias rounded to seven digits or 1e-12 kg m², and
+///   the limits of position are whole degrees. The base link is omitted since it does not move.
 /// - The two fingers, 0.24 kg, are part of the hand, at half of their stroke of 0.7854 rad. Closed
 ///   or open, they move the centre of mass of hand and fingers by less than 2 mm and change their
 ///   moments of inertia by at most 25 %.
@@ -87,7 +87,9 @@ const fn micro(mut inertia: [f64; 6]) -> [f64; 6] {
     inertia
 }
 
+/// Degrees, N·m, rad/s.
 const fn limits(lower: f64, upper: f64, torque: f64, velocity: f64) -> JointLimits<f64> {
+    let [lower, upper] = [lower.to_radians(), upper.to_radians()];
     JointLimits { lower, upper, velocity, torque }
 }
 
@@ -100,42 +102,42 @@ impl Robot<7, 7, 7> for OpenArm {
                 .mass(1.14167)
                 .com([0.00090035, -0.044466, 2.88441e-5])
                 .inertia(micro([1094.326, 9.416377, 0.045343, 759.1993, 0.066675, 670.6591]))
-                .limits(limits(-1.3963, 3.4907, 40.0, 16.755)),
+                .limits(limits(-80.0, 200.0, 40.0, 16.755)),
             Body::new("link_2", 0, Joint::revolute([-1.0, 0.0, 0.0]))
                 .xyz([0.0, -0.06, 0.0])
                 .mass(0.277509)
                 .com([-0.0247185, 0.0, -0.0312643])
                 .inertia(micro([153.5892, -0.000294, 5.210584, 113.062, 0.000376, 82.29993]))
-                .limits(limits(-0.17453, 3.3161, 40.0, 16.755)),
+                .limits(limits(-10.0, 190.0, 40.0, 16.755)),
             Body::new("link_3", 1, Joint::revolute([0.0, 0.0, -1.0]))
                 .xyz([0.0, 0.0, -0.06625])
                 .mass(1.07386)
                 .com([-0.00300862, -0.000514813, -0.109368])
                 .inertia(micro([1289.393, -0.229972, -67.61588, 1140.192, -10.62605, 559.7657]))
-                .limits(limits(-1.5708, 1.5708, 27.0, 5.4454)),
+                .limits(limits(-90.0, 90.0, 27.0, 5.4454)),
             Body::new("link_4", 2, Joint::revolute([0.0, -1.0, 0.0]))
                 .xyz([0.0, 0.0, -0.15375])
                 .mass(0.634853)
                 .com([-0.00310326, -0.00136539, -0.0574601])
                 .inertia(micro([469.0039, 5.636289, -1.778799, 433.9264, 3.417705, 245.2117]))
-                .limits(limits(0.0, 2.4435, 27.0, 5.4454)),
+                .limits(limits(0.0, 140.0, 27.0, 5.4454)),
             Body::new("link_5", 3, Joint::revolute([0.0, 0.0, -1.0]))
                 .xyz([0.0, 0.0, -0.0955])
                 .mass(0.615659)
                 .com([-0.000737189, -0.000412407, -0.0470938])
                 .inertia(micro([279.6537, 3.317425, 0.768098, 334.5994, -0.149934, 176.6629]))
-                .limits(limits(-1.5708, 1.5708, 7.0, 20.944)),
+                .limits(limits(-90.0, 90.0, 7.0, 20.944)),
             Body::new("link_6", 4, Joint::revolute([0.0, 1.0, 0.0]))
                 .xyz([0.0, 0.0, -0.1205])
                 .mass(0.475203)
                 .com([2.27438e-5, 0.000686496, 5.44e-5])
                 .inertia(micro([179.2759, 0.065869, -0.03371, 136.2479, 0.033255, 135.3402]))
-                .limits(limits(-0.7854, 0.7854, 7.0, 20.944)),
+                .limits(limits(-45.0, 45.0, 7.0, 20.944)),
             Body::new("hand", 5, Joint::revolute([1.0, 0.0, 0.0]))
                 .mass(0.768019)
                 .com([0.005095035, 0.006061044, -0.06917247])
                 .inertia(micro([669.7859, -31.3882, -128.5322, 518.1219, -48.54419, 545.6163]))
-                .limits(limits(-1.5708, 1.5708, 7.0, 20.944)),
+                .limits(limits(-90.0, 90.0, 7.0, 20.944)),
         ],
     );
 }

@@ -50,14 +50,8 @@ const fn numbers() -> [u8; N] {
 /// The drives on their bus.
 pub type Joints<Bus> = CanJoints<Bus, Drive, N>;
 /// The control loop of the robot.
-pub type Control<Bus, Brake, D> = ControlLoop<
-    &'static Joints<Bus>,
-    &'static Joints<Bus>,
-    Brake,
-    N,
-    D,
-    Measured<PreviousTick>,
->;
+pub type Control<Bus, Brake, D> =
+    ControlLoop<&'static Joints<Bus>, &'static Joints<Bus>, Brake, N, D, Measured<PreviousTick>>;
 
 /// The connections of the board.
 #[derive(Debug)]
@@ -79,14 +73,16 @@ pub fn plan(place: &mut Motion) -> Result<(), SetupError> {
 }
 
 /// The drive of a joint that can have the joint's greatest torque, or that of its motor.
-fn drive(
-    joint: usize,
-    most: f32,
-    mapping: EncoderMapping,
-) -> Result<Drive, JointError<CanError>> {
+fn drive(joint: usize, most: f32, mapping: EncoderMapping) -> Result<Drive, JointError<CanError>> {
     let number = NUMBERS[joint];
     let most = most.min(SCALES[joint].torque);
-    let drive = Drive::new(number, 0x10 + u16::from(number), SCALES[joint], most, mapping);
+    let drive = Drive::new(
+        number,
+        0x10 + u16::from(number),
+        SCALES[joint],
+        most,
+        mapping,
+    );
     drive.map_err(|error| JointError { joint, error })
 }
 

@@ -8,7 +8,7 @@ use stm32g4xx_hal::rcc::{Config, PllConfig, PllMDiv, PllNMul, PllRDiv, PllSrc, R
 use stm32g4xx_hal::time::RateExtU32;
 
 use crate::board::{self, Joints};
-use crate::can::{Bus, Queues};
+use crate::can::Bus;
 
 /// A high level holds the joints.
 pub type Brake = PB10<Output>;
@@ -17,11 +17,11 @@ pub type Button = PC13<Input>;
 /// The green light.
 pub type Light = PA5<Output>;
 
-/// The memory of the bus.
-pub struct Kept(Queues, Option<Joints<Bus>>);
+/// The memory of the drives.
+pub struct Kept(Option<Joints<Bus>>);
 
 impl Kept {
-    pub const NONE: Self = Self(Queues::new(), None);
+    pub const NONE: Self = Self(None);
 }
 
 pub type Devices = board::Devices<Bus, Brake>;
@@ -69,8 +69,8 @@ pub fn connect(device: Peripherals, kept: &'static mut Kept) -> Connected {
     // The brake first.
     let brake = b.pb10.into_push_pull_output_in_state(true.into());
     let _: (PA12<AF9>, PA11<AF9>) = (a.pa12.into_alternate(), a.pa11.into_alternate());
-    let Kept(queues, joints) = kept;
-    let bus = Bus::start(device.FDCAN1, queues, &mut rcc);
+    let bus = Bus::start(device.FDCAN1, &mut rcc);
+    let joints = &mut kept.0;
     Connected {
         devices: Devices { bus, joints, brake },
         button: c.pc13.into_floating_input(),

@@ -11,78 +11,65 @@ use cortex_m::interrupt::{Mutex, free};
 use cortex_m::peripheral::NVIC;
 use embedded_can::nb::Can;
 use embedded_can::{ErrorKind, ExtendedId, Frame, Id, StandardId};
-use heapless::spsc::{Consumer, Producer, Queue};
+use heapless::Deque;
 use joint_drivers::can::FdFrame;
 use stm32g4xx_hal::interrupt;
 use stm32g4xx_hal::pac::{FDCAN1, Interrupt};
 use stm32g4xx_hal::rcc::{Enable, Rcc, Reset};
 
 /// Frames of each queue: those of a tick, and as many that are late.
-const FRAMES: usize = 17;
+const FRAMES: usize = 16;
 
-/// The queues, which `start` puts to work.
-pub struct Queues {
-    to_send: Queue<FdFrame, FRAMES>,
-    came: Queue<FdFrame, FRAMES>,
-}
-
-impl Queues {
-    pub const fn new() -> Self {
-        Self {
-            to_send: Queue::new(),
-            came: Queue::new(),
-        }
-    }
-}
-
-/// The bus of the drives: the queues' other ends.
-pub struct Bus {
-    to_send: Producer<'static, FdFrame>,
-    came: Consumer<'static, FdFrame>,
-}
-
-/// The interrupt's ends, and the peripheral.
+/// The peripheral, and the frames that it cannot hold.
 struct Chip {
-    can: FDCAN1,
-    to_send: Consumer<'static, FdFrame>,
-    came: Producer<'static, FdFrame>,
+    can: Option<FDCAN1>,
+    to_send: Deque<FdFrame, FRAMES>,
+    came: Deque<FdFrame, FRAMES>,
 }
 
-static CHIP: Mutex<RefCell<Option<Chip>>> = Mutex::new(RefCell::new(None));
+static CHIP: Mutex<RefCell<Chip>> = Mutex::new(RefCell::new(Chip {
+    can: None,
+    to_send: Deque::new(),
+    came: Deque::new(),
+}));
+
+/// Calls a function while no interrupt is served: nobody else has the chip then.
+fn with_chip<T>(call: impl FnOnce(&mut Chip) -> T) -> Option<T> {
+    free(|cs| {
+        CHIP.borrow(cs)
+            .try_borrow_mut()
+            .ok()
+            .map(|mut chip| call(&mut chip))
+    })
+}
+
+/// The bus of the drives.
+pub struct Bus(());
 
 impl Bus {
     /// The bus on its pins, with a crystal of 24 MHz.
-    pub fn start(can: FDCAN1, queues: &'static mut Queues, rcc: &mut Rcc) -> Self {
+    pub fn start(can: FDCAN1, rcc: &mut Rcc) -> Self {
         FDCAN1::enable(rcc);
         FDCAN1::reset(rcc);
         can.cccr().modify(|_, w| w.init().set_bit());
         while can.cccr().read().init().bit_is_clear() {}
         can.cccr().modify(|_, w| w.cce().set_bit());
-        // 24 quanta a bit, sampled after 21 of them; the fields are less by one.
+        // 24 quanta a bit, sampled after 21 of them; each field is less by one.
         // SAFETY: values of these fields.
         can.nbtp().write(|w| unsafe {
-            (w.nbrp().bits(0).ntseg1().bits(19))
-                .ntseg2()
-                .bits(2)
-                .nsjw()
-                .bits(2)
+            let w = w.nbrp().bits(0).ntseg1().bits(19);
+            w.ntseg2().bits(2).nsjw().bits(2)
         });
-        // Every frame into the first queue: after a reset there is no filter.
-        can.txbtie().write(|w| unsafe { w.bits(0b111) }); // SAFETY: the three places.
+        // Every frame goes into the first queue: after a reset there is no filter.
+        // SAFETY: the three places of frames to be sent.
+        can.txbtie().write(|w| unsafe { w.bits(0b111) });
         can.ie().write(|w| w.rf0ne().set_bit().tce().set_bit());
         can.ile().write(|w| w.eint0().set_bit());
         can.cccr().modify(|_, w| w.init().clear_bit());
-        let (to_send, from_tick) = queues.to_send.split();
-        let (to_tick, came) = queues.came.split();
-        let chip = Chip {
-            can,
-            to_send: from_tick,
-            came: to_tick,
-        };
-        free(|cs| CHIP.borrow(cs).replace(Some(chip)));
-        // SAFETY: nothing waits for this interrupt to be masked.
+        with_chip(|chip| chip.can = Some(can));
+        // SAFETY: nothing relies on this interrupt being masked.
         unsafe { NVIC::unmask(Interrupt::FDCAN1_IT0) };
-        Self { to_send, came }
+        Self(())
     }
 }
 
@@ -91,23 +78,24 @@ impl Can for Bus {
     type Error = ErrorKind;
 
     fn transmit(&mut self, frame: &FdFrame) -> nb::Result<Option<FdFrame>, ErrorKind> {
-        let queued = self.to_send.enqueue(*frame);
+        let queued = with_chip(|chip| chip.to_send.push_back(*frame).is_ok());
         NVIC::pend(Interrupt::FDCAN1_IT0);
-        queued.map(|()| None).map_err(|_| nb::Error::WouldBlock)
+        match queued {
+            Some(true) => Ok(None),
+            _ => Err(nb::Error::WouldBlock),
+        }
     }
 
     fn receive(&mut self) -> nb::Result<FdFrame, ErrorKind> {
-        self.came.dequeue().ok_or(nb::Error::WouldBlock)
+        with_chip(|chip| chip.came.pop_front())
+            .flatten()
+            .ok_or(nb::Error::WouldBlock)
     }
 }
 
 #[interrupt]
 fn FDCAN1_IT0() {
-    free(|cs| {
-        if let Some(chip) = CHIP.borrow(cs).borrow_mut().as_mut() {
-            chip.exchange();
-        }
-    });
+    with_chip(Chip::exchange);
 }
 
 /// The message RAM of FDCAN1, the places of received frames and of those to be sent in it, and
@@ -123,7 +111,9 @@ const REMOTE: u32 = 1 << 29;
 impl Chip {
     /// Moves frames between the chip and the queues.
     fn exchange(&mut self) {
-        let can = &self.can;
+        let Some(can) = &self.can else {
+            return;
+        };
         can.ir().write(|w| w.rf0n().set_bit().tc().set_bit());
         // Off the bus after 255 errors; it comes back after 128 times 11 recessive bits.
         if can.psr().read().bo().bit() {
@@ -135,10 +125,10 @@ impl Chip {
             // SAFETY: the place that was just read.
             can.rxf0a().write(|w| unsafe { w.f0ai().bits(at) });
             // Without room its joint has no reply in this tick, which is said there.
-            let _ = frame.map(|frame| self.came.enqueue(frame));
+            let _ = frame.map(|frame| self.came.push_back(frame));
         }
         while !can.txfqs().read().tfqf().bit() {
-            let Some(frame) = self.to_send.dequeue() else {
+            let Some(frame) = self.to_send.pop_front() else {
                 break;
             };
             let at = can.txfqs().read().tfqpi().bits();

@@ -14,7 +14,8 @@ pub enum CanError {
     Node,
     /// The greatest torque is not above zero, or not finite.
     Torque,
-    /// The frame type does not hold this many bytes: `embedded_can::Frame::new` returned `None`.
+    /// The frame type does not hold this many bytes: `embedded_can::Frame::new` returned `None`. Or
+    /// a reply has this many, more than it should.
     Length(usize),
     /// The identifier is that of another node, another host or another message.
     Identifier,
@@ -38,6 +39,24 @@ pub enum CanError {
     NotReady,
     /// The node delivers no torque, because of the fault or the errors of this number.
     Fault(u32),
+    /// The node delivers no torque, since a part of it is too hot.
+    OverTemperature(Part),
+    /// The node delivers no torque, since its supply has too much voltage.
+    OverVoltage,
+    /// The node delivers no torque, since its supply has too little voltage.
+    UnderVoltage,
+    /// The node delivers no torque, since a phase has had too much current.
+    OverCurrent,
+    /// The node delivers no torque, since it was overloaded or did not turn under load.
+    Overload,
+    /// The node delivers no torque, since no command came for the time of its watchdog.
+    LostCommunication,
+    /// The node delivers no torque, since its encoder failed or is not calibrated.
+    Encoder,
+    /// The position is at the end of its scale, or beyond.
+    Range,
+    /// The node has another scale than expected in this register.
+    Scale(u8),
     /// The node refused to read or write a register.
     Register {
         /// The number of the register.
@@ -45,6 +64,21 @@ pub enum CanError {
         /// The node's error number.
         code: u32,
     },
+}
+
+/// A part of a node that can be too hot.
+///
+/// ```
+/// use joint_drivers::can::{CanError, Part};
+/// let error = CanError::OverTemperature(Part::Motor);
+/// assert_eq!(error.to_string(), "the node's motor is too hot");
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// The power stage.
+    Drive,
+    /// The winding.
+    Motor,
 }
 
 impl fmt::Display for CanError {
@@ -64,6 +98,18 @@ impl fmt::Display for CanError {
             Self::NoReply => out.write_str("no position came since the last tick"),
             Self::NotReady => out.write_str("the node delivers no torque"),
             Self::Fault(number) => write!(out, "the node reports the fault {number:#x}"),
+            Self::OverTemperature(Part::Drive) => {
+                out.write_str("the node's power stage is too hot")
+            }
+            Self::OverTemperature(Part::Motor) => out.write_str("the node's motor is too hot"),
+            Self::OverVoltage => out.write_str("the node's supply has too much voltage"),
+            Self::UnderVoltage => out.write_str("the node's supply has too little voltage"),
+            Self::OverCurrent => out.write_str("a phase of the node has had too much current"),
+            Self::Overload => out.write_str("the node was overloaded"),
+            Self::LostCommunication => out.write_str("the node has missed its commands"),
+            Self::Encoder => out.write_str("the node's encoder failed or is not calibrated"),
+            Self::Range => out.write_str("the position is at the end of its scale"),
+            Self::Scale(register) => write!(out, "register {register} has another scale"),
             Self::Register { register, code } => {
                 write!(out, "the node refused register {register:#05x} with {code}")
             }

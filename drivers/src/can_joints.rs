@@ -3,14 +3,16 @@
 
 use core::cell::RefCell;
 
-use embedded_can::Error as _;
 use embedded_can::nb::Can;
+use embedded_can::{Error as _, ErrorKind};
 use motion_control::PreviousTick;
 use nb::Error::{Other, WouldBlock};
 
 use crate::can::CanError;
+use crate::mit::protocol::Protocol;
+use crate::mit::{Drive, SetpointAt};
 use crate::odrive::{AxisState, Reply};
-use crate::{EncoderType, JointDrives, JointEncoders, JointError, moteus, odrive};
+use crate::{EncoderType, JointDrives, JointEncoders, JointError, PdDrives, moteus, odrive};
 
 /// A motor controller on CAN that measures its joint and takes torques.
 pub trait CanJoint {
@@ -27,13 +29,22 @@ pub trait CanJoint {
     fn report<F: embedded_can::Frame>(&mut self, frame: &F) -> Result<Report, CanError>;
 }
 
+/// A motor controller on CAN with a spring and a damper of its own: [`crate::mit::Drive`].
+pub trait PdCanJoint: CanJoint {
+    /// The frame of a spring, a damper and the torque that makes their sum that of the setpoint.
+    ///
+    /// # Errors
+    /// [`CanError::Length`].
+    fn pd_command<F: embedded_can::Frame>(&self, setpoint: &SetpointAt) -> Result<F, CanError>;
+}
+
 /// A joint's values from a frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Report {
     /// The joint's position, rad or m.
     pub position: Option<f32>,
     /// Whether the controller delivers torques, or why it does not: [`CanError::NotReady`],
-    /// [`CanError::Fault`].
+    /// [`CanError::Fault`] and others.
     pub delivers: Option<Result<(), CanError>>,
 }
 
@@ -131,6 +142,26 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> CanJoints<Bus, Joint, V> {
     }
 }
 
+impl<Bus: Can, P: Protocol, const V: usize> CanJoints<Bus, Drive<P>, V> {
+    /// Lets the drives deliver torque: that of their last command, send one of zero before.
+    ///
+    /// # Errors
+    /// The first joint whose frame was not sent.
+    pub fn enable(&self) -> Result<(), JointError<CanError>> {
+        let error = JointError { joint: 0, error: CanError::Full };
+        self.0.try_borrow_mut().map_err(|_| error)?.send(&[(); V], |drive, ()| drive.enable())
+    }
+
+    /// Takes the torque from the drives.
+    ///
+    /// # Errors
+    /// The first joint whose frame was not sent.
+    pub fn disable(&self) -> Result<(), JointError<CanError>> {
+        let error = JointError { joint: 0, error: CanError::Full };
+        self.0.try_borrow_mut().map_err(|_| error)?.send(&[(); V], |drive, ()| drive.disable())
+    }
+}
+
 impl<Bus: Can, Joint: CanJoint, const V: usize> State<Bus, Joint, V> {
     /// Takes the frames that have come: no more than four of each joint, so that a bus that is busy
     /// ends the tick.
@@ -156,10 +187,15 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> State<Bus, Joint, V> {
         }
     }
 
-    fn send(&mut self, torques: &[f32; V]) -> Result<(), JointError<CanError>> {
+    /// Sends a frame for each joint.
+    fn send<T>(
+        &mut self,
+        all: &[T; V],
+        frame: impl Fn(&Joint, &T) -> Result<Bus::Frame, CanError>,
+    ) -> Result<(), JointError<CanError>> {
         let mut failed = Ok(());
-        for (joint, (of, &torque)) in self.joints.iter().zip(torques).enumerate() {
-            let sent = of.command(torque).and_then(|frame| {
+        for (joint, (of, each)) in self.joints.iter().zip(all).enumerate() {
+            let sent = frame(of, each).and_then(|frame| {
                 match self.bus.transmit(&frame) {
                     Ok(None) => Ok(()),
                     // Another frame, of a lower priority, was taken out of the queue for it.
@@ -170,6 +206,21 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> State<Bus, Joint, V> {
             failed = failed.and(sent.map_err(|error| JointError { joint, error }));
         }
         failed
+    }
+
+    /// The error of the first joint that failed, else of the first that is not ready.
+    fn delivered(&self) -> Result<(), JointError<CanError>> {
+        let mut faults = self.delivers.iter().enumerate();
+        let mut waiting = Ok(());
+        let failed = faults.find_map(|(joint, delivers)| {
+            let error = delivers.err()?;
+            if error == CanError::NotReady {
+                waiting = waiting.and(Err(JointError { joint, error }));
+                return None;
+            }
+            Some(JointError { joint, error })
+        });
+        failed.map_or(waiting, Err)
     }
 }
 
@@ -215,17 +266,114 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> JointDrives<V> for &CanJoints<Bu
             let error = CanError::Full;
             return Err(JointError { joint: 0, error });
         };
-        state.send(torques)?;
-        let mut faults = state.delivers.iter().enumerate();
-        let mut waiting = Ok(());
-        let failed = faults.find_map(|(joint, delivers)| {
-            let error = delivers.err()?;
-            if error == CanError::NotReady {
-                waiting = waiting.and(Err(JointError { joint, error }));
-                return None;
+        state.send(torques, |joint, &torque| joint.command(torque))?;
+        state.delivered()
+    }
+}
+
+impl<Bus: Can, Joint: PdCanJoint, const V: usize> PdDrives<V> for &CanJoints<Bus, Joint, V> {
+    fn set_sums(&mut self, sums: &[SetpointAt; V]) -> Result<(), JointError<CanError>> {
+        let Ok(mut state) = self.0.try_borrow_mut() else {
+            let error = CanError::Full;
+            return Err(JointError { joint: 0, error });
+        };
+        let delivered = state.delivered();
+        state.send(sums, |joint, setpoint| {
+            if delivered.is_ok() {
+                joint.pd_command(setpoint)
+            } else {
+                joint.command(setpoint.sum.torque)
             }
-            Some(JointError { joint, error })
-        });
-        failed.map_or(waiting, Err)
+        })?;
+        delivered
+    }
+}
+
+/// A bus in memory, for a task that awaits its own: [`CanJoints`] over it has the frames to send in
+/// [`CanJoints::commands`], and takes those that came by [`CanJoints::receive`].
+///
+/// `embedded-can` has no asynchronous trait, so that each HAL of Embassy has functions of its own:
+///
+/// ```
+/// use embedded_can::{ExtendedId, Frame};
+/// use joint_drivers::{CanJoints, JointDrives, JointEncoders, JointMapping, JointRange, Outbox};
+/// use joint_drivers::{can::FdFrame, moteus::Moteus};
+/// # struct Hal(Vec<FdFrame>);
+/// # impl Hal {
+/// #     async fn read(&mut self) -> FdFrame { self.0.pop().unwrap() }
+/// #     async fn write(&mut self, frame: &FdFrame) { self.0.push(*frame) }
+/// # }
+/// async fn tick(can: &mut Hal, joints: &CanJoints<Outbox<FdFrame, 1>, Moteus, 1>) {
+///     joints.receive(&can.read().await);
+///     let (mut encoders, mut drives) = (joints, joints); // those of a `ControlLoop`
+///     if encoders.read().is_ok() {
+///         let _ = drives.set_torques(&[0.5]);
+///     }
+///     for frame in joints.commands().into_iter().flatten() {
+///         can.write(&frame).await;
+///     }
+/// }
+/// # let mapping = JointMapping::IDENTITY.with_range(JointRange::Near(0.0), 5e-3)?;
+/// # let data = [0x24, 4, 0, 0x0a, 0, 0x50, 0, 0, 1, 0x70, 0xff, 0x23, 0x0d, 0x18, 0x14, 0];
+/// # let mut hal = Hal(vec![FdFrame::new(ExtendedId::new(0x100).unwrap(), &data).unwrap()]);
+/// let joints = CanJoints::new(Outbox::new(), [Moteus::new(1, 0, 10.0, mapping)?]);
+/// # {
+/// #     let ticked = core::pin::pin!(tick(&mut hal, &joints));
+/// #     let mut context = core::task::Context::from_waker(core::task::Waker::noop());
+/// #     assert!(core::future::Future::poll(ticked, &mut context).is_ready());
+/// # }
+/// # assert_eq!(hal.0[0].data()[9..13], 0.5_f32.to_le_bytes());
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Outbox<F, const V: usize>([Option<F>; V]);
+
+impl<F, const V: usize> Outbox<F, V> {
+    /// An empty one, with room for a frame of each joint.
+    pub const fn new() -> Self {
+        Self([const { None }; V])
+    }
+}
+
+impl<F, const V: usize> Default for Outbox<F, V> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<F: embedded_can::Frame + Clone, const V: usize> Can for Outbox<F, V> {
+    type Frame = F;
+    type Error = ErrorKind;
+
+    /// Keeps the frame, if those of the last tick were taken.
+    fn transmit(&mut self, frame: &F) -> nb::Result<Option<F>, ErrorKind> {
+        let free = self.0.iter_mut().find(|frame| frame.is_none());
+        *free.ok_or(WouldBlock)? = Some(frame.clone());
+        Ok(None)
+    }
+
+    fn receive(&mut self) -> nb::Result<F, ErrorKind> {
+        Err(WouldBlock)
+    }
+}
+
+impl<F, Joint: CanJoint, const V: usize> CanJoints<Outbox<F, V>, Joint, V>
+where
+    F: embedded_can::Frame + Clone,
+{
+    /// Takes a frame that has come; one that is wrong says nothing.
+    pub fn receive(&self, frame: &F) {
+        // Nobody else holds it: each of these functions returns it before it ends.
+        if let Ok(mut state) = self.0.try_borrow_mut() {
+            state.take(frame);
+        }
+    }
+
+    /// The frames to send, which are then no longer here. Frames that nobody takes are
+    /// [`CanError::Full`] in the next tick.
+    pub fn commands(&self) -> [Option<F>; V] {
+        let taken =
+            self.0.try_borrow_mut().map(|mut state| state.bus.0.each_mut().map(Option::take));
+        taken.unwrap_or([const { None }; V])
     }
 }

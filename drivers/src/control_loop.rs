@@ -7,9 +7,9 @@
 use dynamics_core::state::State;
 use embedded_hal::digital::OutputPin;
 use motion_control::{
-    Command, CompletedTick, Detect, Estimate, Fault, Gains, MeasurementAge, MotionController,
-    ObservedTick, OnCircles, Reference, ReferencedTick, ResetError, StopCategory, TickCounter,
-    feedback,
+    Command, CompletedTick, Detect, Estimate, Fault, Gains, MeasurementAge, Mode, MotionController,
+    ObservedTick, OnCircles, Reference, ReferencedTick, ResetError, Status, StopCategory,
+    TickCounter, feedback,
 };
 
 #[cfg(any(test, feature = "async"))]
@@ -288,7 +288,15 @@ where
             self.controller.react(fault);
         }
         probe.begin(Phase::Write);
-        self.write(&command.torque, command.brake);
+        let is_usual = || {
+            let Status { mode, fault, limited: _ } = command.status;
+            matches!(mode, Mode::Full) && fault.is_none() && found.is_ok() && !command.brake
+        };
+        if D::HAVE_PD && is_usual() {
+            self.write_with_pd(&command.torque);
+        } else {
+            self.write(&command.torque, command.brake);
+        }
         probe.end(Phase::Write);
         let telemetry = Telemetry {
             tick: clock,
@@ -363,6 +371,19 @@ where
     #[inline(never)]
     fn write(&mut self, torque: &[f32; V], brake: bool) {
         let failed = self.drives.set_torques(torque).err();
+        self.brake_and_react(failed, brake);
+    }
+
+    /// As [`Self::write`] in full operation without a fault.
+    #[inline(never)]
+    fn write_with_pd(&mut self, torque: &[f32; V]) {
+        let (reference, estimate) = (self.controller.reference(), self.controller.estimate());
+        let failed = self.drives.set_with_pd(torque, reference, estimate).err();
+        self.brake_and_react(failed, false);
+    }
+
+    #[inline(always)]
+    fn brake_and_react(&mut self, failed: Option<JointError<D::Error>>, brake: bool) {
         // A drive that may have failed: the brake at once, the other drives from the next tick on.
         let is_lost = |failed: &JointError<D::Error>| failed.error.kind() == DriveFaultKind::Failed;
         let set = if brake | failed.as_ref().is_some_and(is_lost) {

@@ -255,7 +255,7 @@ pub(crate) const fn floor(exact: f32) -> i32 {
 }
 
 /// An angle without its whole turns, within half a turn.
-const fn within_turn(angle: f32) -> f32 {
+pub(crate) const fn within_turn(angle: f32) -> f32 {
     // 2π in two parts, of which products with whole turns are exact up to 65,536 turns.
     const HIGH: f32 = 6.281_25;
     const LOW: f32 = (core::f64::consts::TAU - 6.281_25) as f32;

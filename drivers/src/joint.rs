@@ -8,8 +8,9 @@ use core::convert::Infallible;
 use core::error::Error;
 use core::fmt;
 
+use dynamics_core::state::State;
 use embedded_hal::digital::{self, OutputPin};
-use motion_control::{Fault, MeasurementAge};
+use motion_control::{Estimate, Fault, MeasurementAge};
 
 /// The properties of an encoder that do not depend on how it is accessed.
 ///
@@ -173,6 +174,25 @@ pub trait JointDrives<const V: usize> {
     /// The error of the first joint that failed, else of the first that is not ready; the torques
     /// of all others are set.
     fn set_torques(&mut self, torques: &[f32; V]) -> Result<(), JointError<Self::Error>>;
+
+    /// Whether a control loop calls [`Self::set_with_pd`] in full operation: for
+    /// [`PdOnDrives`](crate::PdOnDrives). Other drives do not pay for it.
+    const HAVE_PD: bool = false;
+
+    /// Sets the torques of the joints at their estimated state, and by reference and gains how they
+    /// change with it until the next tick.
+    ///
+    /// # Errors
+    /// As [`Self::set_torques`].
+    fn set_with_pd(
+        &mut self,
+        torques: &[f32; V],
+        reference: &State<f32, V, V>,
+        estimate: &Estimate<f32, V>,
+    ) -> Result<(), JointError<Self::Error>> {
+        let _ = (reference, estimate);
+        self.set_torques(torques)
+    }
 }
 
 /// The error of a drive, sorted by what a control loop has to do about it.

@@ -7,6 +7,7 @@
 //! | [`JointDrive`], [`JointDrives`] | sets N·m, and says whether it failed or is not ready |
 //! | [`ControlLoop`] | owns both and a brake; read, reference, law, limits, write in each tick |
 //! | [`Law`] | the model's torque |
+//! | [`PdOnDrives`] | the law's feedback on the drives as well, at their rate |
 //! | [`Probe`] | sees the phases of a tick |
 //!
 //! Each driver has the zero, the direction and the resolution of its joint as parameters
@@ -27,6 +28,9 @@
 //! | three half-bridges | PWM | voltage along d and q of a three-phase motor | [`three_phase`] |
 //! | moteus | CAN FD | torque; position, velocity, torque, mode and fault | [`moteus`] |
 //! | ODrive | CAN | torque; position, velocity, torque, state and errors | [`odrive`] |
+//! | Damiao DM-J | CAN, CAN FD | torque, spring and damper; position, velocity, torque, temperatures, faults, scales | [`mit::damiao`] |
+//! | RobStride 00 to 06 | CAN | the same without scales, by its own protocol and in MIT mode | [`mit::robstride`] |
+//! | CubeMars AK | CAN | the same without scales | [`mit::cubemars`] |
 //! | STS3215, six in the SO-101 | half-duplex UART | position or duty; position, 4096 counts per turn | [`feetech`] |
 //!
 //! All of them have this in common: a torque that is not a number becomes zero torque; errors are
@@ -80,14 +84,16 @@ pub mod h_bridge;
 pub mod incremental;
 mod joint;
 mod mapping;
+pub mod mit;
 pub mod moteus;
 mod multi_turn;
 pub mod odrive;
+mod pd_drives;
 #[cfg(test)]
 mod starts;
 pub mod three_phase;
 
-pub use can_joints::{CanJoint, CanJoints, Report};
+pub use can_joints::{CanJoint, CanJoints, Outbox, PdCanJoint, Report};
 pub use control_loop::{ControlLoop, Law, Phase, Probe, Telemetry};
 pub use encoder_mapping::{EncoderMapping, JointRange, LostTurn};
 pub use joint::{
@@ -96,3 +102,4 @@ pub use joint::{
 };
 pub use mapping::{Direction, JointMapping, MappingError, Resolution};
 pub use multi_turn::MultiTurnEncoder;
+pub use pd_drives::{PdDrives, PdOnDrives};

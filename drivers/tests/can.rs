@@ -11,8 +11,8 @@ use joint_drivers::{Direction, EncoderMapping, JointMapping, JointRange};
 use super::{identity, near_zero};
 
 /// A frame of classic CAN: at most 8 bytes.
-#[derive(Debug, PartialEq)]
-struct ClassicFrame(FdFrame);
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct ClassicFrame(pub(super) FdFrame);
 
 impl Frame for ClassicFrame {
     fn new(id: impl Into<Id>, data: &[u8]) -> Option<Self> {
@@ -44,11 +44,11 @@ impl Frame for ClassicFrame {
     }
 }
 
-fn standard(id: u16, data: &[u8]) -> FdFrame {
+pub(super) fn standard(id: u16, data: &[u8]) -> FdFrame {
     FdFrame::new(StandardId::new(id).unwrap(), data).unwrap()
 }
 
-fn extended(id: u32, data: &[u8]) -> FdFrame {
+pub(super) fn extended(id: u32, data: &[u8]) -> FdFrame {
     FdFrame::new(ExtendedId::new(id).unwrap(), data).unwrap()
 }
 

@@ -13,9 +13,9 @@ mod frames;
 use super::identity;
 
 #[derive(Default)]
-struct Bus {
+pub(super) struct Bus {
     received: Vec<FdFrame>,
-    sent: Vec<FdFrame>,
+    pub(super) sent: Vec<FdFrame>,
     error: Option<nb::Error<ErrorKind>>,
 }
 
@@ -63,7 +63,7 @@ fn odrive_frame(command: u16, data: [u8; 8]) -> FdFrame {
 
 const HALF_A_TURN: [u8; 8] = [0, 0, 0, 0x3f, 0, 0, 0, 0];
 
-fn heard(received: &[FdFrame]) -> Bus {
+pub(super) fn heard(received: &[FdFrame]) -> Bus {
     let received = received.to_vec();
     Bus { received, ..Bus::default() }
 }

@@ -14,6 +14,7 @@ mod feetech;
 mod incremental;
 mod lost_turn;
 mod mapping;
+mod mit;
 
 /// The mapping of a joint that starts near zero.
 fn near_zero(mapping: JointMapping) -> EncoderMapping {

@@ -177,6 +177,12 @@ serde_record!(effects::LoadFriction<R, V> {
     backdriving: Array<R, V>,
     width: R,
 });
+serde_record!(effects::PreslidingLoadFriction<R, V> {
+    magnitude: Array<R, V>,
+    torque: Array<R, V>,
+    deflection: Array<R, V>,
+    direction: Array<R, V>,
+});
 serde_record!(effects::Stribeck<R, V> { excess: Array<R, V>, stribeck_speed: R, width: R });
 serde_record!(effects::Lugre<R, V> {
     stiffness: Array<R, V>,

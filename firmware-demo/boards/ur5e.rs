@@ -10,6 +10,8 @@ use motion_control::{Detect, Detectors, Gains};
 
 pub use firmware_demo::scenes::ur5e::plan;
 
+/// A tick, s.
+pub const TICK: f32 = PickAndPlace::TICK;
 /// Joints.
 pub const N: usize = 6;
 pub type Motion = <PickAndPlace as Scene<N, N, N, N>>::Reference;
@@ -27,6 +29,8 @@ pub fn gains() -> Gains<f32, N> {
 pub fn detectors(_: &Motion) -> Found {
     PickAndPlace::detectors()
 }
+
+pub fn enable<Encoders>(_: &mut Encoders) {}
 
 /// # Errors
 /// As [`Scene::control_loop`].

@@ -1,7 +1,7 @@
 //! The fuzz targets on a fixed stream of bytes: the bounded run of the package `host-tests/fuzz`.
 
 use host_tests::everyday_or_full;
-use host_tests::fuzz::{controller, description, dynamics, frames};
+use host_tests::fuzz::{BYTES_PER_FRAME, can_frames, controller, description, dynamics, frames};
 use host_tests::random::random_numbers;
 use proptest::prelude::RngExt;
 
@@ -32,4 +32,14 @@ fn no_inputs_drive_the_controller_beyond_its_limits() {
 #[test]
 fn no_frame_is_mistaken_for_another() {
     run(frames, 2_000);
+}
+
+#[test]
+fn no_frame_of_a_drive_says_or_does_what_it_should_not() {
+    let rng = &mut random_numbers();
+    // 10⁷ replies and as many commands in full.
+    for _ in 0..everyday_or_full(100, 10_000) {
+        let bytes: Vec<u8> = (0..1_000 * BYTES_PER_FRAME).map(|_| rng.random()).collect();
+        can_frames(&bytes);
+    }
 }

@@ -2,7 +2,7 @@
 
 use dynamics_core::effects::{
     Armature, AsymmetricCoulomb, Cogging, ConstantTorque, Coulomb, EndStops, LoadFriction, Lugre,
-    Payload, Spring, Stribeck, Viscous, Width,
+    Payload, PreslidingLoadFriction, Spring, Stribeck, Viscous, Width,
 };
 use dynamics_core::glam::Mat3;
 use dynamics_core::model::{BodyInertia, JointLimits};
@@ -122,6 +122,7 @@ fn identified_parameters_roundtrip_bit_by_bit() {
     comes_back(Coulomb { torque: a, width: Width::new(0.05) });
     comes_back(AsymmetricCoulomb { forward: a, backward: b, width: Width::new(0.05) });
     comes_back(LoadFriction { driving: a, backdriving: b, width: Width::new(0.05) });
+    comes_back(PreslidingLoadFriction { magnitude: a, torque: b, deflection: a, direction: b });
     comes_back(Stribeck { excess: a, stribeck_speed: Width::new(0.1), width: Width::new(0.007) });
     comes_back(Lugre {
         stiffness: LIMITS.torque,

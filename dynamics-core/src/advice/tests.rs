@@ -12,7 +12,7 @@ use crate::robots::*;
 use crate::scalar::Real;
 
 /// The robots whose inertias about the joints can be told from those about the centres of mass.
-const ABOUT_JOINTS: [&str; 6] = ["g1", "g1_free", "gen3", "iiwa14", "so101", "xarm7"];
+const ABOUT_JOINTS: [&str; 7] = ["g1", "g1_free", "gen3", "iiwa14", "openarm", "so101", "xarm7"];
 const DEGREES: f64 = 180.0 / core::f64::consts::PI;
 
 /// The questions to a robot of the library.
@@ -28,6 +28,7 @@ fn each_robot(ask: &mut impl Ask) {
     ask.ask(&G1Free::MODEL);
     ask.ask(&Gen3::MODEL);
     ask.ask(&Iiwa14::MODEL);
+    ask.ask(&OpenArm::MODEL);
     ask.ask(&Panda::MODEL);
     ask.ask(&So101::MODEL);
     ask.ask(&Ur5e::MODEL);
@@ -273,7 +274,7 @@ fn one_wrong_body_is_named_with_its_number() {
     let mut ask = OneWrong { about_joint: 0, of: 0 };
     each_robot(&mut ask);
     // The others' inertias about their joints are such as bodies of their length may have.
-    assert_eq!((ask.about_joint, ask.of), (45, 143));
+    assert_eq!((ask.about_joint, ask.of), (50, 150));
 }
 
 #[test]

@@ -15,7 +15,7 @@
 //! |---|---|
 //! | all bodies | [`Gravity`], [`GravityVector`]; [`Inertia`], [`Coriolis`]; [`MovingBase`]; of links that bend, [`Elasticity`] |
 //! | a body | [`BodyWrench`], [`WorldWrench`], [`Contact`]; [`Payload`]; of all bodies, [`BaseParameters`] |
-//! | a joint: friction | [`Viscous`], [`Coulomb`], [`AsymmetricCoulomb`], [`Stribeck`], [`Lugre`], [`LoadFriction`] |
+//! | a joint: friction | [`Viscous`], [`Coulomb`], [`AsymmetricCoulomb`], [`Stribeck`], [`Lugre`], [`LoadFriction`], [`PreslidingLoadFriction`] |
 //! | a joint: position | [`Spring`], [`EndStops`], [`Cogging`]; in any state [`ConstantTorque`] |
 //! | a motor | [`Armature`], [`GyroscopicRotors`]; [`crate::sim::Actuator`] and [`crate::drivetrain`] stand between command and joint |
 //!
@@ -107,8 +107,8 @@ pub use body::{
 #[doc(hidden)]
 pub use delegate::{Forwarder, sum};
 pub use friction::{
-    AsymmetricCoulomb, Coulomb, LoadFriction, Lugre, Stribeck, Viscous, smooth_sign,
-    smooth_sign_slope,
+    AsymmetricCoulomb, Coulomb, LoadFriction, Lugre, PreslidingLoadFriction, Stribeck, Viscous,
+    smooth_sign, smooth_sign_slope,
 };
 #[doc(hidden)]
 pub use hook::RegroupedInertia;
@@ -169,10 +169,10 @@ use crate::scalar::Real;
     label = "not an effect of this size and scalar",
     note = "effects: Gravity, GravityVector, Inertia, Coriolis, Elasticity, Viscous([R; V]), \
             Coulomb {{ .. }}, AsymmetricCoulomb {{ .. }}, Stribeck {{ .. }}, Lugre {{ .. }}, \
-            LoadFriction {{ .. }}, Spring {{ .. }}, EndStops {{ .. }}, Cogging {{ .. }}, \
-            ConstantTorque([R; V]), Armature([R; V]), GyroscopicRotors {{ .. }}, Payload::<_, \
-            BODY>, BaseParameters, BodyWrench, WorldWrench, Contact, MovingBase, tuples of up to \
-            12 of them, and your own through `impl Effect`"
+            LoadFriction {{ .. }}, PreslidingLoadFriction {{ .. }}, Spring {{ .. }}, EndStops {{ .. \
+            }}, Cogging {{ .. }}, ConstantTorque([R; V]), Armature([R; V]), GyroscopicRotors {{ \
+            .. }}, Payload::<_, BODY>, BaseParameters, BodyWrench, WorldWrench, Contact, \
+            MovingBase, tuples of up to 12 of them, and your own through `impl Effect`"
 )]
 pub trait Effect<R: Real, const B: usize, const V: usize>: Sized {
     /// A field that accelerates every body.

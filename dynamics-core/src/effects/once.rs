@@ -8,7 +8,7 @@
 /// | [`Inertia`](super::Inertia), [`Coriolis`](super::Coriolis), [`Elasticity`](super::Elasticity) | refused: a term of the equations of motion is there or not, and the second would change nothing |
 /// | [`MovingBase`](super::MovingBase) | refused: a base has one motion |
 /// | [`Viscous`](super::Viscous), [`Coulomb`](super::Coulomb), [`AsymmetricCoulomb`](super::AsymmetricCoulomb), [`Stribeck`](super::Stribeck), [`LoadFriction`](super::LoadFriction) | refused: the second is usually forgotten, such as one beside a robot's own scene, and doubles the friction |
-/// | [`Lugre`](super::Lugre) | refused: a joint has one set of bristles |
+/// | [`Lugre`](super::Lugre), [`PreslidingLoadFriction`](super::PreslidingLoadFriction) | refused: a joint has one set of bristles, and its gear one direction |
 /// | [`Armature`](super::Armature), [`GyroscopicRotors`](super::GyroscopicRotors) | refused: a joint has one inertia of its drive, that of all its rotors |
 /// | [`BaseParameters`](super::BaseParameters) | refused: the engine reads one set |
 /// | [`Payload`](super::Payload) | add up: a tool and what it holds, on one body or on several |
@@ -38,6 +38,7 @@ pub(crate) enum Kind {
     Stribeck,
     Lugre,
     LoadFriction,
+    PreslidingLoadFriction,
     Armature,
     GyroscopicRotors,
 }
@@ -72,7 +73,7 @@ impl Once {
 }
 
 /// In the order of [`Kind`].
-const TEXTS: [&str; 12] = [
+const TEXTS: [&str; 13] = [
     "the scene contains Inertia twice, which changes nothing: leave one out (RIGID_BODY contains \
      it)",
     "the scene contains Coriolis twice, which changes nothing: leave one out (RIGID_BODY contains \
@@ -92,6 +93,8 @@ const TEXTS: [&str; 12] = [
      with the sums of the torques",
     "the scene contains LoadFriction twice, whose torques would add: write one LoadFriction { .. } \
      with the sums of the factors",
+    "the scene contains PreslidingLoadFriction twice, but a gear has one direction: write one \
+     PreslidingLoadFriction { .. } with the sums of the factors",
     "the scene contains Armature twice, whose inertias would add: write one Armature([..]) with \
      the sums of the inertias",
     "the scene contains GyroscopicRotors twice, whose inertias would add: write one \

@@ -7,6 +7,8 @@
 //!   feet.
 //! - [`A1Leg`]: one leg of it, 3 revolute joints and a fixed foot.
 //! - [`A1Free`]: the same with its trunk free, 18 degrees of freedom.
+//! - [`OpenArm`]: Enactic OpenArm 2.0 with its gripper held, 7 revolute joints moved by
+//!   quasi-direct drives.
 //! - [`Gen3`]: Kinova Gen3 with vision module, 7 joints, four of which are continuous.
 //! - [`So101`]: The Robot Studio's SO-101 with its gripper's jaw, 6 revolute joints moved by hobby
 //!   servos.
@@ -24,6 +26,7 @@ mod a1;
 mod g1;
 mod gen3;
 mod iiwa14;
+mod openarm;
 mod panda;
 mod puma560;
 mod so101;
@@ -36,6 +39,7 @@ pub use a1::{A1, A1Free, A1Leg};
 pub use g1::{G1, G1Free};
 pub use gen3::Gen3;
 pub use iiwa14::Iiwa14;
+pub use openarm::OpenArm;
 pub use panda::Panda;
 pub use puma560::Puma560;
 pub use so101::So101;

@@ -21,6 +21,11 @@ fn frames() {
     bolero::check!().for_each(host_tests::fuzz::frames);
 }
 
+#[test]
+fn can_frames() {
+    bolero::check!().for_each(host_tests::fuzz::can_frames);
+}
+
 /// A robot's file of which some places are replaced: four bytes are a place, how much is removed,
 /// and what is put there.
 #[test]

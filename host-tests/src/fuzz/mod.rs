@@ -3,11 +3,13 @@
 //! `tests/fuzz.rs` runs each target on a fixed stream, `host-tests/fuzz` for as long as one likes.
 
 mod bytes;
+mod can;
 mod controller;
 mod description;
 mod dynamics;
 mod frames;
 
+pub use can::{BYTES_PER_FRAME, can_frames};
 pub use controller::controller;
 pub use description::description;
 pub use dynamics::dynamics;

@@ -15,6 +15,7 @@ mod load;
 mod lugre;
 mod own;
 mod passive;
+mod presliding;
 mod rotors;
 mod springs;
 mod surroundings;

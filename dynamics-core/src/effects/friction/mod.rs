@@ -4,6 +4,7 @@ mod asymmetric;
 mod coulomb;
 mod load;
 mod lugre;
+mod presliding_load;
 mod stribeck;
 mod viscous;
 
@@ -11,5 +12,6 @@ pub use asymmetric::AsymmetricCoulomb;
 pub use coulomb::{Coulomb, smooth_sign, smooth_sign_slope};
 pub use load::LoadFriction;
 pub use lugre::Lugre;
+pub use presliding_load::PreslidingLoadFriction;
 pub use stribeck::Stribeck;
 pub use viscous::Viscous;

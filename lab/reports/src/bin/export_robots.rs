@@ -2,7 +2,7 @@
 
 use dynamics_core::model::Robot;
 use dynamics_core::robots::{
-    A1, A1Free, G1, G1Free, Gen3, Iiwa14, Panda, Puma560, So101, Ur5e, XArm7, Z1,
+    A1, A1Free, G1, G1Free, Gen3, Iiwa14, OpenArm, Panda, Puma560, So101, Ur5e, XArm7, Z1,
 };
 use host_tests::export::robot;
 use host_tests::trees::{TreeA, TreeB};
@@ -19,6 +19,7 @@ fn main() -> serde_json::Result<()> {
         robot(&Gen3::MODEL),
         robot(&XArm7::MODEL),
         robot(&Puma560::MODEL),
+        robot(&OpenArm::MODEL),
         robot(&Z1::MODEL),
         robot(&So101::MODEL),
         robot(&TreeA::MODEL),

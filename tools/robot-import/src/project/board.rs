@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::templates::{COMMON, File, RTIC, files};
+use super::templates::{COMMON, File, RTIC, RTIC_ON_CAN, files};
 
 /// The framework that calls the tick.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,6 +22,42 @@ impl fmt::Display for Framework {
     }
 }
 
+/// The parts that a board's firmware moves its robot with.
+#[derive(Debug)]
+pub(super) struct Parts {
+    /// A tick, s, as a literal, and ms.
+    pub tick: &'static str,
+    tick_ms: &'static str,
+    /// The parts that the firmware expects, in Markdown.
+    pub expected: &'static str,
+    /// The words for what their file says.
+    adapt: &'static str,
+    /// The meaning of their scales.
+    scales: &'static str,
+    /// The constant of the directions of the measurements.
+    signs: &'static str,
+}
+
+/// Encoders on SPI, and drives whose input is a PWM.
+const SPI_AND_PWM: Parts = Parts {
+    tick: "1e-3",
+    tick_ms: "1",
+    expected: include_str!("../../template/board/common/parts.md"),
+    adapt: "encoders and drives: kinds, zeros, directions, torque at a duty of 100 %",
+    scales: include_str!("../../template/board/common/scales.md"),
+    signs: "`ENCODERS`",
+};
+
+/// Drives in MIT mode, which measure their joints.
+const CAN: Parts = Parts {
+    tick: "2e-3",
+    tick_ms: "2",
+    expected: include_str!("../../template/board/can/parts.md"),
+    adapt: "the drives: their kind, numbers, scales, zeros, directions",
+    scales: include_str!("../../template/board/can/scales.md"),
+    signs: "`DRIVES`",
+};
+
 /// A board with the framework of its firmware.
 #[derive(Debug)]
 pub struct Board {
@@ -39,7 +75,9 @@ pub struct Board {
     chip: &'static str,
     /// The chip's HAL, as a dependency, if the framework's manifest has none.
     hal: &'static str,
-    /// The rate of the encoders' bus.
+    /// The parts that it drives.
+    pub(super) parts: Parts,
+    /// The rate of the encoders' bus, if it has one.
     spi_rate: &'static str,
     /// The connections of the board, in Markdown.
     pub(super) pins: &'static str,
@@ -48,7 +86,7 @@ pub struct Board {
 }
 
 /// The boards.
-pub static BOARDS: [Board; 3] = [
+pub static BOARDS: [Board; 4] = [
     Board {
         name: "nucleo-f446re",
         title: "Nucleo-F446RE",
@@ -57,6 +95,7 @@ pub static BOARDS: [Board; 3] = [
         target: "thumbv7em-none-eabihf",
         chip: "STM32F446RETx",
         hal: include_str!("../../template/board/stm32f4/hal.toml"),
+        parts: SPI_AND_PWM,
         spi_rate: ", 10 MHz",
         pins: include_str!("../../template/board/nucleo-f446re/pins.md"),
         files: [
@@ -73,12 +112,33 @@ pub static BOARDS: [Board; 3] = [
         target: "thumbv7em-none-eabihf",
         chip: "STM32G474RETx",
         hal: include_str!("../../template/board/stm32g4/hal.toml"),
+        parts: SPI_AND_PWM,
         spi_rate: ", 5.3 MHz",
         pins: include_str!("../../template/board/nucleo-g474re/pins.md"),
         files: [
             RTIC,
             files!["board/stm32g4": "src/chip.rs", "src/fast.rs"],
-            files!["board/nucleo-g474re": "memory.x", "src/pins.rs"],
+            files!["board/nucleo-g474re": "memory.x", "src/pins.rs", "src/spi_and_pwm.rs"],
+        ],
+    },
+    Board {
+        name: "nucleo-g474re-can",
+        title: "Nucleo-G474RE",
+        framework: Framework::Rtic,
+        most_joints: 7,
+        target: "thumbv7em-none-eabihf",
+        chip: "STM32G474RETx",
+        hal: concat!(
+            include_str!("../../template/board/stm32g4/hal.toml"),
+            include_str!("../../template/board/can/can.toml"),
+        ),
+        parts: CAN,
+        spi_rate: "",
+        pins: include_str!("../../template/board/nucleo-g474re-can/pins.md"),
+        files: [
+            RTIC_ON_CAN,
+            files!["board/nucleo-g474re": "memory.x"],
+            files!["board/nucleo-g474re-can": "src/pins.rs"],
         ],
     },
     Board {
@@ -89,6 +149,7 @@ pub static BOARDS: [Board; 3] = [
         target: "thumbv8m.main-none-eabihf",
         chip: "RP235x",
         hal: "",
+        parts: SPI_AND_PWM,
         spi_rate: ", 9.4 MHz",
         pins: include_str!("../../template/board/pico2/pins.md"),
         files: [
@@ -102,15 +163,15 @@ pub static BOARDS: [Board; 3] = [
                 "src/devices.rs",
                 "src/periods.rs",
             ],
-            &[],
+            files!["board/common": "src/board.rs"],
             &[],
         ],
     },
 ];
 
 /// The names of the joints' placeholders.
-pub(super) const JOINTS: [&str; 6] =
-    ["joint 1", "joint 2", "joint 3", "joint 4", "joint 5", "joint 6"];
+pub(super) const JOINTS: [&str; 7] =
+    ["joint 1", "joint 2", "joint 3", "joint 4", "joint 5", "joint 6", "joint 7"];
 
 impl Board {
     /// The files of its template.
@@ -119,7 +180,7 @@ impl Board {
     }
 
     /// The values of its placeholders.
-    pub(super) fn values(&self) -> [(&'static str, String); 6] {
+    pub(super) fn values(&self) -> [(&'static str, String); 10] {
         [
             ("board_name", self.title.to_owned()),
             ("framework_name", self.framework.to_string()),
@@ -127,6 +188,10 @@ impl Board {
             ("chip", self.chip.to_owned()),
             ("hal", self.hal.trim_end().to_owned()),
             ("spi_rate", self.spi_rate.to_owned()),
+            ("tick_ms", self.parts.tick_ms.to_owned()),
+            ("adapt", self.parts.adapt.to_owned()),
+            ("scales", self.parts.scales.trim_end().to_owned()),
+            ("signs", self.parts.signs.to_owned()),
         ]
     }
 }

@@ -322,6 +322,10 @@ fn values(project: &Project) -> Result<Vec<Value>, ProjectError> {
     let (names, types, effects) = robot.effects.in_scene(&["Gravity", "Inertia", "Coriolis"]);
     let (_, force_types, force_values) = robot.effects.in_scene(&["Inertia", "Coriolis"]);
     let taken = &constants(C);
+    let tick = match project.kind {
+        Kind::Board(board) => board.parts.tick,
+        Kind::Simulation | Kind::C => "1e-3",
+    };
     let mut values = vec![
         ("project-name", project.name.clone()),
         ("joints", enumerators(&prefix, "JOINT", &robot.joints, taken)),
@@ -329,6 +333,7 @@ fn values(project: &Project) -> Result<Vec<Value>, ProjectError> {
         ("n", robot.v.to_string()),
         ("omega_n", format!("{:.1}", robot.feedback.omega_n)),
         ("form", form.into()),
+        ("tick", tick.into()),
         ("crate_name", crate_name),
         ("crate_name | upcase", prefix),
         ("library", dependency(DYNAMICS)?),
@@ -358,6 +363,8 @@ fn values(project: &Project) -> Result<Vec<Value>, ProjectError> {
         let pins = substitute(&of_joints(board.pins, robot.v), &values);
         values.push(("pins", pins));
         values.extend(board.values());
+        let parts = substitute(board.parts.expected, &values);
+        values.push(("parts", parts.trim_end().to_owned()));
     }
     Ok(values)
 }

@@ -93,7 +93,6 @@ pub(super) const COMMON: &[File] = &[
     file!("board/common" / "README.md" ".liquid"),
     file!("board/common" / "rust-toolchain.toml" ".liquid"),
     file!("board/common" / "src/lib.rs"),
-    file!("board/common" / "src/board.rs"),
     file!("board/common" / "src/log.rs"),
 ];
 
@@ -103,7 +102,20 @@ pub(super) const RTIC: &[File] = &[
     file!("board/rtic" / ".cargo/config.toml" ".liquid"),
     file!("board/rtic" / "src/firmware.rs"),
     file!("board/rtic" / "src/devices.rs"),
+    file!("board/common" / "src/board.rs"),
     file!("board/common" / "src/main.rs" ".liquid"),
+];
+
+/// Firmware for an STM32G4 under RTIC, with drives on CAN.
+pub(super) const RTIC_ON_CAN: &[File] = &[
+    file!("board/rtic" / "Cargo.toml" ".liquid"),
+    file!("board/rtic" / ".cargo/config.toml" ".liquid"),
+    file!("board/rtic" / "src/firmware.rs"),
+    file!("board/can" / "src/board.rs"),
+    file!("board/can" / "src/main.rs" ".liquid"),
+    file!("board/stm32g4" / "src/chip.rs"),
+    file!("board/stm32g4" / "src/fast.rs"),
+    file!("board/stm32g4" / "src/can.rs"),
 ];
 
 /// The constants of C that templates define or use, without the prefix that the project's name is

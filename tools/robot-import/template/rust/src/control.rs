@@ -6,6 +6,7 @@ use core::fmt;
 
 use dynamics_core::effects::Effect;
 use dynamics_core::state::State;
+use joint_drivers::can::CanError;
 use joint_drivers::h_bridge::DriveError;
 use joint_drivers::{Direction, EncoderMapping, JointError, JointMapping, Law, MappingError};
 use motion_control::{
@@ -143,6 +144,8 @@ pub enum SetupError {
     Encoder(JointError<MappingError>),
     /// The full scale of a drive.
     Drive(DriveError),
+    /// A drive on CAN.
+    Can(JointError<CanError>),
 }
 
 impl fmt::Display for SetupError {
@@ -152,6 +155,7 @@ impl fmt::Display for SetupError {
             Self::Limits(error) => write!(out, "the limits in scene.rs: {error}"),
             Self::Encoder(error) => write!(out, "the encoders in board.rs: {error}"),
             Self::Drive(error) => write!(out, "the drives in board.rs: {error}"),
+            Self::Can(error) => write!(out, "the drives in board.rs: {error}"),
         }
     }
 }

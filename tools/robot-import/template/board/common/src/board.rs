@@ -14,7 +14,7 @@ use crate::control::{Measured, controller, encoder_mappings};
 use crate::scene;
 
 pub use crate::control::{FeedForward as Law, Found, SetupError, detectors, gains};
-pub use crate::scene::{Motion, N};
+pub use crate::scene::{Motion, N, TICK};
 pub use joint_drivers::as5047p::RESOLUTION;
 
 /// The angle that the encoder of each joint reads at the joint's zero, rad. Its range is in
@@ -59,6 +59,9 @@ pub fn plan(place: &mut Motion) -> Result<(), SetupError> {
     *place = scene::motion().map_err(SetupError::Motion)?;
     Ok(())
 }
+
+/// The drives have an input of their own that enables them, which belongs to the emergency stop.
+pub fn enable<Encoders>(_: &mut Encoders) {}
 
 /// The loop of a robot that stands on its brake until `reset`.
 ///

@@ -65,6 +65,7 @@ pub fn impossible(reason: &SetupError) {
         SetupError::Limits(error) => error!("impossible: the limits in scene.rs: {}", error),
         SetupError::Encoder(_) => error!("impossible: how the encoders in board.rs are mounted"),
         SetupError::Drive(_) => error!("impossible: the full scale of a drive in board.rs"),
+        SetupError::Can(_) => error!("impossible: the number or the scale of a drive in board.rs"),
         _ => error!("impossible: a setup error of control.rs"),
     }
 }

@@ -27,6 +27,16 @@ pub type Button = PC13<Input>;
 /// The green light.
 pub type Light = PA5<Output>;
 
+/// The memory of the bus.
+pub struct Kept(Option<AtomicCell<Bus>>);
+
+impl Kept {
+    pub const NONE: Self = Self(None);
+}
+
+pub type Devices = board::Devices<Encoder, Channel, Brake>;
+pub type Control<Detect> = board::Control<Encoder, Channel, Brake, Detect>;
+
 /// Whether the button is pressed.
 pub fn is_pressed(button: &Button) -> bool {
     button.is_low()
@@ -42,7 +52,7 @@ pub fn clocks() -> Config {
 
 /// The board and what is connected to it.
 pub struct Connected {
-    pub devices: Devices<Encoder, Channel, Brake>,
+    pub devices: Devices,
     pub button: Button,
     pub light: Light,
     pub timer: TIM2,
@@ -52,7 +62,7 @@ pub struct Connected {
 
 /// Configures the pins: the brake set, the drives without torque.
 #[inline(always)]
-pub fn connect(device: Peripherals, bus: &'static mut Option<AtomicCell<Bus>>) -> Connected {
+pub fn connect(device: Peripherals, kept: &'static mut Kept) -> Connected {
     let mut rcc = device.RCC.freeze(clocks());
     let (a, b, c) = (
         device.GPIOA.split(&mut rcc),
@@ -67,7 +77,7 @@ pub fn connect(device: Peripherals, bus: &'static mut Option<AtomicCell<Bus>>) -
     let (clock, miso) = (b.pb3.into_floating_input(), b.pb4.into_floating_input());
     let pins = (Some(clock), Some(miso), Some(b.pb5));
     let spi = Spi::new(device.SPI1, pins, MODE_1, 10.MHz(), &mut rcc);
-    let bus = bus.insert(AtomicCell::new(spi));
+    let bus = kept.0.insert(AtomicCell::new(spi));
     let selects = [
         c.pc0.into_push_pull_output_in_state(high).erase(), // joint 1
         c.pc1.into_push_pull_output_in_state(high).erase(), // joint 2

@@ -11,11 +11,14 @@ use stm32g4xx_hal::pwr::VoltageScale;
 use stm32g4xx_hal::rcc::{Config, PllConfig, PllMDiv, PllNMul, PllRDiv, PllSrc, Rcc};
 use stm32g4xx_hal::time::RateExtU32;
 
-use crate::board::{Devices, N};
-use crate::chip::Channel;
+use crate::board::{self, N};
 use crate::devices::{Encoder, encoders};
 
-pub use crate::chip::Bus;
+#[path = "spi_and_pwm.rs"]
+mod spi_and_pwm;
+
+pub use spi_and_pwm::Bus;
+use spi_and_pwm::Channel;
 
 /// A high level holds the joints.
 pub type Brake = PB10<Output>;
@@ -23,6 +26,16 @@ pub type Brake = PB10<Output>;
 pub type Button = PC13<Input>;
 /// The green light.
 pub type Light = PA5<Output>;
+
+/// The memory of the bus.
+pub struct Kept(Option<AtomicCell<Bus>>);
+
+impl Kept {
+    pub const NONE: Self = Self(None);
+}
+
+pub type Devices = board::Devices<Encoder, Channel, Brake>;
+pub type Control<Detect> = board::Control<Encoder, Channel, Brake, Detect>;
 
 /// Whether the button is pressed.
 pub fn is_pressed(button: &Button) -> bool {
@@ -42,7 +55,7 @@ pub fn clocks() -> Config {
 
 /// The board and what is connected to it.
 pub struct Connected {
-    pub devices: Devices<Encoder, Channel, Brake>,
+    pub devices: Devices,
     pub button: Button,
     pub light: Light,
     pub timer: TIM2,
@@ -52,7 +65,7 @@ pub struct Connected {
 
 /// Configures the pins: the brake set, the drives without torque.
 #[inline(always)]
-pub fn connect(device: Peripherals, bus: &'static mut Option<AtomicCell<Bus>>) -> Connected {
+pub fn connect(device: Peripherals, kept: &'static mut Kept) -> Connected {
     let high = true.into();
     // The flash has four wait states, and reads ahead; its caches are on after a reset.
     device.FLASH.acr().modify(|_, w| w.prften().set_bit());
@@ -76,7 +89,7 @@ pub fn connect(device: Peripherals, bus: &'static mut Option<AtomicCell<Bus>>) -
         b.pb5.into_alternate().speed(Speed::High),
     );
     let spi = Bus::new(device.SPI1, pins, &mut rcc);
-    let bus = bus.insert(AtomicCell::new(spi));
+    let bus = kept.0.insert(AtomicCell::new(spi));
     let selects = [
         c.pc0.into_push_pull_output_in_state(high).erase(), // joint 1
         c.pc1.into_push_pull_output_in_state(high).erase(), // joint 2

@@ -6,25 +6,29 @@
 
 #[rtic::app(device = crate::chip::pac, peripherals = true)]
 mod app {
-    use embedded_hal_bus::util::AtomicCell;
     use motion_control::{Gains, Mode, Watchdog};
 
-    use crate::board::{self, Devices, Law, Motion, N};
-    use crate::chip::{Channel, Period, Starved};
-    use crate::devices::Encoder;
+    use crate::board::{self, Law, Motion, N};
+    use crate::chip::{Period, Starved};
     use crate::log::{Log, impossible};
-    use crate::pins::{Brake, Bus, Button, Connected, Light, connect, is_pressed};
+    use crate::pins::{self, Button, Connected, Devices, Kept, Light, connect, is_pressed};
 
     #[shared]
     struct Shared {}
 
     type Detect = &'static mut board::Found;
-    type Control = board::Control<Encoder, Channel, Brake, Detect>;
+    type Control = pins::Control<Detect>;
+
+    /// The loop, for the tick.
+    struct Own(&'static mut Control);
+
+    // SAFETY: start-up gives the loop to the tick's interrupt, and nothing else has a part of it.
+    unsafe impl Send for Own {}
 
     #[local]
     struct Local {
         // In their places already: moved through the stack, they would take as much of it again.
-        control: &'static mut Control,
+        control: Own,
         motion: &'static Motion,
         period: Period,
         watchdog: Starved,
@@ -42,7 +46,7 @@ mod app {
     #[inline(never)]
     fn place_control(
         place: &'static mut Option<Control>,
-        devices: Devices<Encoder, Channel, Brake>,
+        devices: Devices,
         gains: Gains<f32, N>,
         detectors: Detect,
         motion: &Motion,
@@ -58,7 +62,7 @@ mod app {
     }
 
     #[init(local = [
-        bus: Option<AtomicCell<Bus>> = None,
+        kept: Kept = Kept::NONE,
         memory: Option<board::Found> = None,
         place: Option<Control> = None,
         path: Motion = Motion::REST,
@@ -71,7 +75,7 @@ mod app {
             timer,
             watchdog,
             mut rcc,
-        } = connect(cx.device, cx.local.bus);
+        } = connect(cx.device, cx.local.kept);
         let motion = cx.local.path;
         let planned = board::plan(motion).map_err(|error| impossible(&error));
         let detectors = place_detectors(cx.local.memory, motion);
@@ -88,7 +92,7 @@ mod app {
             }
         };
         let local = Local {
-            control,
+            control: Own(control),
             motion,
             period,
             watchdog: Starved::start(watchdog),
@@ -106,13 +110,13 @@ mod app {
     )]
     fn tick(cx: tick::Context) {
         let local = cx.local;
-        let motion: &Motion = local.motion;
+        let (control, motion): (_, &Motion) = (&mut local.control.0, local.motion);
         local.period.begin();
         *local.count = local.count.wrapping_add(1);
         let now = *local.count;
         // A period that has ended since then is pending.
         let count = || now.wrapping_add(u32::from(local.period.has_ended()));
-        let (telemetry, completed) = local.control.tick_at::<Law, _, ()>(motion, &(), count);
+        let (telemetry, completed) = control.tick_at::<Law, _, ()>(motion, &(), count);
         if let Some(completed) = completed {
             local.watchdog.feed(completed);
         }
@@ -120,7 +124,8 @@ mod app {
         if matches!(mode, Mode::Stopped) && is_pressed(local.button) {
             // Too far from the motion's start, or without a measurement: the arm stays on its
             // brake.
-            if let Err(reason) = local.control.reset(motion) {
+            board::enable(control.encoders());
+            if let Err(reason) = control.reset(motion) {
                 local.log.refused(reason);
             }
         }

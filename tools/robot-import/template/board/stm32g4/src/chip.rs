@@ -1,36 +1,32 @@
-//! The parts of the STM32G4 under the names that all chips have here: the period, the watchdog, PWM
-//! and a bus.
+//! The period and the watchdog of the STM32G4, under the names that all chips have here.
 //!
-//! Of the HAL, the bus can panic, the timer tells a period that has ended only by clearing its flag,
-//! and each PWM channel is a type of its own: here are their registers.
-
-use core::convert::Infallible;
+//! The HAL's timer tells a period that has ended only by clearing its flag: here are its registers.
 
 use motion_control::{CompletedTick, Watchdog};
-use stm32g4xx_hal::hal::pwm::{self, SetDutyCycle};
-use stm32g4xx_hal::hal::spi::{self, ErrorKind, SpiBus};
-use stm32g4xx_hal::hal_02::PwmPin;
 use stm32g4xx_hal::independent_watchdog::IndependentWatchdog;
-use stm32g4xx_hal::pac::tim1::CCR;
-use stm32g4xx_hal::pac::{IWDG, SPI1, TIM2};
+use stm32g4xx_hal::pac::{IWDG, TIM2};
 use stm32g4xx_hal::rcc::{BusTimerClock, Enable, Rcc, RccBus, Reset};
-use stm32g4xx_hal::spi::{MODE_1, Pins, SpiExt};
-use stm32g4xx_hal::time::{ExtU32, RateExtU32};
+use stm32g4xx_hal::time::ExtU32;
 
+use crate::board::TICK;
+
+#[allow(unused_imports)] // of boards without encoders on SPI
 pub use stm32g4xx_hal::gpio::{AnyPin, Output};
 pub use stm32g4xx_hal::pac;
 
 #[path = "fast.rs"]
 mod fast;
 
-/// The timer whose interrupt begins a tick, every millisecond.
+/// The timer whose interrupt begins a tick.
 pub struct Period(TIM2);
 
 impl Period {
     pub fn start(timer: TIM2, rcc: &mut Rcc) -> Option<Self> {
         TIM2::enable(rcc);
         TIM2::reset(rcc);
-        let cycles = <TIM2 as RccBus>::Bus::timer_clock(&rcc.clocks) / 1.kHz::<1, 1>();
+        let ticks_per_second = const { (1.0 / TICK + 0.5) as u32 };
+        let clock = <TIM2 as RccBus>::Bus::timer_clock(&rcc.clocks);
+        let cycles = clock.raw() / ticks_per_second;
         timer.arr().write(|w| w.arr().set(cycles - 1));
         timer.dier().write(|w| w.uie().set_bit());
         timer.cr1().write(|w| w.cen().set_bit());
@@ -62,98 +58,5 @@ impl Starved {
 impl Watchdog for Starved {
     fn feed(&mut self, _: CompletedTick) {
         self.0.feed();
-    }
-}
-
-/// A PWM channel of either timer: its register, and the duty of 100 %.
-pub struct Channel(&'static CCR, u16);
-
-// SAFETY: nothing else uses the register, from whichever interrupt the channel is used.
-unsafe impl Send for Channel {}
-
-impl Channel {
-    /// The channel with its pin, as a drive that is set to no torque.
-    pub fn new(mut pwm: impl PwmPin<Duty = u16>, register: &'static CCR) -> Self {
-        let most = pwm.get_max_duty();
-        pwm.set_duty(most / 2);
-        pwm.enable();
-        Self(register, most)
-    }
-}
-
-impl pwm::ErrorType for Channel {
-    type Error = Infallible;
-}
-
-impl SetDutyCycle for Channel {
-    fn max_duty_cycle(&self) -> u16 {
-        self.1
-    }
-
-    fn set_duty_cycle(&mut self, duty: u16) -> Result<(), Infallible> {
-        // SAFETY: every duty is one for this register, which nothing else writes.
-        self.0.write(|w| unsafe { w.ccr().bits(duty.into()) });
-        Ok(())
-    }
-}
-
-/// The bus of the encoders, in mode 1.
-pub struct Bus(SPI1);
-
-impl Bus {
-    pub fn new(spi: SPI1, pins: impl Pins<SPI1>, rcc: &mut Rcc) -> Self {
-        // A 32nd of the clock: a 16th is beyond the 10 MHz of the encoders.
-        let rate = rcc.clocks.apb2_clk / 32;
-        Self(spi.spi(pins, MODE_1, rate, rcc).release().0)
-    }
-
-    /// Sends a byte, and returns the one that comes meanwhile.
-    fn exchange(&mut self, byte: u8) -> Result<u8, ErrorKind> {
-        self.0.dr8().write(|w| w.dr().set(byte));
-        loop {
-            let status = self.0.sr().read();
-            if status.rxne().bit() {
-                return Ok(self.0.dr8().read().dr().bits());
-            }
-            if status.modf().bit() {
-                return Err(ErrorKind::ModeFault);
-            }
-        }
-    }
-}
-
-impl spi::ErrorType for Bus {
-    type Error = ErrorKind;
-}
-
-impl SpiBus for Bus {
-    fn read(&mut self, words: &mut [u8]) -> Result<(), ErrorKind> {
-        self.transfer(words, &[])
-    }
-
-    fn write(&mut self, words: &[u8]) -> Result<(), ErrorKind> {
-        self.transfer(&mut [], words)
-    }
-
-    fn transfer(&mut self, read: &mut [u8], write: &[u8]) -> Result<(), ErrorKind> {
-        for at in 0..read.len().max(write.len()) {
-            let byte = self.exchange(write.get(at).copied().unwrap_or_default())?;
-            if let Some(place) = read.get_mut(at) {
-                *place = byte;
-            }
-        }
-        Ok(())
-    }
-
-    fn transfer_in_place(&mut self, words: &mut [u8]) -> Result<(), ErrorKind> {
-        for word in words {
-            *word = self.exchange(*word)?;
-        }
-        Ok(())
-    }
-
-    fn flush(&mut self) -> Result<(), ErrorKind> {
-        while self.0.sr().read().bsy().bit() {}
-        Ok(())
     }
 }

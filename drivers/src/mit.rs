@@ -1,0 +1,535 @@
+//! MIT mode: a spring, a damper and a torque in one CAN frame, as in the MIT Mini Cheetah.
+//!
+//! ```text
+//! τ = K_p (q_d − q) + K_d (q̇_d − q̇) + τ_ff
+//! ```
+//!
+//! The drive computes it at its own rate, 10 kHz and more. Drives differ in the scales of their
+//! counts ([`Scale`]), in their identifiers and in their errors: [`damiao`], [`robstride`] and
+//! [`cubemars`]. The shaft of a mapping is the output shaft of the drive.
+//!
+//! # Source
+//! Ben Katz, *A low cost modular actuator for dynamic robots* (MIT, 2018) and his documentation of
+//! the motor controller: position in 16 bits, velocity, K_p, K_d and torque in 12 each, from −most
+//! to +most, or from zero to the most of a gain, over 2ᵇ − 1 counts.
+//!
+//! # Resolution
+//! A quantity becomes the nearest count. Both ends of a scale are counts, so that none is zero:
+//! zero torque is sent as +½ count, which is `torque` / 4095 N·m (2.4 mN·m of ±10 N·m), and a
+//! velocity likewise. A gain of zero is exact.
+//!
+//! # Turns
+//! After power-up a drive with an absolute encoder at its output knows its position within a turn
+//! of it, and then counts the turns in its own memory. The count of a reply begins again at the
+//! other end of its scale: this driver adds the whole scales, which are right as long as the shaft
+//! turns by less than half of the scale (two turns) between two replies. The ends themselves are
+//! refused ([`CanError::Range`]), since a drive that stops its count there says nothing. Beyond the
+//! first scale the gains of a command are zero: no count stands for such a position.
+//!
+//! # Cost
+//! | | flops | divisions |
+//! |---|---|---|
+//! | [`Drive::set_torque`] | 6 | 0 |
+//! | [`Drive::command`] | 26 | 0 |
+//! | [`Drive::command_at`] | 48 | 0 |
+//! | [`Drive::reply`] | 23 | 0 |
+//!
+//! Comparisons and conversions are not counted; a joint on a circle has 6 more in the second and 12
+//! in the third. [`Drive::new`] divides ten times.
+
+use core::f32::consts::TAU;
+
+use embedded_can::Frame;
+
+use crate::can::{self, CanError};
+use crate::can_joints::{CanJoint, PdCanJoint, Report};
+use crate::encoder_mapping::within_turn;
+use crate::{EncoderMapping, MappingError};
+
+pub mod cubemars;
+pub mod damiao;
+pub(crate) mod protocol;
+pub mod robstride;
+
+use protocol::{Counts, Feedback, Protocol, Special};
+
+/// The greatest quantities that the counts of a drive stand for, at its output shaft.
+///
+/// ```
+/// use joint_drivers::mit::{Scale, damiao};
+/// // A drive whose register VMAX was changed.
+/// let fast = Scale { velocity: 50.0, ..damiao::DM4310 };
+/// assert_eq!((fast.position, fast.torque), (12.5, 10.0));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scale {
+    /// The position at the last count, rad; the first one is −`position`.
+    pub position: f32,
+    /// The velocity at the last count, rad/s; the first one is −`velocity`.
+    pub velocity: f32,
+    /// The torque at the last count, N·m; the first one is −`torque`.
+    pub torque: f32,
+    /// The K_p at the last count, N·m/rad; the first one is zero.
+    pub kp: f32,
+    /// The K_d at the last count, N·m·s/rad; the first one is zero.
+    pub kd: f32,
+}
+
+/// A spring, a damper and a torque, at the joint.
+///
+/// ```
+/// use joint_drivers::mit::Setpoint;
+/// // Only a torque: both gains are zero.
+/// let torque = Setpoint { torque: 2.0, ..Setpoint::default() };
+/// assert_eq!((torque.kp, torque.kd), (0.0, 0.0));
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Setpoint {
+    /// q_d, rad.
+    pub position: f32,
+    /// q̇_d, rad/s.
+    pub velocity: f32,
+    /// K_p, N·m/rad.
+    pub kp: f32,
+    /// K_d, N·m·s/rad.
+    pub kd: f32,
+    /// The torque, N·m.
+    pub torque: f32,
+}
+
+/// A setpoint whose torque is the sum of all three at a measured state: [`Drive::command_at`].
+///
+/// ```
+/// use joint_drivers::mit::{Setpoint, SetpointAt};
+/// let sum = Setpoint { position: 1.0, kp: 50.0, torque: 2.0, ..Setpoint::default() };
+/// // The spring has 50 × 0.1 N·m at 0.9 rad: −3 N·m are left for the feed-forward.
+/// let at = SetpointAt { sum, position: 0.9, velocity: 0.0 };
+/// assert!((at.feedforward() + 3.0).abs() < 1e-5);
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SetpointAt {
+    /// The spring and the damper, and the torque of the sum.
+    pub sum: Setpoint,
+    /// q, rad.
+    pub position: f32,
+    /// q̇, rad/s.
+    pub velocity: f32,
+}
+
+impl SetpointAt {
+    /// The torque that the spring and the damper leave, N·m: τ − K_p (q_d − q) − K_d (q̇_d − q̇).
+    pub fn feedforward(&self) -> f32 {
+        let Setpoint { position, velocity, kp, kd, torque } = self.sum;
+        torque - kp * (position - self.position) - kd * (velocity - self.velocity)
+    }
+}
+
+/// The state of a drive, mapped to the joint.
+///
+/// ```
+/// # use embedded_can::{Frame, StandardId};
+/// # use joint_drivers::{JointMapping, JointRange, can::FdFrame};
+/// use joint_drivers::mit::{Reply, cubemars::{AK80_9, CubeMars}};
+/// # let mapping = JointMapping::IDENTITY.with_range(JointRange::Near(0.0), 5e-3)?;
+/// # let mut drive = CubeMars::new(1, 1, AK80_9, 18.0, mapping)?;
+/// # let frame = FdFrame::new(StandardId::new(1).unwrap(), &[1, 0x80, 0, 0x80, 0x08, 0, 70, 0]).unwrap();
+/// let Reply::State(state) = drive.reply(&frame)? else { panic!("another message") };
+/// assert_eq!(state.motor_temperature, Some(30.0));
+/// assert_eq!(state.status, Some(Ok(())));
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct State {
+    /// The position of the joint, rad.
+    pub position: f32,
+    /// The velocity of the joint, rad/s.
+    pub velocity: f32,
+    /// The torque of the joint, N·m.
+    pub torque: f32,
+    /// The temperature of the winding, °C, if the protocol has it.
+    pub motor_temperature: Option<f32>,
+    /// The temperature of the power stage, °C, if the protocol has it.
+    pub drive_temperature: Option<f32>,
+    /// Whether the drive delivers torque, or why it does not, if the protocol says so here.
+    pub status: Option<Result<(), CanError>>,
+}
+
+/// A message of a drive.
+///
+/// ```
+/// # use embedded_can::{ExtendedId, Frame};
+/// # use joint_drivers::{JointMapping, JointRange, can::{CanError, FdFrame}};
+/// use joint_drivers::mit::{Reply, robstride::{RS03, RobStride}};
+/// # let mapping = JointMapping::IDENTITY.with_range(JointRange::Near(0.0), 5e-3)?;
+/// let mut drive = RobStride::new(0x7f, 0xfd, RS03, 60.0, mapping)?;
+/// // The fault frame of motor 0x7f: bit 3.
+/// let frame = FdFrame::new(ExtendedId::new(0x1500_7ffd).unwrap(), &[8, 0, 0, 0, 0, 0, 0, 0]).unwrap();
+/// assert_eq!(drive.reply(&frame)?, Reply::Status(Err(CanError::OverVoltage)));
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Reply {
+    /// The feedback.
+    State(State),
+    /// The faults alone.
+    Status(Result<(), CanError>),
+}
+
+/// One joint's drive in MIT mode, of the protocol `P`: [`damiao::Damiao`],
+/// [`robstride::RobStride`], [`robstride::RobStrideMit`] and [`cubemars::CubeMars`].
+///
+/// ```
+/// use embedded_can::{Frame, StandardId};
+/// use joint_drivers::{JointMapping, JointRange, can::FdFrame};
+/// use joint_drivers::mit::{Reply, Setpoint, damiao::{DM4310, Damiao}};
+/// let mapping = JointMapping::IDENTITY.with_range(JointRange::Within { lower: -2.0, upper: 2.0 }, 5e-3)?;
+/// let mut drive = Damiao::new(1, 0x11, DM4310, 7.0, mapping)?;
+/// // Enabled, 0 rad, 0 rad/s, 1 N·m, 31 °C at the power stage and 25 °C at the winding.
+/// let data = [0x11, 0x80, 0x00, 0x80, 0x08, 0xcc, 31, 25];
+/// let reply = FdFrame::new(StandardId::new(0x11).unwrap(), &data).unwrap();
+/// let Reply::State(state) = drive.reply(&reply)? else { panic!("another message") };
+/// assert!(state.position.abs() < 2e-4 && (state.torque - 1.0).abs() < 5e-3);
+/// let hold = Setpoint { position: 0.5, kp: 40.0, kd: 1.0, ..Setpoint::default() };
+/// let command: FdFrame = drive.command(&hold)?;
+/// assert_eq!(command.data(), [0x85, 0x1e, 0x80, 0x01, 0x48, 0x33, 0x38, 0x00]);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Drive<P> {
+    protocol: P,
+    axes: Axes,
+    most: f32,
+    mapping: EncoderMapping,
+    /// The turns that the drive's count lacks.
+    whole: Option<f32>,
+    /// The whole scales that the count lacks, of this many rad, and the last reply.
+    scales: f32,
+    period: f32,
+    last: Option<Last>,
+}
+
+/// Where the joint was in the last reply.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Last {
+    /// rad or m at the joint.
+    joint: f32,
+    /// rad at the shaft, without and with the whole scales.
+    count: f32,
+    shaft: f32,
+}
+
+impl<P: Protocol> Drive<P> {
+    /// The drive `id` that replies to `host`, whose counts stand for `scale`, and that delivers at
+    /// most `most` N·m at the joint.
+    ///
+    /// The ranges of `id` and `host` are those of the protocol.
+    ///
+    /// # Errors
+    /// [`CanError::Node`]. [`CanError::Torque`]: not above zero, or above the scale.
+    /// [`CanError::NotFinite`]: the scale has a quantity that is not a positive number.
+    pub fn new(
+        id: u8,
+        host: u16,
+        scale: Scale,
+        most: f32,
+        mapping: EncoderMapping,
+    ) -> Result<Self, CanError> {
+        let protocol = P::new(id, host)?;
+        let axes = Axes::new(&scale, P::TOP)?;
+        can::check_most(most, mapping.mapping())?;
+        let at_shaft = mapping.mapping().shaft_torque(most).map_err(not_finite)?;
+        // As much as rounding makes of a limit that is the scale's own.
+        if at_shaft.abs() > scale.torque * (1.0 + 4.0 * f32::EPSILON) {
+            return Err(CanError::Torque);
+        }
+        let period = P::PERIOD.unwrap_or(2.0 * scale.position);
+        Ok(Self { protocol, axes, most, mapping, whole: None, scales: 0.0, period, last: None })
+    }
+
+    /// Takes the joint to be at `position` rad or m: the next reply is within half a turn of the
+    /// output shaft from there.
+    ///
+    /// # Errors
+    /// [`MappingError::Range`]; nothing is changed.
+    pub fn place_near(&mut self, position: f32) -> Result<(), MappingError> {
+        self.mapping = self.mapping.moved_near(position)?;
+        self.whole = None;
+        Ok(())
+    }
+
+    /// The frame that lets the drive deliver torque: that of the last command, send one of zero
+    /// before.
+    ///
+    /// # Errors
+    /// [`CanError::Length`].
+    pub fn enable<F: Frame>(&self) -> Result<F, CanError> {
+        self.protocol.special(Special::Enable)
+    }
+
+    /// The frame that takes the torque from the drive.
+    ///
+    /// # Errors
+    /// [`CanError::Length`].
+    pub fn disable<F: Frame>(&self) -> Result<F, CanError> {
+        self.protocol.special(Special::Disable)
+    }
+
+    /// The frame that makes the present position the zero of the drive. Send it while the drive is
+    /// disabled, and make this driver anew: it counts from the old zero.
+    ///
+    /// # Errors
+    /// [`CanError::Length`].
+    pub fn set_zero<F: Frame>(&self) -> Result<F, CanError> {
+        self.protocol.special(Special::Zero)
+    }
+
+    /// The frame that clears the faults of the drive.
+    ///
+    /// # Errors
+    /// [`CanError::Length`]. [`CanError::Unknown`]: the protocol has no such frame.
+    pub fn clear_errors<F: Frame>(&self) -> Result<F, CanError> {
+        self.protocol.special(Special::Clear)
+    }
+
+    /// A torque in N·m at the joint, limited to the greatest, with zero gains; NaN becomes zero
+    /// torque.
+    ///
+    /// # Errors
+    /// [`CanError::Length`].
+    pub fn set_torque<F: Frame>(&self, torque: f32) -> Result<F, CanError> {
+        self.protocol.command(&self.torque_alone(torque)?)
+    }
+
+    /// A spring, a damper and a feed-forward torque, which is limited to the greatest.
+    ///
+    /// Velocity and gains are limited to their scales. The gains are zero if a quantity is not
+    /// finite or a gain is below zero, if the position is not within the scale, and before the first
+    /// reply, since the turn of the joint is not known. A torque of NaN is zero torque with zero
+    /// gains.
+    ///
+    /// # Errors
+    /// [`CanError::Length`].
+    pub fn command<F: Frame>(&self, setpoint: &Setpoint) -> Result<F, CanError> {
+        let mut counts = self.torque_alone(setpoint.torque)?;
+        if let Some(pd) = self.pd(setpoint) {
+            counts = Counts { torque: counts.torque, ..pd };
+        }
+        self.protocol.command(&counts)
+    }
+
+    /// A spring and a damper, and the torque that makes the drive's sum that of the setpoint at the
+    /// measured state: limited to the greatest, and exact within half a count of torque, since it
+    /// is computed from the counts of the others.
+    ///
+    /// The gains are zero where [`Self::command`] makes them zero, and where the torque that is
+    /// left is beyond the scale: a limited one would make another sum. Until the next command the
+    /// sum changes with the state, by no more than the drive's own limit allows.
+    ///
+    /// # Errors
+    /// [`CanError::Length`].
+    pub fn command_at<F: Frame>(&self, setpoint: &SetpointAt) -> Result<F, CanError> {
+        let alone = self.torque_alone(setpoint.sum.torque)?;
+        let counts = self.pd(&setpoint.sum).and_then(|pd| self.complete(pd, setpoint));
+        self.protocol.command(&counts.unwrap_or(alone))
+    }
+
+    /// The message of a frame, mapped to the joint. In the first reply the joint is where the
+    /// mapping says that it can be.
+    ///
+    /// # Errors
+    /// [`CanError`]: another drive or host, in the identifier or in the data, a remote frame, a
+    /// frame of another length, a value that the protocol does not have, a position at the end of
+    /// its scale, or one that is not finite. The count of turns is then unchanged.
+    pub fn reply<F: Frame>(&mut self, frame: &F) -> Result<Reply, CanError> {
+        let (feedback, [position, velocity, torque]) = match self.protocol.decode(frame)? {
+            Feedback::Status(status) => return Ok(Reply::Status(status)),
+            Feedback::State { counts, motor, drive, status } => ((motor, drive, status), counts),
+        };
+        if position == 0 || position == u16::MAX {
+            return Err(CanError::Range);
+        }
+        let mapping = *self.mapping.mapping();
+        let velocity = mapping.velocity(self.axes.velocity.value(velocity)).map_err(not_finite)?;
+        let torque = mapping.torque(self.axes.torque.value(torque)).map_err(not_finite)?;
+        let position = self.place(self.axes.position.value(position)).map_err(not_finite)?;
+        let (motor_temperature, drive_temperature, status) = feedback;
+        let state =
+            State { position, velocity, torque, motor_temperature, drive_temperature, status };
+        Ok(Reply::State(state))
+    }
+
+    /// The joint's position at a count, rad: with the scales and turns that the count lacks.
+    fn place(&mut self, count: f32) -> Result<f32, MappingError> {
+        let half = 0.5 * self.period;
+        let scales = match self.last {
+            Some(last) if count - last.count > half => self.scales - 1.0,
+            Some(last) if count - last.count < -half => self.scales + 1.0,
+            _ => self.scales,
+        };
+        let shaft = count + scales * self.period;
+        let joint = self.mapping.position_at(shaft * (1.0 / TAU), &mut self.whole)?;
+        self.scales = scales;
+        self.last = Some(Last { joint, count, shaft });
+        Ok(joint)
+    }
+
+    /// The counts of a torque with zero gains.
+    fn torque_alone(&self, torque: f32) -> Result<Counts, CanError> {
+        let torque = can::limit(torque, self.most);
+        let at_shaft = self.mapping.mapping().shaft_torque(torque).map_err(not_finite)?;
+        Ok(Counts {
+            position: self.axes.position.of_zero(),
+            velocity: self.axes.velocity.of_zero(),
+            kp: 0,
+            kd: 0,
+            torque: self.axes.torque.count(at_shaft),
+        })
+    }
+
+    /// The counts of the spring and the damper, if they can be sent.
+    fn pd(&self, setpoint: &Setpoint) -> Option<Counts> {
+        let Setpoint { position, velocity, kp, kd, torque } = *setpoint;
+        let mapping = self.mapping.mapping();
+        let position = self.shaft_at(position)?;
+        let velocity = velocity * mapping.shaft_per_joint();
+        let count = self.axes.position.count(position);
+        // The ends of the scale are what a position beyond it becomes, and the start of the frames
+        // without quantities.
+        // An infinite gain has no counterpart at the shaft; NaN is not above zero.
+        let is_sent = (count != 0 && count != u16::MAX)
+            && (position.is_finite() && velocity.is_finite())
+            && (kp >= 0.0 && kd >= 0.0 && !torque.is_nan());
+        if !is_sent {
+            return None;
+        }
+        // A gain of the joint is the square of the ratio times that of the shaft.
+        let at_shaft = |gain| mapping.shaft_torque(mapping.shaft_torque(gain).ok()?).ok();
+        Some(Counts {
+            position: count,
+            velocity: self.axes.velocity.count(velocity),
+            kp: self.axes.kp.count(at_shaft(kp)?),
+            kd: self.axes.kd.count(at_shaft(kd)?),
+            torque: 0,
+        })
+    }
+
+    /// The counts with the torque that spring and damper leave, if it is within its scale.
+    fn complete(&self, counts: Counts, setpoint: &SetpointAt) -> Option<Counts> {
+        let Axes { position, velocity, torque, kp, kd } = &self.axes;
+        let mapping = self.mapping.mapping();
+        let sum = mapping.shaft_torque(can::limit(setpoint.sum.torque, self.most)).ok()?;
+        let left = SetpointAt {
+            sum: Setpoint {
+                position: position.value(counts.position),
+                velocity: velocity.value(counts.velocity),
+                kp: kp.value(counts.kp),
+                kd: kd.value(counts.kd),
+                torque: sum,
+            },
+            position: self.shaft_at(setpoint.position)?,
+            velocity: setpoint.velocity * mapping.shaft_per_joint(),
+        };
+        let left = left.feedforward();
+        // False for NaN, too.
+        (left.abs() <= torque.most).then(|| Counts { torque: torque.count(left), ..counts })
+    }
+
+    /// The angle of the drive's shaft, in its own count, where the joint is at `joint`; a joint on
+    /// a circle has it within half a turn from the last reply.
+    fn shaft_at(&self, joint: f32) -> Option<f32> {
+        let last = self.last?;
+        let moved = joint - last.joint;
+        let moved = if self.mapping.is_circle() { within_turn(moved) } else { moved };
+        Some(last.shaft + moved * self.mapping.mapping().shaft_per_joint())
+    }
+}
+
+impl<P: Protocol> CanJoint for Drive<P> {
+    fn command<F: Frame>(&self, torque: f32) -> Result<F, CanError> {
+        self.set_torque(torque)
+    }
+
+    fn report<F: Frame>(&mut self, frame: &F) -> Result<Report, CanError> {
+        Ok(match self.reply(frame)? {
+            Reply::State(state) => {
+                Report { position: Some(state.position), delivers: state.status }
+            }
+            Reply::Status(status) => Report { position: None, delivers: Some(status) },
+        })
+    }
+}
+
+impl<P: Protocol> PdCanJoint for Drive<P> {
+    fn pd_command<F: Frame>(&self, setpoint: &SetpointAt) -> Result<F, CanError> {
+        self.command_at(setpoint)
+    }
+}
+
+fn not_finite(_: MappingError) -> CanError {
+    CanError::NotFinite
+}
+
+/// The counts of a quantity.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Axis {
+    most: f32,
+    per_unit: f32,
+    per_count: f32,
+    /// The count of zero: half of the last one, or zero for a gain.
+    zero: f32,
+}
+
+impl Axis {
+    fn gain(most: f32, top: u16) -> Self {
+        let top = f32::from(top);
+        Self { most, per_unit: top / most, per_count: most / top, zero: 0.0 }
+    }
+
+    fn signed(most: f32, top: u16) -> Self {
+        let half = 0.5 * f32::from(top);
+        Self { most, per_unit: half / most, per_count: most / half, zero: half }
+    }
+
+    fn of_zero(&self) -> u16 {
+        (self.zero + 0.5) as u16
+    }
+
+    /// The nearest count; that of the end for a quantity beyond it.
+    fn count(&self, quantity: f32) -> u16 {
+        // The conversion makes zero of what is below it.
+        (can::limit(quantity, self.most) * self.per_unit + (self.zero + 0.5)) as u16
+    }
+
+    fn value(&self, count: u16) -> f32 {
+        (f32::from(count) - self.zero) * self.per_count
+    }
+}
+
+/// The counts of all quantities.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Axes {
+    position: Axis,
+    velocity: Axis,
+    torque: Axis,
+    kp: Axis,
+    kd: Axis,
+}
+
+impl Axes {
+    fn new(scale: &Scale, top: u16) -> Result<Self, CanError> {
+        let Scale { position, velocity, torque, kp, kd } = *scale;
+        // Within them neither a count nor a count's share overflows.
+        let is_one = |most: f32| (1e-3..=1e6).contains(&most);
+        if ![position, velocity, torque, kp, kd].into_iter().all(is_one) {
+            return Err(CanError::NotFinite);
+        }
+        Ok(Self {
+            position: Axis::signed(position, u16::MAX),
+            velocity: Axis::signed(velocity, top),
+            torque: Axis::signed(torque, top),
+            kp: Axis::gain(kp, top),
+            kd: Axis::gain(kd, top),
+        })
+    }
+}

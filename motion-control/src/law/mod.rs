@@ -10,7 +10,7 @@ pub(crate) mod passivity;
 pub(crate) mod pose_error;
 
 pub use feedback::{Gains, feedback};
-pub use hand_guiding::{HandGuiding, HandGuidingConfig, LimitedSpring};
+pub use hand_guiding::{HandGuiding, HandGuidingConfig, LimitedSpring, SpeedBrake};
 pub use hybrid_force::{
     TaskCommand, TaskForce, TaskFrame, TaskMotion, hybrid_motion_force, orientation_error,
 };

@@ -59,6 +59,12 @@ pub enum ConfigParameter {
     RestSpeed,
     /// The greatest compensation of friction in hand guiding.
     Compensation,
+    /// The damping of joints that a hand moves.
+    FreeDamping,
+    /// The speed limit of hand guiding, or the damping or the greatest torque of its brake.
+    GuidingSpeed,
+    /// The largest inertia of a joint.
+    Inertia,
     /// The positions of a joint's virtual walls.
     WallPosition,
     /// The stiffness, the damping or the greatest torque of a virtual wall.
@@ -148,8 +154,15 @@ impl fmt::Display for ConfigError {
             ConfigParameter::Compensation => {
                 "a greatest compensation of friction is negative or not finite"
             }
+            ConfigParameter::FreeDamping => "a damping of free joints is negative or not finite",
+            ConfigParameter::GuidingSpeed => {
+                "a number of the speed limit of hand guiding is negative, or none of a joint"
+            }
+            ConfigParameter::Inertia => "an inertia of a joint is not a positive number",
             ConfigParameter::WallPosition => "a lower wall is not below the upper one",
-            ConfigParameter::Wall => "a number of a virtual wall is negative or not finite",
+            ConfigParameter::Wall => {
+                "a number of a virtual wall is negative or not finite, or it damps without a spring"
+            }
             ConfigParameter::Lock => "a number of a lock is negative or not finite",
             ConfigParameter::Amplification => "the amplification is negative or not finite",
             ConfigParameter::ShapedJoint => {

@@ -1,5 +1,6 @@
 //! The torque from a reference and an estimate.
 
+pub(crate) mod breakaway;
 pub(crate) mod feedback;
 pub(crate) mod hand_guiding;
 pub(crate) mod hybrid_force;
@@ -9,6 +10,7 @@ pub(crate) mod multirate;
 pub(crate) mod passivity;
 pub(crate) mod pose_error;
 
+pub use breakaway::{Breakaway, BreakawayConfig};
 pub use feedback::{Gains, feedback};
 pub use hand_guiding::{HandGuiding, HandGuidingConfig, LimitedSpring, SpeedBrake};
 pub use hybrid_force::{

@@ -3,6 +3,7 @@ use crate::tests::{Motion, controlled, safety_limits};
 use crate::*;
 
 mod clock;
+mod limits;
 mod restart;
 mod stops;
 

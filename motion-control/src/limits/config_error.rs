@@ -74,6 +74,8 @@ pub enum ConfigParameter {
     BreakawayShare,
     /// The ticks of a standstill, of a push, or of half a period of a dither.
     BreakawayTicks,
+    /// The ticks of the change from one law to another.
+    HandOverTicks,
     /// The positions of a joint's virtual walls.
     WallPosition,
     /// The stiffness, the damping or the greatest torque of a virtual wall.
@@ -176,6 +178,7 @@ impl fmt::Display for ConfigError {
                  compensation not between 0 and 1"
             }
             ConfigParameter::BreakawayTicks => "a standstill, a push or a dither has no ticks",
+            ConfigParameter::HandOverTicks => "the change to another law has no ticks",
             ConfigParameter::Inertia => "an inertia of a joint is not a positive number",
             ConfigParameter::WallPosition => "a lower wall is not below the upper one",
             ConfigParameter::Wall => {

@@ -92,17 +92,17 @@ fn a_dither_has_no_mean_and_ends_with_half_of_the_energy() {
     let torques = torques(&mut law, 0.0, 0.0, 4000);
     let begin = torques.iter().position(|tau| *tau != 0.0).expect("it begins");
     assert_eq!(begin, CONFIG.window as usize);
-    // A quarter of a period, and then halves.
-    let signs = |from, to| torques[begin + from..begin + to].iter().sum::<f64>();
-    assert!((signs(0, 3) - 3.0 * DITHER).abs() < 1e-12);
-    for half in 0..10 {
-        let sign = [-1.0, 1.0][half % 2];
-        assert!((signs(3 + 6 * half, 9 + 6 * half) - sign * 6.0 * DITHER).abs() < 1e-12);
+    let half = [1.0, 3.0, 5.0].map(|x: f64| x / 3.0 * (1.0 - x / 12.0));
+    let wave = [half[0], half[1], half[2], half[2], half[1], half[0]];
+    for (k, tau) in torques[begin..begin + 600].iter().enumerate() {
+        let sign = [1.0, -1.0][k / 6 % 2];
+        let off = tau - sign * DITHER * wave[k % 6];
+        assert!(off.abs() < 1e-12, "{k}: {off}");
     }
     let silent = torques.iter().rposition(|tau| tau.abs() > 0.1).expect("it ends");
     let seconds = CONFIG.tick * silent as f64;
     // Each change of the sign costs a count times its torque.
-    let changes = 0.2 / (2.0 * DITHER * COUNT);
+    let changes = 0.2 / (2.0 * wave[2] * DITHER * COUNT);
     assert!((0.95..1.1).contains(&(seconds / (changes * 6.0 * CONFIG.tick))), "{seconds} s");
     let mean = torques.iter().sum::<f64>() / torques.len() as f64;
     assert!(mean.abs() < 0.005 * DITHER, "{mean}");

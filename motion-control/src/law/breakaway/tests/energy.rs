@@ -60,7 +60,12 @@ fn excess(config: BreakawayConfig<f64, 1>, laws: u32, kinds: &[Kind]) -> [f64; 2
                     Goes => speed,
                     Shakes => speed * (2.0 * random.next() - 1.0),
                 };
-                let place = if matches!(kind, Hides) { 0.499 * COUNT * sign } else { 0.0 };
+                // The most that hiding takes: half a count to and fro at the greatest torques.
+                let place = match kind {
+                    Hides if tau.abs() > 0.9 * DITHER => 0.499 * COUNT * sign,
+                    Hides => hidden,
+                    _ => 0.0,
+                };
                 let step = (step + place - hidden).clamp(-farthest, farthest);
                 hidden = place;
                 q += step;
@@ -80,10 +85,13 @@ fn no_motion_takes_more_than_the_energy_and_what_friction_absorbs() {
     for late in [true, false] {
         let config = BreakawayConfig { late, energy: [ENERGY], ..CONFIG };
         for (laws, kinds) in
-            [(1700, &ALL[..]), (300, &ALL[..2]), (300, &[Stands, Hides]), (300, &[Stands, Goes])]
+            [(1700, &ALL[..]), (300, &ALL[..2]), (300, &[Hides]), (300, &[Stands, Goes])]
         {
             let [most, least] = excess(config, laws, kinds);
-            println!("late {late}, {} kinds: excess {most} J, least energy {least} J", kinds.len());
+            println!(
+                "late {late}, {} of the kinds: excess {most} J, least energy {least} J",
+                kinds.len()
+            );
             assert!(most <= 0.0 && least >= -1e-15, "{most} J, {least} J");
         }
     }
@@ -92,14 +100,14 @@ fn no_motion_takes_more_than_the_energy_and_what_friction_absorbs() {
 #[test]
 fn without_the_tank_or_its_price_for_the_resolution_the_claim_fails() {
     let endless = BreakawayConfig { energy: [1e9], ..CONFIG };
-    for kinds in [&ALL[..2], &[Stands, Hides]] {
+    for kinds in [&ALL[..2], &[Hides]] {
         let [most, _] = excess(endless, 100, kinds);
         println!("without the tank: {most} J");
         assert!(most > 0.005, "{most} J");
     }
     // Encoders that are sixteen times as coarse as stated.
     let coarse = BreakawayConfig { resolution: COUNT / 16.0, energy: [ENERGY], ..CONFIG };
-    let [most, _] = excess(coarse, 100, &[Stands, Hides]);
+    let [most, _] = excess(coarse, 100, &[Hides]);
     println!("coarse encoders: {most} J");
     assert!(most > 0.005, "{most} J");
 }

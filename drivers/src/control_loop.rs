@@ -7,9 +7,9 @@
 use dynamics_core::state::State;
 use embedded_hal::digital::OutputPin;
 use motion_control::{
-    Command, CompletedTick, Detect, Estimate, Fault, Gains, MeasurementAge, Mode, MotionController,
-    ObservedTick, OnCircles, Reference, ReferencedTick, ResetError, Status, StopCategory,
-    TickCounter, feedback,
+    Command, CompletedTick, ConfigError, Detect, Estimate, Fault, Gains, MeasurementAge, Mode,
+    MotionController, ObservedTick, OnCircles, Reference, ReferencedTick, ResetError, SafetyLimits,
+    Status, StopCategory, TickCounter, feedback,
 };
 
 #[cfg(any(test, feature = "async"))]
@@ -338,6 +338,19 @@ where
     /// Stops the arm from outside, by a category.
     pub fn stop_by(&mut self, fault: Fault, category: StopCategory<f32, V>) {
         self.controller.stop_by(fault, category);
+    }
+
+    /// Replaces the limits, those of speed along a ramp: as [`MotionController::set_limits`], in
+    /// every tick.
+    ///
+    /// # Errors
+    /// [`ConfigError`]; nothing is changed then.
+    pub fn set_limits(
+        &mut self,
+        limits: &SafetyLimits<f32, V>,
+        deceleration: f32,
+    ) -> Result<bool, ConfigError> {
+        self.controller.set_limits(limits, deceleration)
     }
 
     /// Restarts a stopped arm: clears the fault and leads the arm back onto its trajectory. The

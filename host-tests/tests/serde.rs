@@ -11,7 +11,7 @@ use dynamics_core::state::State;
 use motion_control::{
     Gains, HandGuidingConfig, ImpedanceConfig, InertiaShapingConfig, LimitedSpring,
     MotionControllerConfig, MotionLimits, ObserverConfig, ParameterEstimatorConfig, PassivityGains,
-    PayloadEstimatorConfig, SafetyLimits, SupervisorConfig, TipWrenchConfig, WayPoint,
+    PayloadEstimatorConfig, SafetyLimits, SpeedBrake, SupervisorConfig, TipWrenchConfig, WayPoint,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -90,6 +90,8 @@ fn controller_configurations_roundtrip_bit_by_bit() {
         share: 0.9,
         rest_speed: positive,
         compensation: positive,
+        damping: positive,
+        brake: SpeedBrake { speed: [0.5, 0.6], damping: [0.7, 0.8], torque: [0.9, 1.1] },
         lower: [-1.0, -2.0],
         upper: positive,
         wall: spring,

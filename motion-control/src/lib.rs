@@ -20,7 +20,9 @@
 //! | [`hold()`] | the reference of a held arm: q̈ = −λ q̇ | none |
 //! | [`hybrid_motion_force`], [`TaskCommand`] | motions and forces along a task's directions | none |
 //! | [`CartesianImpedance`], [`pose_error()`] | a spring and a damper between a body and its goal, with null space | the modes of the last tick |
-//! | [`HandGuiding`] | an arm that a hand moves: friction in part, virtual walls, locked joints | where joints are locked |
+//! | [`HandGuiding`] | an arm that a hand moves: friction in part, a speed limit, virtual walls, locked joints | where joints are locked |
+//! | [`Breakaway`] | joints that stick: a push and a dither out of a tank of energy | energies, the last steps |
+//! | [`HandOver`] | from one law to another without a step of the torque | the difference |
 //! | [`InertiaShaping`] | external torques, amplified: an arm that is lighter for a hand | none |
 //! | [`TaughtPath`] | way-points of an arm that is guided by hand | the way-points |
 //! | [`PathSpline`], [`GeometricPath`] | a smooth path near way-points | none |
@@ -101,11 +103,12 @@ pub use estimate::{
     SelectedParameters, TipWrench, TipWrenchConfig,
 };
 pub use law::{
-    CartesianImpedance, FirstOrderHold, Gains, HandGuiding, HandGuidingConfig, ImpedanceConfig,
-    ImpedanceTorque, InertiaShaping, InertiaShapingConfig, InertiaUpdate, Interpolator,
-    LimitedSpring, ModeSearch, PassivityGains, SlidingVariable, TaskCommand, TaskDeviation,
-    TaskForce, TaskFrame, TaskMotion, ZeroOrderHold, feedback, hybrid_motion_force,
-    orientation_error, passivity_based_torque, pose_error, quaternion_error,
+    Breakaway, BreakawayConfig, CartesianImpedance, FirstOrderHold, Gains, HandGuiding,
+    HandGuidingConfig, HandOver, ImpedanceConfig, ImpedanceTorque, InertiaShaping,
+    InertiaShapingConfig, InertiaUpdate, Interpolator, LimitedSpring, ModeSearch, PassivityGains,
+    SlidingVariable, SpeedBrake, TaskCommand, TaskDeviation, TaskForce, TaskFrame, TaskMotion,
+    ZeroOrderHold, feedback, hybrid_motion_force, orientation_error, passivity_based_torque,
+    pose_error, quaternion_error,
 };
 pub use limits::{
     Circles, Command, ConfigError, ConfigParameter, Fault, LimitKind, Mode, MotionLimits, Reaction,

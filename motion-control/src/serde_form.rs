@@ -19,7 +19,7 @@ macro_rules! nested {
     )+};
 }
 
-nested!(LimitedSpring, SafetyLimits, SupervisorConfig);
+nested!(LimitedSpring, SafetyLimits, SpeedBrake, SupervisorConfig);
 
 serde_record!(limits::SafetyLimits<R, V> {
     torque: Array<R, V>,
@@ -65,11 +65,18 @@ serde_record!(law::LimitedSpring<R, V> {
     damping: Array<R, V>,
     torque: Array<R, V>,
 });
+serde_record!(law::SpeedBrake<R, V> {
+    speed: Array<R, V>,
+    damping: Array<R, V>,
+    torque: Array<R, V>,
+});
 serde_record!(law::HandGuidingConfig<R, V> {
     error: R,
     share: R,
     rest_speed: Array<R, V>,
     compensation: Array<R, V>,
+    damping: Array<R, V>,
+    brake: crate::SpeedBrake<R, V>,
     lower: Array<R, V>,
     upper: Array<R, V>,
     wall: crate::LimitedSpring<R, V>,

@@ -2,7 +2,7 @@
 
 use std::cell::RefCell;
 
-use motion_control::{Command, Detect, Reference, Status, StopCategory};
+use motion_control::{Command, Detect, Reference, SafetyLimits, Status, StopCategory};
 
 use super::*;
 
@@ -206,6 +206,23 @@ fn full_and_held<L: Law<2>>() -> [[f32; 2]; 2] {
     let full = [(); 20].map(|()| arm.tick::<L, _, ()>(&MOVING, &()).torque);
     arm.stop_by(Fault::External, StopCategory::ControlledHold);
     [full[19], arm.tick::<L, _, ()>(&MOVING, &()).torque]
+}
+
+#[test]
+fn the_limits_of_a_loop_change_between_ticks() {
+    let [encoders, drives] = [1e-3, 0.0].map(|step| Bus { q: 0.0, step });
+    let mut arm = ControlLoop::new(encoders, drives, NoBrake, GAINS, controller(), ());
+    let weak = SafetyLimits {
+        torque: [0.5; 2],
+        rate: [1.0; 2],
+        speed: [100.0; 2],
+        lower: [-10.0; 2],
+        upper: [10.0; 2],
+    };
+    assert_eq!(arm.set_limits(&weak, 1.0), Ok(true));
+    let torques = [(); 20].map(|()| arm.tick::<OfVelocity<true>, _, ()>(&MOVING, &()).torque);
+    assert_eq!(torques[19], [0.5, -0.5]);
+    assert!(arm.set_limits(&SafetyLimits { torque: [f32::NAN; 2], ..weak }, 1.0).is_err());
 }
 
 #[test]

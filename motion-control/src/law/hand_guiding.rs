@@ -1,5 +1,5 @@
-//! Hand guiding of an arm without torque sensors: friction compensation that stays passive, virtual
-//! walls, locked joints.
+//! Hand guiding of an arm without torque sensors: friction compensation that stays passive, damping,
+//! a speed limit, virtual walls, locked joints.
 //!
 //! The torque follows from the modelled friction F̂, which exceeds the true friction F at most by
 //! the share ε, and from the errors e of the torques that this one is added to:
@@ -7,9 +7,16 @@
 //! ```text
 //! τ_c = s max(σ |F̂| − e, 0) sgn F̂      σ (1 + ε) ≤ 1      ⟹  |τ_c| + e ≤ |F| wherever e ≤ σ |F̂|
 //! s = |q̇|/v₀ − 1, limited to 0 and 1
-//! τ_w = −min(K d + D max(ḋ, 0), τ_max) along the outward normal, d > 0 the depth in the wall
+//! τ_d = −D_f clamp(q̇, ±v) − clamp(D_b (q̇ − clamp(q̇, ±v)), ±τ_b)
+//! τ_w = −clamp(K d + D max(ḋ, 0), 0, τ_max) along the outward normal, d the depth in the wall
 //! τ_l = K (q_l − q) − D q̇, limited to ±τ_max
 //! ```
+//!
+//! A wall brakes before it, from the distance −d = ḋ D/K on: there the spring and the damper are
+//! those of a joint that enters with q̈ = 0. With D² ≥ 4 K M the inertia M then comes to rest at d ≤
+//! 0 from every speed, since with the poles −p₁ and −p₂, p₁ < p₂, d(t) = −a e^(−p₁ t) + b e^(−p₂ t)
+//! and a > b > 0. For D = 2 M p and K = M p² the greatest torque of the way is M p ḋ / e, and the
+//! way is 1.5 times the shortest one of this torque.
 //!
 //! No acceleration is needed. Colgate & Schenkel (1997) have the passivity of walls in discrete
 //! time; Armstrong-Hélouvry, Dupont & Canudas de Wit (1994) the compensation of friction and its
@@ -26,7 +33,7 @@ mod config;
 #[cfg(test)]
 mod tests;
 
-pub use config::{HandGuidingConfig, LimitedSpring};
+pub use config::{HandGuidingConfig, LimitedSpring, SpeedBrake};
 
 /// The law of an arm that a hand moves: torques to add to the compensation of gravity.
 ///
@@ -35,8 +42,10 @@ pub use config::{HandGuidingConfig, LimitedSpring};
 ///   together is nowhere positive. True friction whose sign is steeper than that of the model, or
 ///   which sticks, exceeds the model near rest, where it is then compensated less; a true sign that
 ///   is wider than that of the model would not be.
+/// - **Damping** acts on free joints always, and a stronger one with a limited torque on those that
+///   are faster than their limit.
 /// - **Walls** at bounds of the joints push back and never pull; their damping acts only on motion
-///   into them.
+///   into them, which they brake before the wall as early as its speed needs.
 /// - **Locked joints** are held where they were locked, and their friction is not compensated.
 ///
 /// Joints that are circles ([`Self::on_circles`]) are held and pushed by the short way.
@@ -45,7 +54,7 @@ pub use config::{HandGuidingConfig, LimitedSpring};
 /// directions alone.
 ///
 /// ```
-/// use motion_control::{Estimate, HandGuiding, HandGuidingConfig, LimitedSpring};
+/// use motion_control::{Estimate, HandGuiding, HandGuidingConfig, LimitedSpring, SpeedBrake};
 /// use dynamics_core::effects::{Coulomb, Gravity, Viscous, Width};
 /// use dynamics_core::{Engine, robots::Ur5e, state::State};
 /// let mut guiding = HandGuiding::try_new(HandGuidingConfig {
@@ -53,6 +62,8 @@ pub use config::{HandGuidingConfig, LimitedSpring};
 ///     share: 0.85,
 ///     rest_speed: [0.004; 6],
 ///     compensation: [12.0_f32, 12.0, 9.0, 2.0, 2.0, 1.6],
+///     damping: [0.0; 6],
+///     brake: SpeedBrake { speed: [1.5; 6], damping: [20.0; 6], torque: [10.0; 6] },
 ///     lower: [-3.0; 6],
 ///     upper: [3.0; 6],
 ///     wall: LimitedSpring { stiffness: [300.0; 6], damping: [20.0; 6], torque: [40.0; 6] },
@@ -126,10 +137,11 @@ impl<R: Real, const V: usize, const CIRCLES: u128> HandGuiding<R, V, CIRCLES> {
     /// nothing is changed then.
     ///
     /// ```
-    /// # use motion_control::{Fault, HandGuiding, HandGuidingConfig, LimitedSpring};
+    /// # use motion_control::{Fault, HandGuiding, HandGuidingConfig, LimitedSpring, SpeedBrake};
     /// # let spring = LimitedSpring { stiffness: [100.0; 2], damping: [10.0; 2], torque: [5.0; 2] };
     /// # let mut guiding = HandGuiding::<f32, 2>::try_new(HandGuidingConfig {
     /// #     error: 0.1, share: 0.8, rest_speed: [0.01; 2], compensation: [2.0; 2], lower: [-1.0; 2], upper: [1.0; 2],
+    /// #     damping: [0.0; 2], brake: SpeedBrake { speed: [1.0; 2], damping: [5.0; 2], torque: [5.0; 2] },
     /// #     wall: spring, lock: spring,
     /// # })?;
     /// guiding.lock(&[false, true], &[0.0, 0.5])?;
@@ -161,13 +173,14 @@ impl<R: Real, const V: usize, const CIRCLES: u128> HandGuiding<R, V, CIRCLES> {
     /// oppose the velocity is not compensated.
     ///
     /// # Cost
-    /// By count: some 35 flops a joint, the same for all data.
+    /// By count: some 45 flops a joint, the same for all data.
     ///
     /// ```
-    /// # use motion_control::{Estimate, HandGuiding, HandGuidingConfig, LimitedSpring};
+    /// # use motion_control::{Estimate, HandGuiding, HandGuidingConfig, LimitedSpring, SpeedBrake};
     /// # let spring = LimitedSpring { stiffness: [100.0], damping: [10.0], torque: [5.0] };
     /// # let guiding = HandGuiding::<f64, 1>::try_new(HandGuidingConfig {
     /// #     error: 0.25, share: 0.8, rest_speed: [0.01], compensation: [4.0], lower: [-1.0], upper: [1.0],
+    /// #     damping: [0.0], brake: SpeedBrake { speed: [1.0], damping: [5.0], torque: [5.0] },
     /// #     wall: spring, lock: spring,
     /// # })?;
     /// let torque = |q, qd, friction, error| guiding.torque(&Estimate { q: [q], qd: [qd] }, &[friction], &[error])[0];
@@ -176,6 +189,8 @@ impl<R: Real, const V: usize, const CIRCLES: u128> HandGuiding<R, V, CIRCLES> {
     /// assert!((torque(1.01, 0.1, 0.0, 0.0) + 2.0).abs() < 1e-12); // spring and damper
     /// assert!((torque(1.01, -0.1, 0.0, 0.0) + 1.0).abs() < 1e-12); // the spring alone
     /// assert_eq!(torque(1.2, 0.1, 0.0, 0.0), -5.0);
+    /// assert!((torque(0.95, 0.6, 0.0, 0.0) + 1.0).abs() < 1e-12); // fast towards the wall
+    /// assert!((torque(0.0, 1.2, 0.0, 0.0) + 1.0).abs() < 1e-12); // beyond the speed limit
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     #[inline]
@@ -194,6 +209,7 @@ impl<R: Real, const V: usize, const CIRCLES: u128> HandGuiding<R, V, CIRCLES> {
                 q
             };
             let free = self.compensation(i, qd, entry(friction, i), entry(errors, i));
+            let free = free + self.damper(i, qd);
             let lock = self.config.lock.pull(i, self.off(i, held, q), qd);
             let wall = &self.config.wall;
             let walls = wall.push(i, lower - q, -qd) - wall.push(i, q - upper, qd);
@@ -206,6 +222,16 @@ impl<R: Real, const V: usize, const CIRCLES: u128> HandGuiding<R, V, CIRCLES> {
     fn off(&self, i: usize, held: Option<R>, q: R) -> R {
         let held = held.unwrap_or(q);
         if Circles::from_bits(CIRCLES).has(i) { nearest_turn(held, q) - q } else { held - q }
+    }
+
+    /// The damping of a free joint, and the brake beyond its speed limit.
+    #[inline(always)]
+    fn damper(&self, i: usize, qd: R) -> R {
+        let brake = &self.config.brake;
+        let (limit, most) = (entry(&brake.speed, i), entry(&brake.torque, i));
+        let slow = qd.clamped(-limit, limit);
+        let brakes = (entry(&brake.damping, i) * (slow - qd)).clamped(-most, most);
+        brakes - finite(entry(&self.config.damping, i) * slow)
     }
 
     /// σ F̂, less the errors, towards zero.
@@ -228,13 +254,12 @@ impl<R: Real, const V: usize> LimitedSpring<R, V> {
         finite(entry(&self.stiffness, i) * off - entry(&self.damping, i) * qd).clamped(-most, most)
     }
 
-    /// K d + D max(ḋ, 0) in the wall, limited; zero outside.
+    /// K d + D max(ḋ, 0), limited and never negative; the depth d is negative before the wall.
     #[inline(always)]
     fn push(&self, i: usize, depth: R, inward: R) -> R {
         let inward = R::either(inward > R::ZERO, inward, R::ZERO);
         let push = entry(&self.stiffness, i) * depth + entry(&self.damping, i) * inward;
-        let inside = (depth > R::ZERO) & depth.is_finite();
-        R::either(inside, push, R::ZERO).clamped(R::ZERO, entry(&self.torque, i))
+        R::either(depth.is_finite(), push, R::ZERO).clamped(R::ZERO, entry(&self.torque, i))
     }
 }
 

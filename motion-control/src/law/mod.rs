@@ -1,7 +1,9 @@
 //! The torque from a reference and an estimate.
 
+pub(crate) mod breakaway;
 pub(crate) mod feedback;
 pub(crate) mod hand_guiding;
+pub(crate) mod hand_over;
 pub(crate) mod hybrid_force;
 pub(crate) mod impedance;
 pub(crate) mod inertia_shaping;
@@ -9,8 +11,10 @@ pub(crate) mod multirate;
 pub(crate) mod passivity;
 pub(crate) mod pose_error;
 
+pub use breakaway::{Breakaway, BreakawayConfig};
 pub use feedback::{Gains, feedback};
-pub use hand_guiding::{HandGuiding, HandGuidingConfig, LimitedSpring};
+pub use hand_guiding::{HandGuiding, HandGuidingConfig, LimitedSpring, SpeedBrake};
+pub use hand_over::HandOver;
 pub use hybrid_force::{
     TaskCommand, TaskForce, TaskFrame, TaskMotion, hybrid_motion_force, orientation_error,
 };

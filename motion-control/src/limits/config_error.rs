@@ -59,6 +59,23 @@ pub enum ConfigParameter {
     RestSpeed,
     /// The greatest compensation of friction in hand guiding.
     Compensation,
+    /// The deceleration at which limits of speed fall.
+    Deceleration,
+    /// The damping of joints that a hand moves.
+    FreeDamping,
+    /// The speed limit of hand guiding, or the damping or the greatest torque of its brake.
+    GuidingSpeed,
+    /// The largest inertia of a joint.
+    Inertia,
+    /// The static friction, the least sliding friction, the energy or the greatest speed of a joint
+    /// that is pushed out of its friction.
+    Stiction,
+    /// The shares of static friction of push and dither, or the compensated share of friction.
+    BreakawayShare,
+    /// The ticks of a standstill, of a push, or of half a period of a dither.
+    BreakawayTicks,
+    /// The ticks of the change from one law to another.
+    HandOverTicks,
     /// The positions of a joint's virtual walls.
     WallPosition,
     /// The stiffness, the damping or the greatest torque of a virtual wall.
@@ -148,8 +165,25 @@ impl fmt::Display for ConfigError {
             ConfigParameter::Compensation => {
                 "a greatest compensation of friction is negative or not finite"
             }
+            ConfigParameter::Deceleration => "a deceleration is not a number greater than zero",
+            ConfigParameter::FreeDamping => "a damping of free joints is negative or not finite",
+            ConfigParameter::GuidingSpeed => {
+                "a number of the speed limit of hand guiding is negative, or none of a joint"
+            }
+            ConfigParameter::Stiction => {
+                "a friction, an energy or a greatest speed is negative or not finite"
+            }
+            ConfigParameter::BreakawayShare => {
+                "a share of the static friction is not at least 0 and less than 1, or that of the \
+                 compensation not between 0 and 1"
+            }
+            ConfigParameter::BreakawayTicks => "a standstill, a push or a dither has no ticks",
+            ConfigParameter::HandOverTicks => "the change to another law has no ticks",
+            ConfigParameter::Inertia => "an inertia of a joint is not a positive number",
             ConfigParameter::WallPosition => "a lower wall is not below the upper one",
-            ConfigParameter::Wall => "a number of a virtual wall is negative or not finite",
+            ConfigParameter::Wall => {
+                "a number of a virtual wall is negative or not finite, or it damps without a spring"
+            }
             ConfigParameter::Lock => "a number of a lock is negative or not finite",
             ConfigParameter::Amplification => "the amplification is negative or not finite",
             ConfigParameter::ShapedJoint => {

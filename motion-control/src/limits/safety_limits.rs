@@ -222,6 +222,17 @@ pub enum SafetyLimitsError {
         /// The greatest position, rad or m.
         upper: f64,
     },
+    /// The joint is outside the range of positions that is to replace its present one.
+    Outside {
+        /// The joint.
+        joint: usize,
+        /// Its position, rad or m.
+        position: f64,
+        /// The least position, rad or m.
+        lower: f64,
+        /// The greatest position, rad or m.
+        upper: f64,
+    },
     /// The range of a joint that is a circle counts turns: it is more than one, or has one end. See
     /// [`Circles::counted`](crate::Circles::counted).
     CountsTurns {
@@ -242,6 +253,7 @@ impl SafetyLimitsError {
             | Self::Infinite { joint, .. }
             | Self::Negative { joint, .. }
             | Self::Empty { joint, .. }
+            | Self::Outside { joint, .. }
             | Self::CountsTurns { joint, .. } => joint,
         }
     }
@@ -267,6 +279,13 @@ impl SafetyLimitsError {
             Self::Empty { lower, upper, .. } => {
                 let (lower, upper) = (lower as f32, upper as f32);
                 write!(out, "its least position, {lower}, is above its greatest, {upper}")
+            }
+            Self::Outside { position, lower, upper, .. } => {
+                let [position, lower, upper] = [position, lower, upper].map(|x| x as f32);
+                write!(
+                    out,
+                    "its position, {position}, is outside its new range, {lower} to {upper}"
+                )
             }
             Self::CountsTurns { lower, upper, .. } => {
                 let (lower, upper) = (lower as f32, upper as f32);

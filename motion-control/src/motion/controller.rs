@@ -20,7 +20,7 @@ use core::fmt;
 use core::marker::PhantomData;
 
 use crate::estimate::{Estimate, Observer};
-use crate::limits::{Circles, ConfigError, Fault, Mode};
+use crate::limits::{Circles, ConfigError, Fault, Mode, SafetyLimits};
 use crate::motion::hold;
 use crate::motion::resume::ResumeTrajectory;
 use crate::reference::Reference;
@@ -436,6 +436,70 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
     #[cold]
     pub fn react(&mut self, fault: Fault) {
         self.supervisor.react(fault);
+    }
+}
+
+/// Limits that change while the arm moves.
+impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
+    /// Replaces the limits from the next tick on, such as by those of a reduced speed while a door
+    /// is open. Call it in every tick with the limits that are required: it returns whether they
+    /// have been reached.
+    ///
+    /// Limits of torque, rate and position hold at once, a torque falls to its limit at that rate.
+    /// In each call a limit of speed falls by `deceleration` (rad/s² or m/s², which may be infinite)
+    /// times a tick, and rises at once; an infinite one begins at twice the estimated speed. An arm
+    /// that decelerates as fast has no fault, one that does not has [`Fault::Speed`]: lead the
+    /// motion down at no less than this deceleration. A [`BackOff`](crate::BackOff) that has begun
+    /// keeps its bounds.
+    ///
+    /// # Errors
+    /// [`ConfigError`]: limits or a deceleration that allow nothing, and a range that a joint is
+    /// outside of ([`SafetyLimitsError::Outside`](crate::SafetyLimitsError::Outside)). Nothing is
+    /// changed then.
+    ///
+    /// # Cost
+    /// Some 15 comparisons and flops a joint in a tick with a call, nothing in others.
+    ///
+    /// ```
+    /// use motion_control::*;
+    /// # use dynamics_core::state::State;
+    /// let fast = SafetyLimits { torque: [10.0], rate: [10.0], speed: [3.0], lower: [-1.0], upper: [1.0] };
+    /// # let config = MotionControllerConfig {
+    /// #     supervisor: SupervisorConfig {
+    /// #         limits: fast, tick: 1e-3, resolution: 0.0, ride_through_ticks: 2, hold_ticks: 3, reentry_ticks: 10,
+    /// #     },
+    /// #     observer_bandwidth: 250.0, decay_rate: 25.0, restart_distance: 0.1,
+    /// # };
+    /// let mut controller = MotionController::<f64, 1>::try_new(config)?;
+    /// let slow = fast.with_speed_share(0.1);
+    /// let mut ticks = 0;
+    /// loop {
+    ///     let door_is_open = true;
+    ///     let required = if door_is_open { &slow } else { &fast };
+    ///     let reached = controller.set_limits(required, 10.0)?;
+    ///     controller.tick(Ok(&[0.0]), &State::at([0.0]), |_, _| [0.0]);
+    ///     ticks += 1;
+    ///     if reached {
+    ///         break;
+    ///     }
+    /// }
+    /// assert!((270..=271).contains(&ticks)); // from 3 to 0.3 rad/s at 10 rad/s²
+    /// let beyond = SafetyLimits { lower: [0.5], ..slow };
+    /// let error = controller.set_limits(&beyond, 10.0).unwrap_err();
+    /// assert_eq!(error.to_string(), "joint 0: its position, 0, is outside its new range, 0.5 to 1");
+    /// # Ok::<(), ConfigError>(())
+    /// ```
+    #[doc(alias = "reduced speed")]
+    #[cold]
+    pub fn set_limits(
+        &mut self,
+        limits: &SafetyLimits<R, V>,
+        deceleration: R,
+    ) -> Result<bool, ConfigError> {
+        A::CIRCLES.check(limits)?;
+        let tick = self.observer.tick();
+        let qd = &self.observer.estimate().qd;
+        self.supervisor.relimit(limits, deceleration * tick, tick, qd, A::CIRCLES)
     }
 }
 

@@ -32,6 +32,7 @@ use crate::real;
 use crate::safety::stop_category::{Ending, Required, Stopping};
 use dynamics_core::scalar::Real;
 
+mod relimit;
 mod stop;
 #[cfg(test)]
 mod tests;
@@ -161,6 +162,7 @@ pub(crate) struct Supervisor<R, const V: usize> {
     half: [R; V],
     /// Greatest plausible change of position in one tick.
     plausible_step: [R; V],
+    resolution: R,
     /// Ticks since the last good position; very many before the first.
     ticks_since_good: R,
     ride_through_ticks: u32,
@@ -209,16 +211,7 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         // Comparisons with NaN are false, so that a limit of NaN allows nothing.
         let allowed = |x| if x > R::ZERO { x } else { R::ZERO };
         let finite = |x: R| if x.is_finite() { allowed(x) } else { R::ZERO };
-        // Finite ends, so that what lies between them is finite.
-        let (far, range) = (R::from_f64(FAR), R::from_f64(RANGE));
-        let end = |x: R| {
-            if x.abs() > range { x.clamped(-range, range) } else { x }
-        };
-        let (mut middle, mut half) = (limits.lower, limits.upper);
-        for (lower, upper) in middle.iter_mut().zip(&mut half) {
-            let [a, b] = [*lower, *upper].map(|x| R::from_f64(0.5) * end(x));
-            (*lower, *upper) = (a + b, b - a);
-        }
+        let Ranges { middle, half } = Ranges::of(limits);
         let resolution = allowed(config.resolution);
         Self {
             torque_limit: limits.torque.map(finite),
@@ -226,8 +219,9 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
             speed_limit: limits.speed,
             middle,
             half,
-            plausible_step: limits.speed.map(|speed| R::from_f64(JUMP) * speed * tick + resolution),
-            ticks_since_good: far,
+            plausible_step: limits.speed.map(|speed| step(speed, tick, resolution)),
+            resolution,
+            ticks_since_good: R::from_f64(FAR),
             ride_through_ticks: config.ride_through_ticks,
             hold_ticks: config.hold_ticks,
             reentry_ticks: config.reentry_ticks,
@@ -606,6 +600,27 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
 pub(crate) struct Ranges<R, const V: usize> {
     middle: [R; V],
     half: [R; V],
+}
+
+impl<R: Real, const V: usize> Ranges<R, V> {
+    /// Those of limits, with finite ends, so that what lies between them is finite.
+    fn of(limits: &SafetyLimits<R, V>) -> Self {
+        let range = R::from_f64(RANGE);
+        let end = |x: R| {
+            if x.abs() > range { x.clamped(-range, range) } else { x }
+        };
+        let (mut middle, mut half) = (limits.lower, limits.upper);
+        for (lower, upper) in middle.iter_mut().zip(&mut half) {
+            let [a, b] = [*lower, *upper].map(|x| R::from_f64(0.5) * end(x));
+            (*lower, *upper) = (a + b, b - a);
+        }
+        Self { middle, half }
+    }
+}
+
+/// The greatest plausible change of position in a tick, of a joint with this greatest speed.
+fn step<R: Real>(speed: R, tick: R, resolution: R) -> R {
+    R::from_f64(JUMP) * speed * tick + resolution
 }
 
 /// The range of accepted positions, which a [`crate::BackOff`] replaces within its ticks.

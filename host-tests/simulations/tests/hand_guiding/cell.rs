@@ -11,7 +11,7 @@ use dynamics_core::state::State;
 use glam::DVec3;
 use motion_control::{
     CartesianImpedance, Estimate, HandGuiding, HandGuidingConfig, LimitedSpring, Observer,
-    ObserverConfig, TaskDeviation, TaskFrame,
+    ObserverConfig, SpeedBrake, TaskDeviation, TaskFrame,
 };
 
 use crate::hand_guiding::plant::{
@@ -41,6 +41,8 @@ pub fn config(error: f64, share: f64) -> HandGuidingConfig<f64, 6> {
         share,
         rest_speed: [0.002; 6],
         compensation: SLIDING.map(|f| 4.0 * f),
+        damping: [0.0; 6],
+        brake: SpeedBrake { speed: [2.0; 6], damping: [20.0; 6], torque: [10.0; 6] },
         lower: [-6.2; 6],
         upper: [6.2; 6],
         wall: spring,

@@ -4,6 +4,7 @@
 pub mod cell;
 pub mod plant;
 mod release;
+mod stiction;
 mod walls;
 
 use self::cell::{Cell, Setup, TICK, config};

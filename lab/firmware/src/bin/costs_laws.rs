@@ -93,6 +93,8 @@ fn laws(asks: &[Ask<6>; STATES]) -> Result<(), ConfigError> {
         share: 0.85,
         rest_speed: [0.004; 6],
         compensation: [10.0; 6],
+        damping: [2.0; 6],
+        brake: SpeedBrake { speed: [1.5; 6], damping: [20.0; 6], torque: [10.0; 6] },
         lower: [-3.0; 6],
         upper: [3.0; 6],
         wall: spring,

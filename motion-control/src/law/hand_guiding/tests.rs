@@ -3,6 +3,7 @@
 use super::*;
 use dynamics_core::effects::smooth_sign;
 
+mod limits;
 mod numbers;
 
 const BAD: [f64; 4] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, f64::MAX];
@@ -15,6 +16,10 @@ fn spring<R, const V: usize>(
     LimitedSpring { stiffness, damping, torque }
 }
 
+fn no_brake<const V: usize>() -> SpeedBrake<f64, V> {
+    SpeedBrake { speed: [f64::INFINITY; V], damping: [0.0; V], torque: [0.0; V] }
+}
+
 fn config() -> HandGuidingConfig<f64, 1> {
     let spring = spring([200.0], [20.0], [10.0]);
     HandGuidingConfig {
@@ -22,6 +27,8 @@ fn config() -> HandGuidingConfig<f64, 1> {
         share: 1.0 / 1.1,
         rest_speed: [1e-3],
         compensation: [12.0],
+        damping: [0.0],
+        brake: no_brake(),
         lower: [-1.0],
         upper: [1.0],
         wall: spring,
@@ -137,10 +144,8 @@ fn walls_only_push_and_damp_inward_motion() {
         for depth in [-0.1, -1e-9, 1e-9, 0.01, 0.04, 0.3] {
             for inward in [-10.0, -0.1, 0.0, 0.1, 10.0] {
                 let push = -side * wall(side * (1.0 + depth), side * inward);
-                let spring = if depth > 0.0 { 200.0 * depth } else { 0.0 };
-                let touches = f64::from(u8::from(depth > 0.0));
-                let damper = touches * 20.0 * f64::max(inward, 0.0);
-                let off = push - (spring + damper).min(10.0);
+                let damper = 20.0 * f64::max(inward, 0.0);
+                let off = push - (200.0 * depth + damper).clamp(0.0, 10.0);
                 assert!(off.abs() < 1e-6, "{depth} {inward}");
             }
         }

@@ -3,6 +3,8 @@ use crate::tests::{Motion, controlled, safety_limits};
 use crate::*;
 
 mod clock;
+mod hand_over;
+mod limits;
 mod restart;
 mod stops;
 

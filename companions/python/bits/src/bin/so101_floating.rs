@@ -16,7 +16,7 @@ use firmware_demo::scenes::so101_teach::{
     with_back_emf,
 };
 use motion_control::{
-    Estimate, HandGuiding, HandGuidingConfig, LimitedSpring, Observer, ObserverConfig,
+    Estimate, HandGuiding, HandGuidingConfig, LimitedSpring, Observer, ObserverConfig, SpeedBrake,
 };
 use serde_json::{Value, json};
 
@@ -67,6 +67,8 @@ fn guiding() -> HandGuiding<f32, 6> {
         share: SHARE,
         rest_speed: [REST_SPEED; 6],
         compensation: [MOST; 6],
+        damping: [0.0; 6],
+        brake: SpeedBrake { speed: [f32::INFINITY; 6], damping: [0.0; 6], torque: [0.0; 6] },
         lower: [f32::NEG_INFINITY; 6],
         upper: [f32::INFINITY; 6],
         wall: none,

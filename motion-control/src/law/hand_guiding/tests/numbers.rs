@@ -10,6 +10,8 @@ fn two() -> HandGuidingConfig<f64, 2> {
         share: 0.75,
         rest_speed: [0.01, 0.02],
         compensation: [4.0, 8.0],
+        damping: [0.0; 2],
+        brake: no_brake(),
         lower: [-1.0, -2.0],
         upper: [1.5, 2.5],
         wall: spring,
@@ -89,11 +91,14 @@ fn every_number_of_a_configuration_is_checked() {
         assert_eq!(HandGuiding::try_new(config).err(), Some(refused));
     };
     type Change = fn(&mut HandGuidingConfig<f64, 2>, usize, f64);
-    let changes: [(Change, _); 10] = [
+    let changes: [(Change, _); 13] = [
         (|c, _, x| c.error = x, FrictionError),
         (|c, _, x| c.share = x, CompensatedShare),
         (|c, k, x| c.rest_speed[k] = x, RestSpeed),
         (|c, k, x| c.compensation[k] = x, Compensation),
+        (|c, k, x| c.damping[k] = x, FreeDamping),
+        (|c, k, x| c.brake.damping[k] = x, GuidingSpeed),
+        (|c, k, x| c.brake.torque[k] = x, GuidingSpeed),
         (|c, k, x| c.wall.stiffness[k] = x, Wall),
         (|c, k, x| c.wall.damping[k] = x, Wall),
         (|c, k, x| c.wall.torque[k] = x, Wall),
@@ -108,6 +113,10 @@ fn every_number_of_a_configuration_is_checked() {
             }
         }
         refuse(&|c| c.rest_speed[joint] = 0.0, RestSpeed);
+        refuse(&|c| c.wall.stiffness[joint] = 0.0, Wall);
+        for bad in [-0.1, f64::NAN] {
+            refuse(&|c| c.brake.speed[joint] = bad, GuidingSpeed);
+        }
         for [lower, upper] in [[9.0, 2.5], [-1.0, -9.0], [1.0, 1.0], [f64::NAN, 1.0]] {
             let walls = |c: &mut HandGuidingConfig<f64, 2>| {
                 (c.lower[joint], c.upper[joint]) = (lower, upper);
@@ -129,6 +138,8 @@ fn a_share_that_is_rounded_to_the_error_is_a_configuration() {
             share: 1.0 / (1.0 + error),
             rest_speed: [1.0],
             compensation: [0.0],
+            damping: [0.0],
+            brake: SpeedBrake { speed: [f32::INFINITY], damping: [0.0], torque: [0.0] },
             lower: [-1.0],
             upper: [1.0],
             wall: zero,

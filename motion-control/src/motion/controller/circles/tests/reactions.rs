@@ -97,6 +97,8 @@ fn hand_guiding_pulls_and_pushes_the_short_way() {
         share: 0.8,
         rest_speed: [0.01],
         compensation: [2.0],
+        damping: [0.0],
+        brake: SpeedBrake { speed: [1.0], damping: [0.0], torque: [0.0] },
         lower: [lower],
         upper: [upper],
         wall: spring,

@@ -1,0 +1,135 @@
+//! A joint that is guided, held, moved along one motion and then along another one.
+
+use super::*;
+use crate::tests::{motion_limits, stop};
+
+const INERTIA: f64 = 2.0;
+const FRICTION: f64 = 1.5;
+const WAY: [MotionLimits<f64>; 1] = [motion_limits(1.0, 4.0)];
+const LIMITS: SafetyLimits<f64, 1> = safety_limits([60.0], [60.0], [3.0], [-2.0], [2.0]);
+type Controller = MotionController<f64, 1, CurrentTick>;
+
+fn gravity(q: f64) -> f64 {
+    5.0 * q.cos()
+}
+
+fn friction(qd: f64) -> f64 {
+    FRICTION * (qd / 0.02).clamp(-1.0, 1.0)
+}
+
+/// A joint with its loop.
+struct Bench {
+    controller: Controller,
+    guiding: HandGuiding<f64, 1>,
+    hand_over: HandOver<f64, 1>,
+    q: f64,
+    qd: f64,
+    /// The torque of the last tick, and the greatest change of it from tick to tick.
+    torque: f64,
+    step: f64,
+}
+
+impl Bench {
+    fn new(ticks: u32) -> Self {
+        let limits = HandGuidingConfig::from_limits(LIMITS, &[INERTIA], 250.0);
+        Self {
+            controller: Controller::new(controlled(
+                LIMITS,
+                TICK,
+                [RIDE, 200, 300],
+                [250.0, 25.0, 0.1],
+            )),
+            guiding: HandGuiding::try_new(limits.expect("good limits")).expect("a good one"),
+            hand_over: HandOver::try_new(ticks).expect("ticks"),
+            q: 0.2,
+            qd: 0.0,
+            torque: gravity(0.2),
+            step: 0.0,
+        }
+    }
+
+    fn advance(&mut self, command: Command<f64, 1>, hand: f64) {
+        assert!(!command.status.limited);
+        let [torque] = command.torque;
+        self.step = self.step.max((torque - self.torque).abs());
+        self.torque = torque;
+        let rest = torque + hand - gravity(self.q) - friction(self.qd);
+        self.qd += TICK * rest / INERTIA;
+        self.q += TICK * self.qd;
+    }
+
+    /// A tick in which a hand pushes.
+    fn guide(&mut self, hand: f64) {
+        let Self { guiding, hand_over, q, .. } = self;
+        let command = self.controller.tick(Ok(&[*q]), &State::at([*q]), |_, estimate| {
+            let (at, qd) = (estimate.q[0], estimate.qd[0]);
+            let [guide] = guiding.torque(estimate, &[friction(qd)], &[0.0]);
+            hand_over.torque(&[gravity(at) + guide])
+        });
+        self.advance(command, hand);
+    }
+
+    /// A tick of a motion, or of a hold.
+    fn follow<T: Reference<f64, 1>>(&mut self, motion: &T) {
+        let gains = Gains::from_inertia(&[INERTIA], 25.0, 1.0);
+        let (hand_over, q) = (&mut self.hand_over, self.q);
+        let command = self.controller.tick(Ok(&[q]), motion, |reference, estimate| {
+            let State { q, qd, qdd } = *reference;
+            let [back] = feedback(&gains, reference, estimate);
+            hand_over.torque(&[INERTIA * qdd[0] + gravity(q[0]) + friction(qd[0]) + back])
+        });
+        self.advance(command, 0.0);
+    }
+
+    /// Holds the joint, and then leads it along a motion from where it is.
+    fn lead(&mut self, motion: &Trajectory<f64, 1, 2>) {
+        let hold = State::at([self.q]);
+        self.controller.stop_by(Fault::External, StopCategory::ControlledHold);
+        self.hand_over.begin();
+        let mut ticks = 0;
+        let path = loop {
+            self.follow(&hold);
+            ticks += 1;
+            assert!(ticks < 1000);
+            let at_rest = self.qd.abs() < 1e-3;
+            if let (true, Ok(path)) = (at_rest, self.controller.approach(motion, &WAY, &LIMITS)) {
+                break path;
+            }
+        };
+        assert!((path.first_point()[0] - self.q).abs() < 1e-3);
+        self.controller.reset(&path).expect("it stands");
+        self.hand_over.begin();
+        for _ in 0..path.ticks() + 300 {
+            self.follow(&path);
+            assert_eq!(self.controller.mode(), Mode::Full);
+        }
+        let end = motion.at(motion.ticks()).q[0];
+        assert!((self.q - end).abs() < 1e-2, "{} {end}", self.q);
+    }
+}
+
+/// The greatest change of the torque in a tick of the whole sequence.
+fn greatest_step(ticks: u32) -> f64 {
+    let mut bench = Bench::new(ticks);
+    let motion = |from, to| Trajectory::new(&[stop([from], 0), stop([to], 800)], TICK, &WAY);
+    for k in 0..1000 {
+        bench.guide((0.02 * f64::from(k)).min(4.0));
+    }
+    assert!(bench.q > 0.4 && bench.qd > 0.1, "{} {}", bench.q, bench.qd);
+    bench.lead(&motion(0.6, 0.9).expect("within the limits"));
+    bench.lead(&motion(0.4, 0.1).expect("within the limits"));
+    bench.hand_over.begin();
+    bench.guide(0.0);
+    for _ in 0..500 {
+        bench.guide(0.0);
+    }
+    assert!((bench.q - 0.1).abs() < 0.02);
+    bench.step
+}
+
+#[test]
+fn guiding_holding_and_two_motions_follow_each_other_without_a_step_of_the_torque() {
+    let [with, without] = [50, 1].map(greatest_step);
+    println!("steps of {with} and {without} N·m");
+    assert!(with < 3.0 && without > 30.0, "{with} {without} N·m");
+}

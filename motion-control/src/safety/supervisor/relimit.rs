@@ -1,0 +1,48 @@
+//! Limits that change while the arm moves.
+
+use super::{Ranges, Supervisor, step};
+use crate::limits::{Circles, ConfigError, ConfigParameter, SafetyLimits, SafetyLimitsError};
+use dynamics_core::scalar::Real;
+
+impl<R: Real, const V: usize> Supervisor<R, V> {
+    /// Replaces the limits; those of speed fall by `fall` in a tick of `tick` seconds. Whether they
+    /// are there.
+    ///
+    /// A limit of torque that falls is reached at the rate of the torque. The plausible step is that
+    /// of the present limit of speed. Circles may be in any turn.
+    pub(crate) fn relimit(
+        &mut self,
+        limits: &SafetyLimits<R, V>,
+        fall: R,
+        tick: R,
+        qd: &[R; V],
+        circles: Circles,
+    ) -> Result<bool, ConfigError> {
+        limits.check()?;
+        ConfigParameter::Deceleration.require(fall > R::ZERO)?;
+        let Ranges { middle, half } = Ranges::of(limits);
+        let ranges = middle.iter().zip(&half);
+        let centres = Circles::centres(&middle, &half, &self.last_good);
+        let q = circles.near(&self.last_good, &centres);
+        let mut joints = q.iter().zip(ranges);
+        let outside = |(q, (middle, half)): (&R, (&R, &R))| (*q - *middle).abs() > *half;
+        if let (true, Some(joint)) = (self.known, joints.position(outside)) {
+            let at = |all: &[R; V]| all.get(joint).map_or(0.0, |x| x.to_f64());
+            let (position, lower, upper) = (at(&q), at(&limits.lower), at(&limits.upper));
+            return Err(SafetyLimitsError::Outside { joint, position, lower, upper }.into());
+        }
+        (self.middle, self.half) = (middle, half);
+        (self.torque_limit, self.rate_limit) = (limits.torque, limits.rate);
+        let mut there = true;
+        let joints = self.speed_limit.iter_mut().zip(&mut self.plausible_step);
+        for ((bound, plausible), (&goal, &qd)) in joints.zip(limits.speed.iter().zip(qd)) {
+            // A bound that is infinite falls from twice the present speed on.
+            let from = if bound.is_finite() { *bound } else { qd.abs() + qd.abs() };
+            let next = from - fall;
+            *bound = if next > goal { next } else { goal };
+            *plausible = step(*bound, tick, self.resolution);
+            there &= *bound <= goal;
+        }
+        Ok(there)
+    }
+}

@@ -29,6 +29,7 @@ pages! {
     contact "contact.md",
     impedance "impedance.md",
     guiding "guiding.md",
+    can_motors "can-motors.md",
     taught_paths "taught-paths.md",
     payload "payload.md",
     learning "learning.md",

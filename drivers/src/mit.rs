@@ -209,7 +209,7 @@ pub struct Drive<P> {
     last: Option<Last>,
 }
 
-/// Where the joint was in the last reply.
+/// The place of the joint in the last reply.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Last {
     /// rad or m at the joint.

@@ -10,7 +10,7 @@
 //! drive's number. There is no frame that clears errors ([`CanError::Unknown`]), and no reply says
 //! whether the drive is enabled.
 //!
-//! After power-up most of these drives know the position of their rotor within a turn of it, which
+//! A position begins again at the end of its scale (TMotorCANControl). After power-up most of these drives know the position of their rotor within a turn of it, which
 //! is a part of a turn of the output: bring the joint to its zero and send
 //! [`Drive::set_zero`](super::Drive::set_zero).
 //!

@@ -36,7 +36,7 @@ pub trait Protocol: Sized {
     fn decode<F: Frame>(&self, frame: &F) -> Result<Feedback, CanError>;
 }
 
-/// What a frame without quantities asks for.
+/// The request of a frame without quantities.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Special {
     Enable,

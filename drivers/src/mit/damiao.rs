@@ -31,7 +31,7 @@
 
 use embedded_can::Frame;
 
-use super::protocol::{self, Counts, Feedback, Protocol, Special};
+use super::protocol::{self, Feedback, Protocol};
 use super::{Drive, Scale};
 use crate::can::{CanError, Part};
 
@@ -160,20 +160,8 @@ impl Protocol for Identity {
         is_one.then_some(Self { id, host }).ok_or(CanError::Node)
     }
 
-    fn special<F: Frame>(&self, special: Special) -> Result<F, CanError> {
-        protocol::special(
-            self.id,
-            match special {
-                Special::Clear => 0xfb,
-                Special::Enable => 0xfc,
-                Special::Disable => 0xfd,
-                Special::Zero => 0xfe,
-            },
-        )
-    }
-
-    fn command<F: Frame>(&self, counts: &Counts) -> Result<F, CanError> {
-        protocol::standard(self.id.into(), &protocol::pack(counts))
+    fn id(&self) -> u8 {
+        self.id
     }
 
     fn decode<F: Frame>(&self, frame: &F) -> Result<Feedback, CanError> {

@@ -179,6 +179,10 @@ impl Protocol for Own {
         identity(id, host).map(|(id, host)| Self { id, host })
     }
 
+    fn id(&self) -> u8 {
+        self.id
+    }
+
     fn special<F: Frame>(&self, special: Special) -> Result<F, CanError> {
         let (kind, first) = match special {
             Special::Enable => (ENABLE, 0),
@@ -234,20 +238,8 @@ impl Protocol for Mit {
         identity(id, host).map(|(id, host)| Self { id, host })
     }
 
-    fn special<F: Frame>(&self, special: Special) -> Result<F, CanError> {
-        protocol::special(
-            self.id,
-            match special {
-                Special::Clear => 0xfb,
-                Special::Enable => 0xfc,
-                Special::Disable => 0xfd,
-                Special::Zero => 0xfe,
-            },
-        )
-    }
-
-    fn command<F: Frame>(&self, counts: &Counts) -> Result<F, CanError> {
-        protocol::standard(self.id.into(), &protocol::pack(counts))
+    fn id(&self) -> u8 {
+        self.id
     }
 
     fn decode<F: Frame>(&self, frame: &F) -> Result<Feedback, CanError> {

@@ -292,7 +292,8 @@ impl<Bus: Can, Joint: PdCanJoint, const V: usize> PdDrives<V> for &CanJoints<Bus
 /// A bus in memory, for a task that awaits its own: [`CanJoints`] over it has the frames to send in
 /// [`CanJoints::commands`], and takes those that came by [`CanJoints::receive`].
 ///
-/// `embedded-can` has no asynchronous trait, so that each HAL of Embassy has functions of its own:
+/// `embedded-can` has no asynchronous trait, so that each HAL of Embassy has functions of its own.
+/// Send the frames that the start of a loop leaves here before its first tick.
 ///
 /// ```
 /// use embedded_can::{ExtendedId, Frame};

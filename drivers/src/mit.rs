@@ -209,7 +209,7 @@ pub struct Drive<P> {
     last: Option<Last>,
 }
 
-/// Where the joint was in the last reply.
+/// The place of the joint in the last reply.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Last {
     /// rad or m at the joint.
@@ -289,6 +289,9 @@ impl<P: Protocol> Drive<P> {
     /// # Errors
     /// [`CanError::Length`]. [`CanError::Unknown`]: the protocol has no such frame.
     pub fn clear_errors<F: Frame>(&self) -> Result<F, CanError> {
+        if !P::CLEARS {
+            return Err(CanError::Unknown(Special::Clear as u8));
+        }
         self.protocol.special(Special::Clear)
     }
 

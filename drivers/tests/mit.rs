@@ -407,6 +407,6 @@ fn the_sum_of_the_drive_is_the_torque_that_was_asked_for() {
     }
     // Half a count of ±17 N·m is 4.15 mN·m.
     assert!(worst < 4.2e-3, "{worst}");
-    // Where the rest is beyond the scale the gains are zero.
+    // The gains are zero where the rest is beyond the scale.
     assert!((3_000..12_000).contains(&with_gains), "{with_gains}");
 }

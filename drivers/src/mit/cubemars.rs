@@ -10,9 +10,9 @@
 //! drive's number. There is no frame that clears errors ([`CanError::Unknown`]), and no reply says
 //! whether the drive is enabled.
 //!
-//! After power-up most of these drives know the position of their rotor within a turn of it, which
-//! is a part of a turn of the output: bring the joint to its zero and send
-//! [`Drive::set_zero`](super::Drive::set_zero).
+//! A position begins again at the end of its scale (TMotorCANControl). After power-up most of these
+//! drives know the position of their rotor within a turn of it, which is a part of a turn of the
+//! output: bring the joint to its zero and send [`Drive::set_zero`](super::Drive::set_zero).
 //!
 //! Public sources disagree:
 //!
@@ -26,7 +26,7 @@
 
 use embedded_can::Frame;
 
-use super::protocol::{self, Counts, Feedback, Protocol, Special};
+use super::protocol::{self, Feedback, Protocol};
 use super::{Drive, Scale};
 use crate::can::{CanError, Part};
 
@@ -73,22 +73,14 @@ pub struct Identity {
 }
 
 impl Protocol for Identity {
+    const CLEARS: bool = false;
+
     fn new(id: u8, host: u16) -> Result<Self, CanError> {
         (id != 0 && host <= 0x7ff).then_some(Self { id, host }).ok_or(CanError::Node)
     }
 
-    fn special<F: Frame>(&self, special: Special) -> Result<F, CanError> {
-        let last = match special {
-            Special::Enable => 0xfc,
-            Special::Disable => 0xfd,
-            Special::Zero => 0xfe,
-            Special::Clear => return Err(CanError::Unknown(0xfb)),
-        };
-        protocol::special(self.id, last)
-    }
-
-    fn command<F: Frame>(&self, counts: &Counts) -> Result<F, CanError> {
-        protocol::standard(self.id.into(), &protocol::pack(counts))
+    fn id(&self) -> u8 {
+        self.id
     }
 
     fn decode<F: Frame>(&self, frame: &F) -> Result<Feedback, CanError> {

@@ -7,11 +7,13 @@
 //! Damiao's manuals (dmBots/DM-J4310-2EC, V1.1; dmBots/DM-J4340-2EC, V1.0): identifiers, layout,
 //! K_p to 500, K_d to 5, errors, temperatures, and that two encoders know the output shaft's
 //! position within a turn after power-up. Damiao's library (dmBots/motor-control-routine, commit
-//! 2a13f976): registers, the frames that query them. The frame that clears errors (0xFB):
-//! i2rt-robotics/i2rt.
+//! 2a13f976): registers, the frames that query them. The frame that clears errors (0xFB), and that
+//! the count begins again at the end of its scale: i2rt-robotics/i2rt; no manual says the latter.
 //!
 //! A reply has the identifier `host` (register MST_ID), and the low four bits of the drive's own
-//! number in its first byte: drives are numbered 1 to 15, `host` is 0 to 0x7FF.
+//! number in its first byte: drives are numbered 1 to 15, `host` is 0 to 0x7FF, from the factory 0.
+//! A reply to a query of registers has a pattern that a disabled drive at 0x33, 0x55 or 0xAA counts
+//! from the end of its scale has as well: such a feedback is refused.
 //!
 //! # Scales
 //! PMAX, VMAX and TMAX are registers of the drive, of which the constants here are the usual
@@ -29,7 +31,7 @@
 
 use embedded_can::Frame;
 
-use super::protocol::{self, Counts, Feedback, Protocol, Special};
+use super::protocol::{self, Feedback, Protocol};
 use super::{Drive, Scale};
 use crate::can::{CanError, Part};
 
@@ -158,27 +160,13 @@ impl Protocol for Identity {
         is_one.then_some(Self { id, host }).ok_or(CanError::Node)
     }
 
-    fn special<F: Frame>(&self, special: Special) -> Result<F, CanError> {
-        protocol::special(
-            self.id,
-            match special {
-                Special::Clear => 0xfb,
-                Special::Enable => 0xfc,
-                Special::Disable => 0xfd,
-                Special::Zero => 0xfe,
-            },
-        )
-    }
-
-    fn command<F: Frame>(&self, counts: &Counts) -> Result<F, CanError> {
-        protocol::standard(self.id.into(), &protocol::pack(counts))
+    fn id(&self) -> u8 {
+        self.id
     }
 
     fn decode<F: Frame>(&self, frame: &F) -> Result<Feedback, CanError> {
         let is_own = protocol::is_standard(frame.id(), self.host);
         let [first, rest @ ..] = protocol::data(frame, is_own)?;
-        // A register, or a disabled drive at 0.02 rad from the end of its scale: of either the
-        // position is of no use.
         let is_register = matches!(rest, [0, READ | WRITE | STORE, ..]) && first >> 4 == 0;
         if first & 0x0f != self.id || is_register {
             return Err(CanError::Identifier);

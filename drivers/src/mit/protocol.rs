@@ -8,6 +8,8 @@ use crate::can::{self, CanError};
 pub trait Protocol: Sized {
     /// The last count of all quantities but the position.
     const TOP: u16 = 4095;
+    /// Whether there is a frame that clears faults.
+    const CLEARS: bool = true;
     /// The angle after which the count of positions begins again, if it is not the scale.
     const PERIOD: Option<f32> = None;
 
@@ -17,17 +19,30 @@ pub trait Protocol: Sized {
     /// [`CanError::Node`].
     fn new(id: u8, host: u16) -> Result<Self, CanError>;
 
-    /// A frame without quantities.
-    ///
-    /// # Errors
-    /// [`CanError::Length`], [`CanError::Unknown`].
-    fn special<F: Frame>(&self, special: Special) -> Result<F, CanError>;
+    /// The number of the drive.
+    fn id(&self) -> u8;
 
-    /// The frame of all quantities.
+    /// A frame without quantities: seven bytes 0xFF and the number of the request.
     ///
     /// # Errors
     /// [`CanError::Length`].
-    fn command<F: Frame>(&self, counts: &Counts) -> Result<F, CanError>;
+    fn special<F: Frame>(&self, special: Special) -> Result<F, CanError> {
+        standard(self.id().into(), &[0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, special as u8])
+    }
+
+    /// The frame of all quantities: 16, 12, 12, 12 and 12 bits, the high ones first.
+    ///
+    /// # Errors
+    /// [`CanError::Length`].
+    fn command<F: Frame>(&self, counts: &Counts) -> Result<F, CanError> {
+        let &Counts { position, velocity, kp, kd, torque } = counts;
+        let all = u64::from(position) << 48
+            | u64::from(velocity) << 36
+            | u64::from(kp) << 24
+            | u64::from(kd) << 12
+            | u64::from(torque);
+        standard(self.id().into(), &all.to_be_bytes())
+    }
 
     /// The message of a frame.
     ///
@@ -36,13 +51,13 @@ pub trait Protocol: Sized {
     fn decode<F: Frame>(&self, frame: &F) -> Result<Feedback, CanError>;
 }
 
-/// What a frame without quantities asks for.
+/// The request of a frame without quantities.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Special {
-    Enable,
-    Disable,
-    Zero,
-    Clear,
+    Clear = 0xfb,
+    Enable = 0xfc,
+    Disable = 0xfd,
+    Zero = 0xfe,
 }
 
 /// The counts of a command.
@@ -92,22 +107,6 @@ pub(super) fn is_standard(id: Id, own: u16) -> bool {
 /// A frame with an identifier of 11 bits.
 pub(super) fn standard<F: Frame>(id: u16, data: &[u8; 8]) -> Result<F, CanError> {
     can::frame(StandardId::new(id).ok_or(CanError::Node)?, data)
-}
-
-/// Seven bytes 0xFF and the last one, by which a frame differs from one of quantities.
-pub(super) fn special<F: Frame>(id: u8, last: u8) -> Result<F, CanError> {
-    standard(id.into(), &[0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, last])
-}
-
-/// 16, 12, 12, 12 and 12 bits, the high ones first.
-pub(super) fn pack(counts: &Counts) -> [u8; 8] {
-    let &Counts { position, velocity, kp, kd, torque } = counts;
-    let all = u64::from(position) << 48
-        | u64::from(velocity) << 36
-        | u64::from(kp) << 24
-        | u64::from(kd) << 12
-        | u64::from(torque);
-    all.to_be_bytes()
 }
 
 /// 16, 12 and 12 bits, the high ones first.

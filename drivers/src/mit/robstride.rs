@@ -23,8 +23,9 @@
 //! | MIT mode: velocity of 02, 03, 04 | 44, 20, 15 rad/s: Chinese manuals | 33: English manuals, LeRobot |
 //! | MIT mode: gains of 03 and 04 | 5000 and 100: Chinese manuals | 500 and 5: English manuals, LeRobot |
 //! | MIT mode: position of 04 | ±12.57 rad: Chinese manual | ±15: English manual |
-//! | velocity of 00, 03, 06 | 33, 20, 50 rad/s: all manuals in chapter 4 | 50, 50, 20: Robstride-Dynamics-Python-SDK |
+//! | velocity of 00, 03, 05, 06 | 33, 20, 50, 50 rad/s: all manuals in chapter 4 | 50, 50, 33, 20: Robstride-Dynamics-Python-SDK |
 //! | torque of 00, 05, 06 | 14, 5.5, 36 N·m: all manuals | 17, 17, 60: the same |
+//! | torque of 02 | 17 N·m: both manuals | 20: LeRobot |
 //!
 //! The Chinese manuals have the same scales in both protocols; the English ones repeat numbers of
 //! other drives. No register says what a drive has: try a small gain on the bench first.
@@ -178,6 +179,10 @@ impl Protocol for Own {
         identity(id, host).map(|(id, host)| Self { id, host })
     }
 
+    fn id(&self) -> u8 {
+        self.id
+    }
+
     fn special<F: Frame>(&self, special: Special) -> Result<F, CanError> {
         let (kind, first) = match special {
             Special::Enable => (ENABLE, 0),
@@ -233,20 +238,8 @@ impl Protocol for Mit {
         identity(id, host).map(|(id, host)| Self { id, host })
     }
 
-    fn special<F: Frame>(&self, special: Special) -> Result<F, CanError> {
-        protocol::special(
-            self.id,
-            match special {
-                Special::Clear => 0xfb,
-                Special::Enable => 0xfc,
-                Special::Disable => 0xfd,
-                Special::Zero => 0xfe,
-            },
-        )
-    }
-
-    fn command<F: Frame>(&self, counts: &Counts) -> Result<F, CanError> {
-        protocol::standard(self.id.into(), &protocol::pack(counts))
+    fn id(&self) -> u8 {
+        self.id
     }
 
     fn decode<F: Frame>(&self, frame: &F) -> Result<Feedback, CanError> {

@@ -9,7 +9,7 @@ use joint_drivers::{CanJoints, ControlLoop, JointDrives, JointEncoders, JointErr
 use joint_drivers::{Outbox, PdDrives, PdOnDrives, Telemetry};
 use motion_control::{
     Command, Detect, Estimate, Fault, Gains, Mode, MotionController, MotionControllerConfig,
-    SafetyLimits, SupervisorConfig,
+    SafetyLimits, StopCategory, SupervisorConfig,
 };
 
 use super::*;
@@ -260,17 +260,20 @@ impl Detect<f32, 1> for &Outside {
 }
 
 #[test]
-fn the_gains_are_zero_on_the_brake_and_for_a_detectors_fault() {
+fn the_gains_are_zero_on_the_brake_and_in_a_stop() {
     let (joints, outside) = (joints(), Outside::default());
     let drives = PdOnDrives::new(&joints, GAINS);
     let controller = controller(2.0).on_brake();
     let mut arm = ControlLoop::new(&joints, drives, &outside, GAINS, controller, &outside);
     joints.commands();
     let path = super::super::Motion(|_| Motion::at([0.0]));
-    let mut tick = || {
+    let mut tick = |stop: bool| {
+        if stop {
+            arm.stop_by(Fault::External, StopCategory::ControlledHold);
+        }
         joints.receive(&Plant::REST.reply());
         let status = arm.tick::<Hold<5>, _, ()>(&path, &()).status;
-        if status.mode == Mode::Stopped && status.fault.is_none() {
+        if status.mode == Mode::Stopped {
             arm.reset(&path).unwrap();
         }
         let [frame] = joints.commands();
@@ -278,15 +281,26 @@ fn the_gains_are_zero_on_the_brake_and_for_a_detectors_fault() {
         assert_eq!(kp > 0.0, kd > 0.0);
         (status, outside.brake.get(), kp > 0.0)
     };
-    let (status, braked, stiff) = tick();
+    let (status, braked, stiff) = tick(false);
     assert_eq!((status.mode, braked, stiff), (Mode::Stopped, true, false));
-    let (status, braked, stiff) = tick();
+    let (status, braked, stiff) = tick(false);
     assert_eq!((status.mode, braked, stiff), (Mode::Full, true, false));
-    let released = (0..20).map(|_| tick()).filter(|(_, braked, _)| !braked);
-    assert!(released.map(|(_, _, stiff)| stiff).collect::<Vec<_>>().ends_with(&[true; 3]));
-    outside.found.set(Some(Fault::External));
-    let (status, braked, stiff) = tick();
-    assert_eq!((status.mode, status.fault, braked, stiff), (Mode::Full, None, false, false));
+    for found in [Some(Fault::External), None] {
+        for time in 0..30 {
+            let (status, braked, stiff) = tick(false);
+            assert!(!(braked && stiff) && (stiff || time < 25), "{time}: {status:?}");
+        }
+        // A detector's finding in a command.
+        outside.found.set(found);
+        assert_eq!(tick(false).2, found.is_none());
+        outside.found.set(None);
+    }
+    let (status, braked, stiff) = tick(true);
+    assert_eq!((status.mode, braked, stiff), (Mode::Hold, false, false));
+    for _ in 0..50 {
+        let (status, braked, stiff) = tick(false);
+        assert_eq!((status.mode, braked, stiff), (Mode::Hold, false, false), "{status:?}");
+    }
 }
 
 #[test]

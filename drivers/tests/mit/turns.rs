@@ -1,4 +1,4 @@
-//! Where the joint is when the drive's count begins again.
+//! The joint's position when the drive's count begins again.
 
 use super::*;
 

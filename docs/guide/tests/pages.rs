@@ -126,6 +126,7 @@ fn the_page_has_the_dependencies_of_the_templates() {
     let hals = concat!(
         include_str!("../../../tools/robot-import/template/board/stm32f4/hal.toml"),
         include_str!("../../../tools/robot-import/template/board/stm32g4/hal.toml"),
+        include_str!("../../../tools/robot-import/template/board/can/can.toml"),
     );
     let mut table = String::new();
     for (title, manifest) in templates {

@@ -25,7 +25,12 @@ pub enum ProjectError {
     #[error("the library's address `{0}` has a control character or is no Unicode")]
     Library(String),
     /// No board has this name.
-    #[error("there is no firmware for a board `{}`; there is: {}", visible(.0), board::all(None))]
+    #[error(
+        "there is no firmware for a board `{}`; there is: {}. The page \"Another core or board\" of \
+         the guide (docs/guide/src/porting.md) has what other boards need",
+        visible(.0),
+        board::all(None)
+    )]
     Board(String),
     /// A board has no firmware with this framework.
     #[error(
@@ -40,8 +45,8 @@ pub enum ProjectError {
     },
     /// The robot has more joints than a board has encoders and drives for.
     #[error(
-        "the robot has {joints} joints, {board} has encoders and drives for {most}: `--tip`, \
-         `--joints` or `--lock` leave joints out, or write the project without `--board`"
+        "the robot has {joints} joints, {board} has drives for {most}: `--tip`, `--joints` or \
+         `--lock` leave joints out, or write the project without `--board`"
     )]
     TooManyJoints {
         /// The number of joints of the robot.

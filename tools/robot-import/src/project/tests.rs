@@ -174,10 +174,10 @@ fn what_no_board_has_is_refused_with_what_there_is() {
     }
     let error = said("uno\u{1b}", None).expect_err("no such board");
     assert!(
-        error.contains("pico2 with Embassy") && error.contains("nucleo-f446re with RTIC"),
+        error.contains("pico2 with Embassy") && error.contains("nucleo-f446re with RTIC, "),
         "{error}"
     );
-    assert!(error.contains(r"uno\u{1b}"), "{error}");
+    assert!(error.contains(r"uno\u{1b}") && error.contains("guide/src/porting.md"), "{error}");
     let error = said("pico2", Some(Framework::Rtic)).expect_err("no such firmware");
     assert!(error.contains("pico2 with Embassy") && !error.contains("nucleo"), "{error}");
     let folder = Folder::new("seven");

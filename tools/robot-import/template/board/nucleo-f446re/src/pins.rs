@@ -11,7 +11,7 @@ use stm32f4xx_hal::prelude::*;
 use stm32f4xx_hal::rcc::{Config, Rcc};
 use stm32f4xx_hal::spi::Spi;
 
-use crate::board::Devices;
+use crate::board;
 use crate::chip::{Channel, drives};
 use crate::devices::{Encoder, encoders};
 

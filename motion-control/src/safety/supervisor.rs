@@ -162,7 +162,6 @@ pub(crate) struct Supervisor<R, const V: usize> {
     half: [R; V],
     /// Greatest plausible change of position in one tick.
     plausible_step: [R; V],
-    resolution: R,
     /// Ticks since the last good position; very many before the first.
     ticks_since_good: R,
     ride_through_ticks: u32,
@@ -219,8 +218,7 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
             speed_limit: limits.speed,
             middle,
             half,
-            plausible_step: limits.speed.map(|speed| step(speed, tick, resolution)),
-            resolution,
+            plausible_step: limits.speed.map(|speed| step(speed, tick) + resolution),
             ticks_since_good: R::from_f64(FAR),
             ride_through_ticks: config.ride_through_ticks,
             hold_ticks: config.hold_ticks,
@@ -618,9 +616,10 @@ impl<R: Real, const V: usize> Ranges<R, V> {
     }
 }
 
-/// The greatest plausible change of position in a tick, of a joint with this greatest speed.
-fn step<R: Real>(speed: R, tick: R, resolution: R) -> R {
-    R::from_f64(JUMP) * speed * tick + resolution
+/// The greatest plausible change of position in a tick, of a joint with this greatest speed, less
+/// the resolution of its encoder.
+fn step<R: Real>(speed: R, tick: R) -> R {
+    R::from_f64(JUMP) * speed * tick
 }
 
 /// The range of accepted positions, which a [`crate::BackOff`] replaces within its ticks.

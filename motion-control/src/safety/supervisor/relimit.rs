@@ -9,7 +9,7 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
     /// are there.
     ///
     /// A limit of torque that falls is reached at the rate of the torque. The plausible step is that
-    /// of the present limit of speed. Circles may be in any turn.
+    /// of the present limit of speed, and none where that was infinite. Circles may be in any turn.
     pub(crate) fn relimit(
         &mut self,
         limits: &SafetyLimits<R, V>,
@@ -39,8 +39,12 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
             // A bound that is infinite falls from twice the present speed on.
             let from = if bound.is_finite() { *bound } else { qd.abs() + qd.abs() };
             let next = from - fall;
-            *bound = if next > goal { next } else { goal };
-            *plausible = step(*bound, tick, self.resolution);
+            let next = if next > goal { next } else { goal };
+            // An infinite step remains one: the resolution that it contains is lost in it.
+            if plausible.is_finite() {
+                *plausible += step(next, tick) - step(*bound, tick);
+            }
+            *bound = next;
             there &= *bound <= goal;
         }
         Ok(there)

@@ -11,6 +11,7 @@ use motion_control::{Detect, Detectors, Gains};
 pub use firmware_demo::scenes::ur5e::plan;
 
 /// A tick, s.
+#[allow(dead_code, reason = "one of the boards asks for it")]
 pub const TICK: f32 = PickAndPlace::TICK;
 /// Joints.
 pub const N: usize = 6;

@@ -13,7 +13,7 @@ use dynamics_core::model::RobotModel;
 use dynamics_core::state::State;
 use nalgebra::DMatrix;
 
-use crate::gears::Moving;
+use crate::gears::{DEFLECTIONS, Moving};
 use crate::physical::most_probable;
 use crate::reduced::{Filters, Reduced};
 use crate::solved::Solved;
@@ -419,7 +419,10 @@ impl<const V: usize> Fitted<V> {
     pub fn is_gear_determined(&self, joint: usize, number: usize) -> bool {
         self.gears.is_some_and(|gears| {
             let [found, deviation] = gears.each_ref().map(|gears| gears.joint(joint)[number]);
-            deviation <= DETERMINED * if number < 2 { GEARS } else { DECADE * found }
+            match number {
+                0 | 1 => deviation <= DETERMINED * GEARS,
+                _ => !DEFLECTIONS.contains(&found) && deviation <= DETERMINED * DECADE * found,
+            }
         })
     }
 

@@ -9,9 +9,10 @@ use crate::ticks::Stretch;
 const STARTS: f64 = 1e-3;
 /// The least share of a motor's torque that is not friction, while the estimate is on its way.
 const TRANSMITTED: f64 = 0.1;
-/// The most by which ln h changes in a pass, and the values between which h stays, rad or m.
+/// The most by which ln h changes in a pass, and the values between which h stays, rad or m: at one
+/// of them, the recording does not determine it.
 const STEP: f64 = 0.7;
-const DEFLECTIONS: [f64; 2] = [1e-6, 1.0];
+pub(crate) const DEFLECTIONS: [f64; 2] = [1e-5, 1.0];
 /// The values of h from which the search starts, rad or m.
 const SCAN: [f64; 7] = [1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 1e-1];
 

@@ -28,6 +28,10 @@ pub fn identify(
     options: &Options,
 ) -> Result<Found> {
     let names = robot.joints();
+    if [JointEffect::Load, JointEffect::Preslide].iter().all(|one| options.effects.contains(one)) {
+        let reason = "gears have one kind of friction: --effects with load or with preslide";
+        return Err(Error::Unsuitable { path: robot.path.clone(), reason: reason.to_owned() });
+    }
     let all = [Some(recording), other];
     for (path, recorded) in all.into_iter().flatten() {
         if recorded.joints != names.len() {

@@ -115,7 +115,7 @@ fn without_turns_or_motion_or_load_the_numbers_are_not_determined() {
     let rests = |t: f64| swing(t, [0.9, 0.0], [0.7, 1.1]);
     let found = fitted(&presliding(rests, 10_000, LOADED), NOMINAL, RIGID_BODY);
     assert_eq!(determined(&found), [[true; 3], [false; 3]], "{:?}", found.gears);
-    let slow = |t: f64| swing(t, [0.9, 1.1], [0.15, 0.2]);
+    let slow = |t: f64| swing(t, [0.9, 1.1], [0.1, 0.13]);
     let weightless = (Inertia, Coriolis);
     let found = fitted(&presliding(slow, 20_000, weightless), NOMINAL, weightless);
     assert_eq!(determined(&found), [[false; 3]; 2], "{:?}", found.gears);

@@ -51,8 +51,8 @@ fn presliding(
     let arm = model::arm::<2>(&described().imported.tree).expect("an arm");
     let (mut gears, mut last) = (GEARS, motion(0.0).q);
     record_with(motion, ticks, 0.0, |at| {
-        for j in 0..2 {
-            let step = JointState::new(at.q[j], at.q[j] - last[j]);
+        for (j, last) in last.iter().enumerate() {
+            let step = JointState::new(at.q[j], at.q[j] - last);
             (0..20).for_each(|_| Effect::<f64, 2, 2>::advance(&mut gears, j, step, 0.05));
         }
         last = at.q;

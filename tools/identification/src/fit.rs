@@ -8,15 +8,16 @@
 //! deviation by which its torque would be a stated share of the joint's. Parameters whose deviation
 //! the recording hardly reduces are not determined, and are named.
 
-use dynamics_core::effects::{Effect, smooth_sign};
+use dynamics_core::effects::Effect;
 use dynamics_core::model::RobotModel;
 use dynamics_core::state::State;
 use nalgebra::DMatrix;
 
+use crate::gears::{DEFLECTIONS, Moving};
 use crate::physical::most_probable;
 use crate::reduced::{Filters, Reduced};
 use crate::solved::Solved;
-use crate::{BaseModel, IdentificationError, PhysicalSet, TickRecording};
+use crate::{BaseModel, Gears, IdentificationError, PhysicalSet, TickRecording};
 
 /// Passes over the weights, and over the friction of gears, whose columns depend on the estimate.
 const PASSES: usize = 12;
@@ -28,6 +29,8 @@ const LEAST: f64 = 1e-6;
 const KNOWN: f64 = 1e-6;
 /// The deviation of the friction of a gear per transmitted torque before the recording is known.
 const GEARS: f64 = 0.2;
+/// The deviation of ln h, before each pass: a decade.
+const DECADE: f64 = std::f64::consts::LN_10;
 /// The longest time by which residuals are correlated, s.
 const CORRELATED: f64 = 0.5;
 /// A parameter whose deviation is more than this share of that of its prior is not determined.
@@ -93,9 +96,8 @@ pub struct Fitted<const V: usize> {
     pub noise: [f64; V],
     /// The condition number of the regressor of the motion: [`BaseModel::condition`].
     pub condition: f64,
-    /// The frictions μ₁ and μ₂ of [`LoadFriction`](dynamics_core::effects::LoadFriction), if they
-    /// are a part of the model, and their standard deviations.
-    pub gears: Option<[[[f64; 2]; 2]; V]>,
+    /// The friction of the gears, if it is a part of the model, and its standard deviations.
+    pub gears: Option<[Gears<V>; 2]>,
     /// S of the covariance SᵀS of the base parameters, given the friction of the gears.
     root: DMatrix<f64>,
 }
@@ -112,7 +114,7 @@ pub struct Comparison<const V: usize> {
 }
 
 /// A model in base parameters, and the friction of its gears, if there is some.
-pub type Modelled<'a, const V: usize> = (&'a [f64], Option<[[f64; 2]; V]>);
+pub type Modelled<'a, const V: usize> = (&'a [f64], Option<Gears<V>>);
 
 impl Fit {
     /// Torques up to 10 Hz, with half a tick of delay.
@@ -146,7 +148,7 @@ impl Fit {
         recording: &TickRecording<V>,
         nominal: &[f64],
         known: &[bool],
-        gears: Option<[[f64; 2]; V]>,
+        gears: Option<Gears<V>>,
     ) -> Result<Fitted<V>, IdentificationError>
     where
         D: RobotModel<f64, B, V, V>,
@@ -155,16 +157,36 @@ impl Fit {
         let p = arm.len();
         assert_eq!([nominal.len(), known.len()], [p; 2], "of each parameter");
         let filters = Filters::new(self.cutoff, self.delay, recording.tick())?;
-        let extra = if gears.is_some() { 2 * V } else { 0 };
-        let mut reduced = self.columns(&filters, arm, recording, nominal, extra)?;
+        let each = gears.map_or(0, |gears| gears.each());
+        let extra = each * V;
         let prior: Vec<f64> = (arm.scale.iter().zip(known))
             .map(|(scale, known)| self.prior * if *known { KNOWN } else { 1.0 } / scale)
             .collect();
-        let own = gears.iter().flatten().flatten();
-        let target: Vec<f64> = nominal.iter().chain(own).copied().collect();
-        let of_gears = std::iter::repeat_n(GEARS, extra);
+        let own = (0..extra).map(|at| (at / each, at % each));
+        let of_gears = own.clone().map(|(_, k)| if k < 2 { GEARS } else { DECADE });
         let ridge: Vec<f64> = prior.iter().copied().chain(of_gears).collect();
+        let of_gears =
+            own.map(|(j, k)| if k < 2 { gears.map_or(0.0, |g| g.joint(j)[k]) } else { 0.0 });
+        let target: Vec<f64> = nominal.iter().copied().chain(of_gears).collect();
         let mut noise = arm.limits.torque.map(|torque| 0.01 * torque);
+        let mut gears = gears;
+        let mut least = [f64::INFINITY; V];
+        for tried in gears.iter().flat_map(Gears::scan).collect::<Vec<_>>() {
+            let reduced = self.columns(&filters, arm, recording, nominal, Some(tried))?;
+            let equations = Equations::of(&reduced, &target);
+            let residuals = equations.residuals(&equations.solve(&noise, &ridge).estimate);
+            for (j, least) in least.iter_mut().enumerate() {
+                let square = equations.joint(&residuals, j).iter().map(|x| x * x).sum::<f64>();
+                if square < *least {
+                    *least = square;
+                    let of = |gears: Gears<V>| {
+                        gears.map(|i, k| if i == j { tried.joint(i)[k] } else { gears.joint(i)[k] })
+                    };
+                    gears = gears.map(of);
+                }
+            }
+        }
+        let mut reduced = self.columns(&filters, arm, recording, nominal, gears)?;
         let (mut solved, mut equations) = (None, Equations::of(&reduced, &target));
         for pass in 0..PASSES {
             let found = equations.solve(&noise, &ridge);
@@ -178,10 +200,11 @@ impl Fit {
                 change = change.max((new / *noise - 1.0).abs());
                 *noise = new;
             }
+            let (base, of_gears) = found.estimate.as_slice().split_at(p);
             let done = change < FINAL && (extra == 0 || pass > 3);
+            gears = gears.map(|gears| gears.stepped(of_gears));
             if extra > 0 && !done {
-                let base = &found.estimate.as_slice()[..p];
-                reduced = self.columns(&filters, arm, recording, base, extra)?;
+                reduced = self.columns(&filters, arm, recording, base, gears)?;
                 equations = Equations::of(&reduced, &target);
             }
             solved = Some((found, residuals));
@@ -208,12 +231,12 @@ impl Fit {
             }
         };
         let deviations: Vec<f64> = root.column_iter().map(|column| column.norm()).collect();
-        let of_gears = |j: usize, k: usize, from: &[f64]| from[p + 2 * j + k];
-        let gears = gears.map(|_| {
-            std::array::from_fn(|j| {
-                [solved.estimate.as_slice(), &deviations]
-                    .map(|from| [0, 1].map(|k| of_gears(j, k, from)))
-            })
+        let gears = gears.map(|gears| {
+            let deviation = |j: usize, k: usize| {
+                let own = deviations[p + each * j + k];
+                if k < 2 { own } else { own * gears.joint(j)[k] }
+            };
+            [gears, gears.map(deviation)]
         });
         Ok(Fitted {
             base: solved.estimate.as_slice()[..p].to_vec(),
@@ -242,16 +265,18 @@ impl Fit {
     {
         let filters = Filters::new(self.cutoff, self.delay, recording.tick())?;
         let width = models.len() + 1;
-        let reduced = filters.reduce(recording, |state| {
+        let moving =
+            |(_, gears): &Modelled<'_, V>| gears.map(|of| Moving::new(of, arm.width.get()));
+        let mut moving: Vec<_> = models.iter().map(moving).collect();
+        let reduced = filters.reduce(recording, |state, start| {
             let rows = arm.rows(state);
+            moving.iter_mut().flatten().for_each(|moving| moving.advance(state, start));
             std::array::from_fn(|j| {
-                let of = |(base, gears): &Modelled<'_, V>| {
+                let of = |((base, _), moving): (&Modelled<'_, V>, &Option<Moving<V>>)| {
                     let still: f64 = rows[j].iter().zip(*base).map(|(y, beta)| y * beta).sum();
-                    let columns = load_columns(arm, state.qd[j], still);
-                    let own = gears.map_or([0.0; 2], |gears| gears[j]);
-                    still + own[0] * columns[0] + own[1] * columns[1]
+                    moving.as_ref().map_or(still, |moving| moving.torque(j, state.qd[j], still))
                 };
-                models.iter().map(of).collect()
+                models.iter().zip(&moving).map(of).collect()
             })
         });
         let count = reduced.times.len();
@@ -277,27 +302,37 @@ impl Fit {
         arm: &BaseModel<D, E, B, V>,
         recording: &TickRecording<V>,
         estimate: &[f64],
-        extra: usize,
+        gears: Option<Gears<V>>,
     ) -> Result<Reduced<V>, IdentificationError>
     where
         D: RobotModel<f64, B, V, V>,
         E: Effect<f64, B, V>,
     {
-        let reduced = filters.reduce(recording, |state: &State<f64, V, V>| {
+        let (p, extra) = (estimate.len(), gears.map_or(0, |gears| gears.each() * V));
+        let mut moving = gears.map(|gears| Moving::new(gears, arm.width.get()));
+        let mut reduced = filters.reduce(recording, |state: &State<f64, V, V>, start| {
             let mut rows = arm.rows(state);
-            if extra > 0 {
+            if let Some(moving) = &mut moving {
+                moving.advance(state, start);
                 for (j, row) in rows.iter_mut().enumerate() {
                     let still: f64 = row.iter().zip(estimate).map(|(y, beta)| y * beta).sum();
-                    let own = load_columns(arm, state.qd[j], still);
-                    row.resize(row.len() + extra, 0.0);
-                    let at = estimate.len() + 2 * j;
-                    row[at..at + 2].copy_from_slice(&own);
+                    row.resize(p + extra, 0.0);
+                    moving.fill(j, state.qd[j], still, row, p);
                 }
             }
             rows
         });
+        // The slopes are those about the estimate, at which the base parameters' part is the whole.
+        if let Some(Gears::Presliding(all)) = gears {
+            for (j, rows) in reduced.rows.iter_mut().enumerate() {
+                for row in rows.chunks_exact_mut(p + extra + 1) {
+                    let own: f64 = (0..2).map(|k| all[j][k] * row[p + 3 * j + k]).sum();
+                    row[p + extra] += own;
+                }
+            }
+        }
         // With fewer rows than parameters the residuals say nothing of the noise.
-        if reduced.times.len() * V < 2 * (estimate.len() + extra) {
+        if reduced.times.len() * V < 2 * (p + extra) {
             return Err(self.too_short(recording));
         }
         Ok(reduced)
@@ -306,17 +341,6 @@ impl Fit {
     fn too_short<const V: usize>(&self, recording: &TickRecording<V>) -> IdentificationError {
         IdentificationError::TooShort { seconds: recording.tick() * recording.ticks() as f64 }
     }
-}
-
-/// The friction of a gear per μ₁ and μ₂: s (m |τ| + d s τ) with m, d = (μ₁ ± μ₂) / 2.
-fn load_columns<D, E, const B: usize, const V: usize>(
-    arm: &BaseModel<D, E, B, V>,
-    qd: f64,
-    torque: f64,
-) -> [f64; 2] {
-    let sign = smooth_sign(qd / arm.width.get());
-    let (even, odd) = (0.5 * sign * torque.abs(), 0.5 * sign * sign * torque);
-    [even + odd, even - odd]
 }
 
 /// By how much correlation multiplies the variance of a mean of residuals, at least one.
@@ -388,6 +412,18 @@ impl<const V: usize> Fitted<V> {
     #[must_use]
     pub fn is_determined(&self, base: usize) -> bool {
         self.deviations[base] <= DETERMINED * self.prior[base]
+    }
+
+    /// Whether it determines a number of a joint's gear.
+    #[must_use]
+    pub fn is_gear_determined(&self, joint: usize, number: usize) -> bool {
+        self.gears.is_some_and(|gears| {
+            let [found, deviation] = gears.each_ref().map(|gears| gears.joint(joint)[number]);
+            match number {
+                0 | 1 => deviation <= DETERMINED * GEARS,
+                _ => !DEFLECTIONS.contains(&found) && deviation <= DETERMINED * DECADE * found,
+            }
+        })
     }
 
     /// As [`Identified::physical`](crate::Identified::physical).

@@ -50,11 +50,12 @@ impl Filters {
         tick * self.step as f64
     }
 
-    /// The rows of a recording by a function that has the columns of each joint at a state.
+    /// The rows of a recording by a function that has the columns of each joint at a state, which
+    /// is given the stretch at its first state.
     pub fn reduce<const V: usize>(
         &self,
         recording: &TickRecording<V>,
-        mut columns: impl FnMut(&State<f64, V, V>) -> [Vec<f64>; V],
+        mut columns: impl FnMut(&State<f64, V, V>, Option<&Stretch<V>>) -> [Vec<f64>; V],
     ) -> Reduced<V> {
         let mut reduced =
             Reduced { times: Vec::new(), states: Vec::new(), rows: [const { Vec::new() }; V] };
@@ -68,7 +69,7 @@ impl Filters {
         &self,
         stretch: &Stretch<V>,
         tick: f64,
-        columns: &mut impl FnMut(&State<f64, V, V>) -> [Vec<f64>; V],
+        columns: &mut impl FnMut(&State<f64, V, V>, Option<&Stretch<V>>) -> [Vec<f64>; V],
         into: &mut Reduced<V>,
     ) {
         let (inner, outer) = (self.positions.reach, self.rows.reach);
@@ -83,7 +84,7 @@ impl Filters {
             let middle = k + inner;
             let [q, qd, qdd] = self.positions.state(&stretch.positions[k..=middle + inner]);
             let state = State { q, qd: qd.map(|x| x / tick), qdd: qdd.map(|x| x / (tick * tick)) };
-            let mut all = columns(&state);
+            let mut all = columns(&state, (k == 0).then_some(stretch));
             for (all, tau) in all.iter_mut().zip(&stretch.torques[middle]) {
                 all.push(*tau);
             }

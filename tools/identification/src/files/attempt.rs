@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 use std::path::Path;
 
 use crate::{
-    BaseModel, ExcitationLimits, Fit, Fitted, IdentificationError, OfJoint, Parameter, PhysicalSet,
-    TickRecording,
+    BaseModel, ExcitationLimits, Fit, Fitted, Gears, IdentificationError, OfJoint, Parameter,
+    PhysicalSet, TickRecording,
 };
 use dynamics_core::effects::{Coriolis, Gravity, Inertia, RIGID_BODY, Width};
 use dynamics_core::model::ArmModel;
@@ -53,6 +53,8 @@ pub enum JointEffect {
     Armature,
     /// Friction of gears that grows with the torque
     Load,
+    /// Friction of gears that grows with the torque and holds at rest
+    Preslide,
     /// A constant torque
     Offset,
 }
@@ -106,8 +108,11 @@ impl Task<'_> {
         let nominal = arm.of_all(&bodies, &joints);
         let known = known(&arm, &options.effects);
         let mut fit = Fit { cutoff: options.cutoff, ..Fit::new(part.tick()) };
-        let gears = options.effects.contains(&JointEffect::Load);
-        let gears = gears.then_some([[0.0; 2]; V]);
+        let gears = options.effects.iter().find_map(|effect| match effect {
+            JointEffect::Load => Some(Gears::Load([[0.0; 2]; V])),
+            JointEffect::Preslide => Some(Gears::Presliding([[0.0; 3]; V])),
+            _ => None,
+        });
         let run = |fit: &Fit| fit.identify(&arm, part, &nominal, &known, gears);
         let found = match delay {
             Some(delay) => {
@@ -146,9 +151,16 @@ impl Task<'_> {
 }
 
 /// The friction of the gears that a gear can have.
-pub(crate) fn possible<const V: usize>(found: &Fitted<V>) -> Option<[[f64; 2]; V]> {
-    let gears = found.gears?;
-    Some(gears.map(|[mu, _]| mu.map(|mu| mu.clamp(0.0, 0.95))))
+pub(crate) fn possible<const V: usize>(found: &Fitted<V>) -> Option<Gears<V>> {
+    let [gears, _] = found.gears?;
+    Some(gears.map(|j, k| match (gears.joint(j), k) {
+        (&[mu, ..], 0) | (&[_, mu], 1) => mu.clamp(0.0, 0.95),
+        (&[mu, d, _], 1) => {
+            let mu = mu.clamp(0.0, 0.95);
+            d.clamp(-mu.min(0.98 - mu), mu.min(0.98 - mu))
+        }
+        (own, _) => own[k],
+    }))
 }
 
 /// The base parameter that is this parameter of a joint.

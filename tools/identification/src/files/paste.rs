@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use robot_import::inertia::MassProperties;
 use robot_import::write;
 
-use super::report::{Found, rounded};
+use super::report::{Found, Gear, rounded};
 use super::robot::Robot;
 
 /// The width with which the importer writes Coulomb friction.
@@ -77,22 +77,29 @@ fn offsets(found: &Found) -> String {
 
 /// The constant of the gears, if their friction was found; the importer knows none.
 fn gears(found: &Found, width: &str) -> String {
-    let each = found.joints.iter().filter_map(|joint| joint.gear);
-    let each: Vec<[f64; 2]> = each.map(|gear| gear.friction.map(rounded)).collect();
-    if each.is_empty() {
-        return String::new();
-    }
-    let of = |k: usize| {
-        let numbers: Vec<String> = each.iter().map(|mu| format!("{:?}", mu[k])).collect();
+    let each: Vec<_> = found.joints.iter().filter_map(|joint| joint.gear).collect();
+    let list = |of: &dyn Fn(&Gear) -> f64| {
+        let numbers: Vec<String> = each.iter().map(|g| format!("{:?}", rounded(of(g)))).collect();
         numbers.join(", ")
+    };
+    let [first, second] = [0, 1].map(|k| list(&|gear| gear.friction[k]));
+    let (name, fields) = match each.first().map(|gear| gear.deflection) {
+        None => return String::new(),
+        Some(None) => {
+            ("LoadFriction", format!("driving: [{first}], backdriving: [{second}], width: {width}"))
+        }
+        Some(Some(_)) => {
+            let h = list(&|gear| gear.deflection.map_or(0.0, |[h, _]| h));
+            let rest = "direction: [0.0; V]";
+            let fields =
+                format!("magnitude: [{first}], torque: [{second}], deflection: [{h}], {rest}");
+            ("PreslidingLoadFriction", fields)
+        }
     };
     format!(
         "\n/// Friction of the gears per transmitted torque: add it to the scene.\npub const \
-         GEARS: ::dynamics_core::effects::LoadFriction<f32, V> = \
-         ::dynamics_core::effects::LoadFriction \
-         {{ driving: [{}], backdriving: [{}], width: {width} }};\n",
-        of(0),
-        of(1)
+         GEARS: ::dynamics_core::effects::{name}<f32, V> = ::dynamics_core::effects::{name} \
+         {{ {fields} }};\n"
     )
 }
 

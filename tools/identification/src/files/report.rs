@@ -72,11 +72,15 @@ pub struct JointFound {
     pub held_out: Option<Part>,
 }
 
-/// Friction of a gear per transmitted torque, while the motor drives and while the load does.
+/// Friction of a gear per transmitted torque, while the motor drives and while the load does; with
+/// a deflection, μₐ and μ_d per torque of the motor.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Gear {
     pub friction: [f64; 2],
     pub deviations: [f64; 2],
+    /// The distance h over which the friction follows a new direction, and its deviation, rad or m.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub deflection: Option<[f64; 2]>,
 }
 
 /// A part of a recording at a joint, N·m or N.
@@ -240,7 +244,10 @@ impl Found {
     }
 
     fn tables(&self, text: &mut String) {
-        let titles = ["joint", "viscous", "Coulomb", "armature", "offset", "gear driving, driven"];
+        let presliding =
+            self.joints.iter().any(|one| one.gear.is_some_and(|g| g.deflection.is_some()));
+        let gear = if presliding { "gear μₐ, μ_d, h" } else { "gear driving, driven" };
+        let titles = ["joint", "viscous", "Coulomb", "armature", "offset", gear];
         let mut rows = vec![titles.map(str::to_owned)];
         for joint in &self.joints {
             let number = |k: usize| {
@@ -252,7 +259,9 @@ impl Found {
             };
             let gear = joint.gear.map_or("–".to_owned(), |gear| {
                 let of = |k: usize| format!("{:.2} ± {:.2}", gear.friction[k], gear.deviations[k]);
-                format!("{}, {}", of(0), of(1))
+                let h = gear.deflection.map(|h| h.map(short));
+                let h = h.map_or(String::new(), |[h, own]| format!(", {h} ± {own}"));
+                format!("{}, {}{h}", of(0), of(1))
             });
             let name = joint.name.clone();
             rows.push([name, number(0), number(1), number(2), number(3), gear]);

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::{Comparison, IdentificationError, OfJoint, TickRecording};
+use crate::{Comparison, Gears, IdentificationError, OfJoint, TickRecording};
 use dynamics_core::model::BodyInertia;
 use dynamics_core::spatial::SpatialInertia;
 
@@ -28,6 +28,10 @@ pub fn identify(
     options: &Options,
 ) -> Result<Found> {
     let names = robot.joints();
+    if [JointEffect::Load, JointEffect::Preslide].iter().all(|one| options.effects.contains(one)) {
+        let reason = "gears have one kind of friction: --effects with load or with preslide";
+        return Err(Error::Unsuitable { path: robot.path.clone(), reason: reason.to_owned() });
+    }
     let all = [Some(recording), other];
     for (path, recorded) in all.into_iter().flatten() {
         if recorded.joints != names.len() {
@@ -96,10 +100,11 @@ fn of_size<const V: usize>(
         after: pasted[j],
         deviations: [OfJoint::Viscous, OfJoint::Coulomb, OfJoint::Armature, OfJoint::Offset]
             .map(|of| own_of(j, of)),
-        gear: found
-            .gears
-            .zip(gears)
-            .map(|(found, used)| Gear { friction: used[j], deviations: found[j][1] }),
+        gear: found.gears.zip(gears).map(|([_, deviations], used)| {
+            let [used, own] = [&used, &deviations].map(|of| of.joint(j));
+            let deflection = used.get(2).zip(own.get(2)).map(|(h, deviation)| [*h, *deviation]);
+            Gear { friction: [used[0], used[1]], deviations: [own[0], own[1]], deflection }
+        }),
         fitted: part(&own_part, j),
         held_out: validated.as_ref().map(|held| part(held, j)),
     };
@@ -121,6 +126,20 @@ fn of_size<const V: usize>(
         is_known: known[base],
         is_determined: found.is_determined(base),
     };
+    let of_gear = |(j, k): (usize, usize)| {
+        let [own, deviation] = found.gears?.map(|of| of.joint(j).get(k).copied());
+        Some(ParameterFound {
+            name: format!("joint {j} gear's {}", ["μₐ", "μ_d", "h"][k]),
+            before: 0.0,
+            found: own?,
+            deviation: deviation?,
+            is_known: false,
+            is_determined: found.is_gear_determined(j, k),
+        })
+    };
+    let presliding = matches!(gears, Some(Gears::Presliding(_)));
+    let numbers = if presliding { 3 * V } else { 0 };
+    let numbers = (0..numbers).filter_map(|at| of_gear((at / 3, at % 3)));
     let tick = whole.tick();
     Ok(Found {
         robot: robot.imported.name.clone(),
@@ -136,7 +155,7 @@ fn of_size<const V: usize>(
         misfit: set.misfit,
         delay: fit.delay,
         mistake,
-        parameters: (0..arm.len()).map(of_parameter).collect(),
+        parameters: (0..arm.len()).map(of_parameter).chain(numbers).collect(),
         joints: (0..V).map(of_joint).collect(),
         bodies: (0..V).map(of_body).collect(),
         traces: traces(&names, validated.as_ref().unwrap_or(&own_part)),

@@ -89,13 +89,24 @@ pub fn record(motion: impl Fn(f64) -> At, ticks: u32) -> String {
 
 /// The record of torques that come so much later than their positions, s.
 pub fn record_late(motion: impl Fn(f64) -> At, ticks: u32, late: f64) -> String {
-    let (robot, mut rng) = (described(), fastrand::Rng::with_seed(7));
+    let robot = described();
+    record_with(motion, ticks, late, |at| torques(&robot, at))
+}
+
+/// The record of an arm that has these torques along its motion.
+pub fn record_with(
+    motion: impl Fn(f64) -> At,
+    ticks: u32,
+    late: f64,
+    mut torques: impl FnMut(&At) -> [f64; 2],
+) -> String {
+    let mut rng = fastrand::Rng::with_seed(7);
     let mut text = String::from(
         "number,tick,mode,fault,limited,dropped,time_s,reference_0,estimate_0,torque_0,reference_1,estimate_1,torque_1,read_counts\n",
     );
     for k in 0..ticks {
         let t = TICK * f64::from(k);
-        let (q, tau) = (motion(t).q, torques(&robot, &motion(t + 0.5 * TICK - late)));
+        let (q, tau) = (motion(t).q, torques(&motion(t + 0.5 * TICK - late)));
         let _ = write!(text, "{k},{k},full,,false,0,{t:.6}");
         for j in 0..2 {
             let estimate = (q[j] / COUNT).round() * COUNT;

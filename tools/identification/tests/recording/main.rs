@@ -4,3 +4,4 @@ mod arm;
 mod found;
 mod hostile;
 mod mistakes;
+mod presliding;

@@ -115,6 +115,7 @@ impl Cell<'_> {
     fn tick(&mut self) {
         let Self { control, joints, law, plant, out, .. } = self;
         let status = control.tick::<Free, _, _>(&self.reference, *law).status;
+        if let Some(fault) = status.fault.filter(|_| status.mode != Mode::Full && out.held == 0) { println!("{fault:?} {status:?} {:?} {:?} {:?}", control.encoder_error(), control.drive_error(), plant.at); }
         out.held += u32::from(status.mode != Mode::Full);
         out.limited += u32::from(status.limited);
         for reply in plant.tick(&joints.commands(), &law.added.get().map(f64::from)) {
@@ -141,6 +142,7 @@ impl Cell<'_> {
             let speed = if k < all { 30.0 * (s * (1.0 - s)).powi(2) } else { 0.0 };
             self.plant.scene.7.velocity = WAY / TIMES[1] * speed * way;
             self.tick();
+            if std::env::var("TRACE").is_ok() && k % 10 == 0 { println!("{k} {:.2} N moved {:.3} goal {:.3} q {:.3?} z {:.2?}", self.plant.force(), 1e3*(self.plant.grip()[0] - from).length(), 1e3*(self.plant.scene.7.goal-from).length(), self.plant.at.q, core::array::from_fn::<f64,7,_>(|i| self.plant.scene.5.bristle[i]*self.plant.scene.5.stiffness[i])); }
             moved |= (self.plant.grip()[0] - from).length() > 5e-3;
             start = if moved { start } else { start.max(self.plant.force()) };
         }
@@ -191,7 +193,7 @@ fn run(seed: u32, less: Less, tool: bool) -> Outcome {
     for reply in cell.plant.tick(&joints.commands(), &[0.0; 7]) {
         joints.receive(&reply);
     }
-    (0..ticks(TIMES[0])).for_each(|_| cell.tick());
+    (0..ticks(TIMES[0])).for_each(|k| { cell.tick(); if std::env::var("TRACE").is_ok() && k % 10 == 0 { println!("pre {k} q {:.4?} qd {:.4?} added {:.2?}", cell.plant.at.q, cell.plant.at.qd, cell.law.added.get()); } });
     cell.out.start = cell.lead(way);
     let walls = guiding().expect("good");
     cell.out.walled = (0..7).any(|i| {
@@ -215,7 +217,7 @@ fn most(of: impl Iterator<Item = f64>) -> f64 {
 #[test]
 fn explore() {
     for tool in [false, true] {
-        for seed in 0..RUNS {
+        for seed in std::env::var("SEED").map_or(0..RUNS, |s| { let s: u32 = s.parse().unwrap(); s..s+1 }) {
             let [all, alone] = [Less::Nothing, Less::AllButGravity].map(|less| run(seed, less, tool));
             println!(
                 "{seed} {tool}: start {:.2}/{:.2} N = {:.2}, again {:.2}/{:.2}, drift {:.3}/{:.3} mm, reversal {:.3}, spent {:.3} own {:.3} held {} limited {} walled {}",

@@ -167,9 +167,9 @@ impl Plant {
     /// The place and the velocity of the grip, m and m/s.
     pub fn grip(&self) -> [DVec3; 2] {
         let k = Core::<OpenArm>::kinematics(&self.at, &());
-        let (pose, at) = (k.poses[HAND], k.velocity(HAND, frame::Local));
-        let (grip, back) = (DVec3::from(GRIP), pose.rot.transpose());
-        [pose.pos + back * grip, back * (at.lin + at.ang.cross(grip))]
+        let arm = DVec3::from(k.poses[HAND].rot * DVec3::from(GRIP));
+        let at = k.velocity(HAND, frame::LocalWorldAligned);
+        [k.poses[HAND].pos + arm, at.lin + at.ang.cross(arm)]
     }
 
     /// The force of the hand, N.

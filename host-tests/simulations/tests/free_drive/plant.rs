@@ -119,8 +119,7 @@ impl Plant {
             inertia.rotational *= off;
         }
         let sliding = random.off(SLIDING.map(f64::from), 0.3);
-        let stiction =
-            STICTION.map(|least| f64::from(least) * random.within(1.0, MOST_STICTION));
+        let stiction = STICTION.map(|least| f64::from(least) * random.within(1.0, MOST_STICTION));
         let gears = random.off(GEARS.map(f64::from), 0.3);
         let viscous = random.off(OpenArm::FRICTION.1.0.map(f64::from), 0.3);
         let tool = tool * random.within(0.98, 1.02);
@@ -147,16 +146,7 @@ impl Plant {
         let rotors = Armature(OpenArm::ARMATURE.0.map(f64::from));
         Self {
             at: State::at(q),
-            scene: (
-                Gravity::EARTH,
-                Inertia,
-                Coriolis,
-                rotors,
-                load,
-                bristles,
-                gears,
-                away,
-            ),
+            scene: (Gravity::EARTH, Inertia, Coriolis, rotors, load, bristles, gears, away),
             arm,
             torque: [0.0; 7],
             random,

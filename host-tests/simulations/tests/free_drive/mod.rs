@@ -285,8 +285,9 @@ fn each_part_is_worth_something() {
     let [all, _, gravity, tool, friction, _, dither, _] = laws.map(|less| {
         let runs: Vec<_> = (0..TABLE).map(|seed| run(seed, less, true)).collect();
         let of = |of: fn(&Outcome) -> f64| runs.iter().map(of);
-        let [drift, start, drag] = [|o: &Outcome| 1e3 * o.drift, |o: &Outcome| o.start, |o: &Outcome| o.drag]
-            .map(|f| [median(of(f).collect()), most(of(f))]);
+        let [drift, start, drag] =
+            [|o: &Outcome| 1e3 * o.drift, |o: &Outcome| o.start, |o: &Outcome| o.drag]
+                .map(|f| [median(of(f).collect()), most(of(f))]); // those out of bounds, too
         let out = runs.iter().filter(|of| of.fault).count();
         println!(
             "| {less:?} | {:.2} ({:.2}) | {:.1} ({:.1}) | {:.1} ({:.1}) | {out} of {TABLE} |",

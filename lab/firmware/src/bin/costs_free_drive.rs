@@ -15,8 +15,8 @@ use firmware_demo::scenes::openarm_free_drive::{
     Free, FreeDrive, Joints, Kept, RESOLUTION, TOOL, breakaway, controller, guiding, joints,
 };
 use joint_drivers::can::FdFrame;
-use joint_drivers::{ControlLoop, NoBrake};
-use motion_control::{Gains, MotionController};
+use joint_drivers::{ControlLoop, Law, NoBrake};
+use motion_control::{Estimate, Gains, MotionController};
 
 type Loop<'a> = ControlLoop<Kept<'a, &'a Joints>, &'a Joints, NoBrake, 7>;
 
@@ -47,6 +47,13 @@ fn tick(
     joints.commands()
 }
 
+/// The law alone.
+#[inline(never)]
+fn torque(law: &FreeDrive, estimate: &Estimate<f32, 7>) -> [f32; 7] {
+    let gains = Gains { kp: [0.0; 7], kd: [0.0; 7] };
+    Free::torque(&gains, &State::at(Q), estimate, law)
+}
+
 fn measure() -> Option<()> {
     let mut law = FreeDrive::new(guiding().ok()?, breakaway()).ok()?;
     law.tool = TOOL;
@@ -61,8 +68,21 @@ fn measure() -> Option<()> {
         *came = replies(k)?;
     }
     let run = tick;
-    Row::of::<robots::OpenArm, 7, 7>("free_drive", "tick", "full", true)
-        .measure(run as *const () as usize, &came, |came| run(&mut all.borrow_mut(), came));
+    Row::of::<robots::OpenArm, 7, 7>("free_drive", "tick", "full", true).measure(
+        run as *const () as usize,
+        &came,
+        |came| run(&mut all.borrow_mut(), came),
+    );
+    let estimates: [_; STATES] = core::array::from_fn(|k| Estimate {
+        q: Q.map(|q| q + 1e-3 * k as f32),
+        qd: [1e-3 * k as f32; 7],
+    });
+    let run = torque;
+    Row::of::<robots::OpenArm, 7, 7>("free_drive", "law", "full", true).measure(
+        run as *const () as usize,
+        &estimates,
+        |estimate| run(&law, estimate),
+    );
     Some(())
 }
 

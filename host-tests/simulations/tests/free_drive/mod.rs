@@ -172,8 +172,8 @@ impl Cell<'_> {
                 swings[1][i] = swings[1][i].max(ends[1][i] - q[i]);
             }
         }
-        for i in 0..7 {
-            let back = swings[0][i].min(swings[1][i]) / f64::from(RESOLUTION);
+        for (up, down) in swings[0].iter().zip(swings[1]) {
+            let back = up.min(down) / f64::from(RESOLUTION);
             self.out.reversal = self.out.reversal.max(back);
         }
     }

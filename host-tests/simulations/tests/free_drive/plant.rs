@@ -157,7 +157,7 @@ impl Plant {
     /// The place and the velocity of the grip, m and m/s.
     pub fn grip(&self) -> [DVec3; 2] {
         let k = Core::<OpenArm>::kinematics(&self.at, &());
-        let arm = DVec3::from(k.poses[HAND].rot * DVec3::from(GRIP));
+        let arm = k.poses[HAND].rot * DVec3::from(GRIP);
         let at = k.velocity(HAND, frame::LocalWorldAligned);
         [k.poses[HAND].pos + arm, at.lin + at.ang.cross(arm)]
     }
@@ -198,8 +198,8 @@ impl Plant {
         let word = u64::from_be_bytes(data);
         assert_eq!(word >> 12 & 0xff_ffff, 0, "a gain");
         let scale = MOTORS[joint];
-        let value = |count: u64, most: f32| f64::from(most) * (2.0 * count as f64 / 4095.0 - 1.0);
-        self.torque[joint] = value(word & 0xfff, scale.torque);
+        let share = 2.0 * (word & 0xfff) as f64 / 4095.0 - 1.0;
+        self.torque[joint] = share * f64::from(scale.torque);
         let count = |x: f64, most: f32, top: f64| {
             ((x / f64::from(most) + 1.0) * 0.5 * top).round().clamp(0.0, top) as u64
         };

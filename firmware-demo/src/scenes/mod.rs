@@ -7,6 +7,7 @@ pub mod flexible_joint;
 pub mod flexible_link;
 pub mod gimbal_ship;
 pub mod leg_hop;
+pub mod openarm_free_drive;
 pub mod panda_payload;
 pub mod parallel_ankle;
 pub mod scara_table;

@@ -9,6 +9,7 @@ mod contact;
 mod contact_reaction;
 mod control_loop;
 mod fault_injection;
+mod free_drive;
 mod hand_guiding;
 mod hop;
 mod impedance;

@@ -3,7 +3,8 @@
 //!
 //! The torque of a tick is that of gravity and the tool, [`HandGuiding`]'s on top of it, and
 //! [`Breakaway`]'s push and dither. It has no trajectory of its own: the reference of the loop is
-//! where the arm begins, and the law does not read it. So this is no [`Scene`](crate::scene::Scene).
+//! the place where the arm begins, and the law does not read it: it cannot be a
+//! [`Scene`](crate::scene::Scene), which compares laws along a trajectory.
 //!
 //! # Sources
 //!
@@ -95,8 +96,9 @@ pub fn controller() -> MotionControllerConfig<f32, 7> {
     }
 }
 
-/// Of the robot's limits. The largest diagonal of M, with rotors and tool, is less than these
-/// inertias. The model may exceed the friction by 3/7: it is off by 30 %.
+/// The configuration of hand guiding, from the robot's limits. The largest diagonal of M, with
+/// rotors and tool, is less than these inertias. The model may exceed the friction by 3/7: it is
+/// off by 30 %.
 ///
 /// # Errors
 /// If there were no such law.
@@ -180,7 +182,7 @@ impl<E: JointEncoders<7>> JointEncoders<7> for Kept<'_, E> {
 /// The friction that is compensated.
 pub type Friction = (Viscous<f32, 7>, Coulomb<f32, 7>, LoadFriction<f32, 7>);
 
-/// What the law compensates, and its parts: the input of [`Free`] beside the reference.
+/// The effects that the law compensates, and its parts: the input of [`Free`] beside the reference.
 #[derive(Clone, Debug)]
 pub struct FreeDrive {
     pub gravity: Gravity,
@@ -188,7 +190,7 @@ pub struct FreeDrive {
     pub friction: Friction,
     pub guiding: HandGuiding<f32, 7>,
     pub breakaway: RefCell<Breakaway<f32, 7>>,
-    /// What [`Breakaway`] added in the last tick, N·m.
+    /// The torque that [`Breakaway`] added in the last tick, N·m.
     pub added: Cell<[f32; 7]>,
     /// The last positions that were read. Without a new one [`Breakaway`] takes the joints to be
     /// where they were: its account is then off by the change of its torque times the step, less

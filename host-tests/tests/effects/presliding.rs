@@ -13,7 +13,7 @@ use proptest::prelude::RngExt;
 const HOIST: ArmModel<f64, 1> =
     Model::new("hoist", [Body::new("load", BASE, Joint::prismatic([0.0, 0.0, 1.0])).mass(2.0)]);
 const WEIGHT: f64 = 2.0 * 9.81;
-/// Of a hoist that is lifted with an efficiency of 0.75.
+/// The coefficients of a hoist that is lifted with an efficiency of 0.75.
 const MU: [f64; 2] = [0.22, 0.03];
 /// The distance over which z follows, m.
 const DISTANCE: f64 = 1e-3;
@@ -99,7 +99,7 @@ fn the_direction_follows_the_motion_over_the_distance() {
 
 #[test]
 fn a_motion_that_returns_gives_no_energy() {
-    // Of friction alone under a constant load, over the second of two equal cycles.
+    // The energy of friction alone under a constant load, over the second of two equal cycles.
     let mut rng = random_numbers();
     for _ in 0..100 {
         let [load, amplitude] = [50.0, 5.0 * DISTANCE].map(|bound| rng.random_range(-bound..bound));

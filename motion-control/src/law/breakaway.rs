@@ -142,7 +142,7 @@ pub struct Breakaway<R, const V: usize> {
     joints: [Joint<R>; V],
 }
 
-/// What a joint has done, and what it has been given.
+/// The motion of a joint, and the energy that it has been given.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Joint<R> {
     /// E.
@@ -238,7 +238,7 @@ impl<R: Real> Joint<R> {
         step
     }
 
-    /// What friction has absorbed on the way of the play.
+    /// The energy that friction has absorbed on the way of the play.
     fn refill(&mut self, step: Option<R>, friction: R, play: R, most: R) {
         let to = step.map_or(R::ZERO, |step| self.play + step);
         self.play = to.clamped(-play, play);

@@ -101,7 +101,8 @@ impl<const V: usize> Moving<V> {
         for (j, [z, slope]) in self.directions.iter_mut().enumerate() {
             let Gears::Presliding(all) = &self.gears else { return };
             if let Some(stretch) = start {
-                // Where the joint came from is not known: it went on, so that only turns show h.
+                // The direction before is not known: the joint is taken to have gone on, so that
+                // only turns show h.
                 let moved = stretch.positions.iter().map(|q| q[j] - stretch.positions[0][j]);
                 let first = moved.into_iter().find(|moved| moved.abs() > STARTS);
                 [*z, *slope] = [first.map_or(0.0, f64::signum), 0.0];

@@ -18,7 +18,7 @@ use motion_control::{Gains, Mode, MotionController};
 use plant::{Plant, Q, Random};
 
 const RUNS: u32 = everyday_or_full(16, 200);
-/// Of the table, for each row.
+/// The runs of each row of the table.
 const TABLE: u32 = everyday_or_full(5, 16);
 /// The hand, N/m and N·s/m.
 const SPRING: [f64; 2] = [2000.0, 50.0];
@@ -26,7 +26,7 @@ const SPRING: [f64; 2] = [2000.0, 50.0];
 const WAY: f64 = 0.04;
 const TIMES: [f64; 4] = [0.5, 2.0, 1.0, 10.0];
 
-/// What the law lacks.
+/// The part that the law lacks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Less {
     Nothing,
@@ -215,7 +215,8 @@ fn most(of: impl Iterator<Item = f64>) -> f64 {
     of.fold(0.0, f64::max)
 }
 
-/// Of the full law and of gravity compensation alone, in each run; every other one with the tool.
+/// The outcomes of the full law and of gravity compensation alone, in each run; every other one
+/// with the tool.
 static PAIRS: LazyLock<Vec<[Outcome; 2]>> = LazyLock::new(|| {
     let pair =
         |seed| [Less::Nothing, Less::AllButGravity].map(|less| run(seed, less, seed % 2 == 1));

@@ -43,7 +43,7 @@ impl Random {
         from + (to - from) * (self.0 >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    /// Of each joint times a factor from 1 − off to 1 + off.
+    /// Each joint's value times a factor from 1 − off to 1 + off.
     fn off<const N: usize>(&mut self, of: [f64; N], off: f64) -> [f64; N] {
         of.map(|x| x * self.within(1.0 - off, 1.0 + off))
     }

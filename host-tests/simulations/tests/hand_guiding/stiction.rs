@@ -27,7 +27,7 @@ struct True {
     gravity: f64,
 }
 
-/// What is added to the compensation of gravity.
+/// The laws that are added to the compensation of gravity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Law {
     Gravity,

@@ -20,7 +20,7 @@ use motion_control::{Estimate, Gains, MotionController};
 
 type Loop<'a> = ControlLoop<Kept<'a, &'a Joints>, &'a Joints, NoBrake, 7>;
 
-/// Where the arm is, rad.
+/// The positions of the arm, rad.
 const Q: [f32; 7] = [0.5, 0.6, 0.2, 1.0, 0.1, -0.2, 0.3];
 
 /// The replies of a tick in which each joint is a few steps further.

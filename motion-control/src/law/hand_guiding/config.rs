@@ -76,7 +76,7 @@ pub struct HandGuidingConfig<R, const V: usize> {
     /// Damping of free joints at every speed up to that of the brake, N·m·s/rad or N·s/m: without
     /// friction a released joint of inertia M coasts M q̇ / D.
     pub damping: [R; V],
-    /// What brakes free joints that are too fast.
+    /// The brake of free joints that are too fast.
     pub brake: SpeedBrake<R, V>,
     /// Position of each joint's lower wall, rad or m; −∞ for none.
     pub lower: [R; V],

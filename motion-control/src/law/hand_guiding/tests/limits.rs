@@ -88,7 +88,7 @@ fn a_released_joint_coasts_for_a_second_and_a_fast_one_is_braked() {
     // The damping alone would take 1.5 rad.
     assert!((1.1..1.25).contains(&fast), "{fast} rad");
     assert!(torque <= 0.25 * JOINT.torque + HEAVY * 0.75);
-    // Of a lock neither.
+    // A lock has neither.
     let mut locked = guiding(config);
     locked.lock(&[true], &[0.0]).expect("finite");
     assert_eq!(torque_of(&locked, 0.0), 0.0);

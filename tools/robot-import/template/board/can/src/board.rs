@@ -57,7 +57,7 @@ pub type Control<Bus, Brake, D> =
 #[derive(Debug)]
 pub struct Devices<Bus: 'static, Brake> {
     pub bus: Bus,
-    /// Where the drives will be.
+    /// The place of the drives.
     pub joints: &'static mut Option<Joints<Bus>>,
     /// A high level holds the joints.
     pub brake: Brake,

@@ -1,6 +1,7 @@
 //! PWM channels and the bus of encoders.
 //!
-//! Of the HAL, the bus can panic, and each channel is a type of its own: here are their registers.
+//! The bus of the HAL can panic, and each of its channels is a type of its own: here are their
+//! registers.
 
 use core::convert::Infallible;
 

@@ -228,10 +228,6 @@ pub enum SafetyLimitsError {
         joint: usize,
         /// Its position, rad or m.
         position: f64,
-        /// The least position, rad or m.
-        lower: f64,
-        /// The greatest position, rad or m.
-        upper: f64,
     },
     /// The range of a joint that is a circle counts turns: it is more than one, or has one end. See
     /// [`Circles::counted`](crate::Circles::counted).
@@ -280,12 +276,8 @@ impl SafetyLimitsError {
                 let (lower, upper) = (lower as f32, upper as f32);
                 write!(out, "its least position, {lower}, is above its greatest, {upper}")
             }
-            Self::Outside { position, lower, upper, .. } => {
-                let [position, lower, upper] = [position, lower, upper].map(|x| x as f32);
-                write!(
-                    out,
-                    "its position, {position}, is outside its new range, {lower} to {upper}"
-                )
+            Self::Outside { position, .. } => {
+                write!(out, "its position, {}, is outside its new range", position as f32)
             }
             Self::CountsTurns { lower, upper, .. } => {
                 let (lower, upper) = (lower as f32, upper as f32);

@@ -27,9 +27,8 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         let mut joints = q.iter().zip(ranges);
         let outside = |(q, (middle, half)): (&R, (&R, &R))| (*q - *middle).abs() > *half;
         if let (true, Some(joint)) = (self.known, joints.position(outside)) {
-            let at = |all: &[R; V]| all.get(joint).map_or(0.0, |x| x.to_f64());
-            let (position, lower, upper) = (at(&q), at(&limits.lower), at(&limits.upper));
-            return Err(SafetyLimitsError::Outside { joint, position, lower, upper }.into());
+            let position = q.get(joint).map_or(0.0, |x| x.to_f64());
+            return Err(SafetyLimitsError::Outside { joint, position }.into());
         }
         (self.middle, self.half) = (middle, half);
         (self.torque_limit, self.rate_limit) = (limits.torque, limits.rate);

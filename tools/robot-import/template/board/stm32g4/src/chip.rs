@@ -10,7 +10,7 @@ use stm32g4xx_hal::time::ExtU32;
 
 use crate::board::TICK;
 
-#[allow(unused_imports)] // of boards without encoders on SPI
+#[allow(unused_imports, reason = "a board without encoders on SPI has no pins of any port")]
 pub use stm32g4xx_hal::gpio::{AnyPin, Output};
 pub use stm32g4xx_hal::pac;
 

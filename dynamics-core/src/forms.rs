@@ -104,7 +104,7 @@ where
         views E::VELOCITY_PRODUCTS,
         chains E::VELOCITY_PRODUCTS && D::CHAIN && D::KINDS.are_revolute();
         chains::rnea(robot, trig, state, effects, viewed),
-        textbook_rnea(robot, trig, state, effects)
+        textbook_rnea(robot, trig, state, effects, |_, _| ())
     )
 }
 

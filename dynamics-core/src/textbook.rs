@@ -8,6 +8,7 @@ use core::marker::PhantomData;
 use crate::algorithms::{self, Frame, JointResult, Kinematics, Ltdl, MassMatrix};
 use crate::algorithms::{
     MomentumAndCoriolis, MomentumAndDrift, NotPositiveDefinite, OsimInverse, Pose, Prescribed,
+    TorquesAndWrenches,
 };
 use crate::effects::{Effect, Scene};
 use crate::model::{BodyNumber, RobotModel, Static};
@@ -56,6 +57,20 @@ impl<T, K> Core<T, K> {
     {
         const { Scene::<R, E, B, V>::OF_CORE };
         algorithms::rnea(&Static::<T, K>::NEW, state, effects)
+    }
+
+    /// The torque of each motor and the wrench in the joint of each body, see
+    /// [`algorithms::rnea_and_wrenches`].
+    #[inline(never)]
+    pub fn rnea_and_wrenches<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        effects: &E,
+    ) -> TorquesAndWrenches<R, V, B>
+    where
+        Static<T, K>: RobotModel<R, B, Q, V>,
+        E: Effect<R, B, V>,
+    {
+        algorithms::rnea_and_wrenches(&Static::<T, K>::NEW, state, effects)
     }
 
     /// q̈ = FD(q, q̇, τ): the acceleration of each joint, see [`algorithms::aba()`].

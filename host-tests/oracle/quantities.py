@@ -189,6 +189,7 @@ def of_state(plant, q, qd, qdd, tau, next_q, more):
         forces[joint] += on_joint.act(pin.Force(wrench[SWAP]))
     forces = pin.StdVec_Force(forces)
     row["rnea_wrenches"] = order.v_back(pin.rnea(model, data, Q, V, A, forces))
+    row["reactions"] = np.concatenate([six(f) for f in list(data.f)[1:]])
     row["aba_wrenches"] = order.v_back(pin.aba(model, data, Q, V, T, forces))
     plain = order.v_back(pin.rnea(model, data, Q, V, A))
     close(robot, "torque of wrenches", row["rnea_wrenches"], plain - by_hand[4])

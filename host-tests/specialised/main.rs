@@ -10,3 +10,4 @@ mod oracle;
 mod pruned;
 mod singular_across;
 mod singular_engine;
+mod wrenches;

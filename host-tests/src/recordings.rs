@@ -96,6 +96,8 @@ pub struct Recording {
 
     /// ID(q, q̇, q̈) with `wrenches` on the bodies.
     pub rnea_wrenches: Vec<Vec<f64>>,
+    /// The wrench in each joint that moves, under them, in its body's own frame.
+    pub reactions: Vec<Vec<f64>>,
     /// FD(q, q̇, τ) with `wrenches` on the bodies.
     pub aba_wrenches: Vec<Vec<f64>>,
     /// ID(q, q̇, q̈) on a base that moves with `base_velocity` and `base_acceleration`.

@@ -23,6 +23,7 @@ mod rnea_two_velocities;
 pub(crate) mod rotors;
 mod transmitted;
 pub(crate) mod tree_pass;
+mod wrenches;
 
 pub use coriolis_matrix::coriolis_matrix;
 pub use crba_jacobian::crba_jacobian;
@@ -60,5 +61,6 @@ pub use regressor::{
 pub use rnea_two_velocities::rnea_two_velocities;
 pub use transmitted::transmitted_torque;
 pub(crate) use tree_pass::{inward, per_body};
+pub use wrenches::{TorquesAndWrenches, rnea_and_wrenches};
 
 pub use crate::forms::{aba, crba, rnea};

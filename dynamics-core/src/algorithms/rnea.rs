@@ -30,13 +30,14 @@ struct Body<R: Real> {
     f: Force<R>,
 }
 
-/// τ by the two passes.
+/// τ by the two passes, each fᵢ of which `transmitted` sees.
 #[cfg_attr(optimised, inline(always))]
 pub(crate) fn rnea<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     trig: &JointTrig<R, Q>,
     state: &State<R, Q, V>,
     effects: &E,
+    mut transmitted: impl FnMut(usize, Force<R>),
 ) -> [R; V]
 where
     D: RobotModel<R, B, Q, V>,
@@ -83,6 +84,7 @@ where
             break;
         };
         let f_i = children.onto(&body.f);
+        transmitted(inner.len(), f_i);
         link.project(turns, f_i, &mut tau); // (8)
         joint_torques(effects, &link, state, &mut tau);
         if E::GYROSCOPIC_ROTORS

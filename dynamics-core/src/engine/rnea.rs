@@ -8,12 +8,14 @@ use super::displacement::Displacement;
 use super::folding::Folded;
 use super::folding::{Mat3, Sym3, Vec3};
 use super::joint_rates::{JointRates, SeveralRates, Twist};
+use super::named::count_on;
 use super::only_if;
+use super::reaction::Reactions;
 use super::subtree::has_subtree_functions;
 use crate::effects::{
     BodyState, Declared, Effect, RegroupedInertia, call_hook, hook, load_friction,
 };
-use crate::model::JointCoordinate;
+use crate::model::{BASE, JointCoordinate};
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::{Force, Motion, SpatialInertia, Xform};
 use crate::state::State;
@@ -24,6 +26,7 @@ pub(crate) struct Task<
     Scalar: Real,
     Tree,
     Effects,
+    Seen,
     const B: usize,
     const Q: usize,
     const V: usize,
@@ -33,6 +36,8 @@ pub(crate) struct Task<
     pub(super) back: &'a [JointCoordinate<Scalar>; Q],
     pub(super) state: &'a State<Scalar, Q, V>,
     pub(super) tau: &'a mut [Scalar; V],
+    /// The wrenches that are kept.
+    pub(super) seen: Seen,
 }
 
 impl<Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize>
@@ -52,51 +57,57 @@ where
         // A constant: behind a loop that clears the torques the compiler would reverse the order of
         // the sines and spill more of them.
         let mut tau = const { [Scalar::ZERO; V] };
-        self.write_torques(back, state, &mut tau);
+        self.write_torques(back, state, &mut tau, ());
         tau
     }
 
-    /// The torques of [`Self::torques`], written into `tau`, which holds zeros.
+    /// The torques of [`Self::torques`], written into `tau`, which holds zeros; wrenches into
+    /// `seen`.
     #[cfg_attr(optimised, inline(always))]
-    pub(super) fn write_torques(
+    pub(super) fn write_torques<Seen: Reactions<Scalar, Tree>>(
         self,
         back: &[JointCoordinate<Scalar>; Q],
         state: &State<Scalar, Q, V>,
         tau: &mut [Scalar; V],
+        seen: Seen,
     ) {
         let base = self.base();
-        let mut task = Task { call: self, back, state, tau };
+        let mut task = Task { call: self, back, state, tau, seen };
+        let mut carried = Seen::NOTHING;
         for_each_joint!(
             J,
             const {
                 CompiledJoint::<Tree, J>::IS_ON_BASE
-                    && !has_subtree_functions::<Tree>(Effects::WRENCH)
+                    && !(Seen::BODIES.is_empty() && has_subtree_functions::<Tree>(Effects::WRENCH))
             },
-            visit = Task::visit::<J> as fn(&mut _, &_) -> _,
+            visit = Task::visit::<J> as fn(&mut _, &_) -> Wrench<Scalar>,
             {
-                visit(&mut task, &base);
+                let returned = visit(&mut task, &base);
+                Seen::add::<J>(&mut carried, &returned);
             }
         );
         for_each_joint!(
             J,
             const {
                 CompiledJoint::<Tree, J>::IS_ON_BASE
-                    && has_subtree_functions::<Tree>(Effects::WRENCH)
+                    && (Seen::BODIES.is_empty() && has_subtree_functions::<Tree>(Effects::WRENCH))
             },
             visit = Task::root_subtree::<J> as fn(&mut _),
             {
                 visit(&mut task);
             }
         );
+        task.seen.keep::<Effects, BASE, B, Q, V>(self, &base, &Wrench::ZERO, &carried);
     }
 }
 
-impl<Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize>
-    Task<'_, Scalar, Tree, Effects, B, Q, V>
+impl<Scalar, Tree, Effects, Seen, const B: usize, const Q: usize, const V: usize>
+    Task<'_, Scalar, Tree, Effects, Seen, B, Q, V>
 where
     Scalar: Real,
     Tree: Compiled,
     Effects: Effect<Scalar, B, V>,
+    Seen: Reactions<Scalar, Tree>,
 {
     /// Visits joint I and its descendants; returns the wrench that they need from the parent, in
     /// its frame.
@@ -119,6 +130,7 @@ where
             total = self.call.environment::<I>(&field, total);
         }
 
+        let mut carried = Seen::NOTHING;
         for_each_joint!(
             J,
             JointPair::<Tree, I, J>::IS_CHILD,
@@ -126,8 +138,10 @@ where
             {
                 let child = visit(self, &field);
                 total = Wrench { f: total.f + child.f, n: total.n + child.n };
+                Seen::add::<J>(&mut carried, &child);
             }
         );
+        self.seen.keep::<Effects, I, B, Q, V>(self.call, &field, &total, &carried);
 
         if CompiledJoint::<Tree, I>::COUNT == 1 {
             let felt = self.call.felt::<I>(total, parent.alpha);
@@ -194,6 +208,7 @@ where
             && !(Effects::WRENCH || Effects::GYROSCOPIC_ROTORS)
             && Effects::BASE_PARAMETERS == 0
             && loads::<Tree>(I, &Effects::PAYLOAD) == 0
+            && count_on::<Tree>(Seen::BODIES, I) == 0
     }
 
     /// ρ I (q̈ z + q̇ ω × z): the couple that the parent exerts on the rotor of joint I.
@@ -319,7 +334,7 @@ where
 
     /// Adds the payload of one body, at `place`.
     #[cfg_attr(optimised, inline(always))]
-    fn with_load(
+    pub(super) fn with_load(
         self,
         of: usize,
         place: &'static BodyPlacement,
@@ -384,7 +399,7 @@ where
 
     /// The wrench fˣ of one body, which the effects give in its own frame, in that of its joint.
     #[cfg_attr(optimised, inline(always))]
-    fn exerted(
+    pub(super) fn exerted(
         self,
         body: usize,
         place: &'static BodyPlacement,

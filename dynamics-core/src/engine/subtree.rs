@@ -11,6 +11,7 @@ use super::compile::{Compiled, is_parent, last};
 use super::folding::Folded;
 use super::folding::{Mat3, Vec3};
 use super::pose::Pose;
+use super::reaction::Reactions;
 use super::rnea::Task;
 use crate::effects::{Declared, Effect};
 use crate::scalar::{Real, Vector};
@@ -42,12 +43,13 @@ const fn is_subtree_root<Tree: Compiled>(i: usize, wrench: bool) -> bool {
     has_subtree_functions::<Tree>(wrench) && children > 1
 }
 
-impl<Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize>
-    Task<'_, Scalar, Tree, Effects, B, Q, V>
+impl<Scalar, Tree, Effects, Seen, const B: usize, const Q: usize, const V: usize>
+    Task<'_, Scalar, Tree, Effects, Seen, B, Q, V>
 where
     Scalar: Real,
     Tree: Compiled,
     Effects: Effect<Scalar, B, V>,
+    Seen: Reactions<Scalar, Tree>,
 {
     /// Joint I on the base and its descendants.
     #[inline(never)]

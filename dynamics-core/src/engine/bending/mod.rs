@@ -50,7 +50,7 @@ struct Bending<
     const V: usize,
     const M: usize,
 > {
-    rigid: &'a mut Task<'b, Scalar, Tree, Effects, B, Q, V>,
+    rigid: &'a mut Task<'b, Scalar, Tree, Effects, (), B, Q, V>,
     moves: Course,
     forces: &'a mut [Scalar; M],
 }
@@ -127,7 +127,8 @@ where
         Course: Moves<Scalar>,
     {
         let (mut tau, mut forces) = ([Scalar::ZERO; V], [Scalar::ZERO; M]);
-        let mut rigid = Task { call: self, back: self.turns, state: joints, tau: &mut tau };
+        let mut rigid =
+            Task { call: self, back: self.turns, state: joints, tau: &mut tau, seen: () };
         let mut task = Bending { rigid: &mut rigid, moves, forces: &mut forces };
         let stand = Stand::rigid(*base);
         for_each_joint!(

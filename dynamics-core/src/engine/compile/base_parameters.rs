@@ -68,10 +68,10 @@ pub(super) const fn regroup<const V: usize>(
 
 /// The parameters that a parent receives at the joint's origin: a mass, the first moment of a rod
 /// along z, and a second moment.
-struct Passed {
-    mass: f64,
-    rod: f64,
-    spread: DMat3,
+pub(super) struct Passed {
+    pub(super) mass: f64,
+    pub(super) rod: f64,
+    pub(super) spread: DMat3,
 }
 
 impl Passed {
@@ -90,7 +90,7 @@ const fn passed_to_end(body: &mut Joint, by: &Joint) -> Passed {
 }
 
 /// Takes from a body what its joint passes to the parent.
-const fn passed(body: &mut Joint, motion: JointMotion) -> Passed {
+pub(super) const fn passed(body: &mut Joint, motion: JointMotion) -> Passed {
     let mut passed = Passed::NOTHING;
     if matches!(motion, JointMotion::Slide) {
         passed.spread = body.second;

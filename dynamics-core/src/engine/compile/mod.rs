@@ -14,6 +14,7 @@
 
 mod alone;
 mod base_parameters;
+mod cut;
 mod matrix_parameters;
 mod prune;
 mod remainder;
@@ -22,6 +23,7 @@ mod topology;
 mod tree;
 
 pub(crate) use base_parameters::{mat_add, outer};
+pub(crate) use cut::Cut;
 pub(crate) use remainder::{Distribution, Remainder};
 pub(crate) use topology::{
     Compiled, CompiledJoint, CompiledRobot, JointAndBody, JointPair, is_parent, is_slide_beyond,

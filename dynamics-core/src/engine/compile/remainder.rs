@@ -50,10 +50,10 @@ impl<Tree: Compiled, const B: usize, const V: usize> Remainder<Tree, B, V> {
 }
 
 impl Distribution {
-    const NOTHING: Self = Self { mass: 0.0, moment: DVec3::ZERO, second: DMat3::ZERO };
+    pub(super) const NOTHING: Self = Self { mass: 0.0, moment: DVec3::ZERO, second: DMat3::ZERO };
 
     /// With a body at `pos` whose axes are the columns of `rot`.
-    const fn plus(self, body: Self, rot: &DMat3, pos: DVec3) -> Self {
+    pub(super) const fn plus(self, body: Self, rot: &DMat3, pos: DVec3) -> Self {
         let h = mul_vec(rot, body.moment);
         let second = mul(&mul(rot, &body.second), &transpose(rot));
         let second = mat_add(&second, &mat_add(&outer(h, pos), &outer(pos, h)));
@@ -119,6 +119,6 @@ const fn kept(x: f64, size: f64) -> f64 {
     if x.abs() <= 64.0 * f64::EPSILON * size { 0.0 } else { x }
 }
 
-const fn kept_vec(v: DVec3, size: f64) -> DVec3 {
+pub(super) const fn kept_vec(v: DVec3, size: f64) -> DVec3 {
     DVec3::new(kept(v.x, size), kept(v.y, size), kept(v.z, size))
 }

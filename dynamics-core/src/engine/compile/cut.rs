@@ -1,0 +1,128 @@
+//! The inertia beyond a cut between a body and its parent, of which the wrench in its joint
+//! follows: the bodies that move with its joint and are carried by it, and beside them what
+//! regrouping passes to these.
+
+use core::marker::PhantomData;
+
+use glam::{DMat3, DVec3};
+
+use super::base_parameters::{passed, second_moment};
+use super::remainder::{Distribution, kept_vec};
+use super::topology::{Compiled, CompiledJoint, is_parent, joint, last, place};
+use super::tree::{BodyPlacement, Joint, JointMotion, PADDING_JOINT};
+use crate::math::const_eval::{dot, mul, scale, sqrt, transpose};
+use crate::model::{BASE, Bodies, JointKind};
+
+/// The cut between the K-th body of the list and its parent, beside joint I or the base.
+pub(crate) struct Cut<Tree, List, const N: usize, const I: usize, const K: usize>(
+    PhantomData<(Tree, List)>,
+);
+
+impl<Tree: Compiled, List: Bodies<N>, const N: usize, const I: usize, const K: usize>
+    Cut<Tree, List, N, I, K>
+{
+    const BODY: usize = if K < N { List::NUMBERS[K] } else { BASE };
+    /// The place of the body.
+    pub(crate) const PLACE: &'static BodyPlacement = {
+        assert!(
+            K >= N || Self::BODY < Tree::PLACES.len(),
+            "a named body is one that the robot does not have: bodies are numbered from 0"
+        );
+        &place::<Tree>(Self::BODY)
+    };
+    const LAST: usize = CompiledJoint::<Tree, I>::LAST;
+    /// Whether there is such a body, and it moves with the joint, or stands on the base.
+    pub(crate) const IS_ON_JOINT: bool = K < N && Self::PLACE.joint == Self::LAST;
+    /// Whether there is such a body, and the joint is on it or on what it carries as one with it.
+    pub(crate) const CARRIES_JOINT: bool =
+        K < N && is_parent::<Tree>(Self::PLACE.joint, I) && is_joint_beyond::<Tree>(Self::BODY, I);
+    /// Whether everything that moves with the joint is beyond the cut, and what regrouping left to
+    /// it is all that its joint does not pass on: on the base, less is left.
+    pub(crate) const IS_WHOLE: bool = {
+        let (mut whole, mut k) = (joint::<Tree>(joint::<Tree>(I).first).parent != BASE, 0);
+        while k < Tree::PLACES.len() {
+            whole &= Tree::PLACES[k].joint != Self::LAST || is_beyond::<Tree>(Self::BODY, k);
+            k += 1;
+        }
+        whole
+    };
+    /// The parameters that the joint passes to its parent.
+    pub(crate) const PASSED: &'static Distribution = &if Self::IS_ON_JOINT {
+        passed_by(carried::<Tree>(Self::LAST, BASE), joint::<Tree>(I).motion)
+    } else {
+        Distribution::NOTHING
+    };
+    /// Those beyond the cut, without what is left beyond the joints there.
+    pub(crate) const CARRIED: &'static Distribution = &if Self::IS_ON_JOINT {
+        carried::<Tree>(Self::LAST, Self::BODY)
+    } else {
+        Distribution::NOTHING
+    };
+    /// Whether a body is beyond the cut, for each body.
+    pub(crate) const fn is_beyond(body: usize) -> bool {
+        K < N && body < Tree::LINKS.len() && is_beyond::<Tree>(Self::BODY, body)
+    }
+}
+
+/// Whether body `k` is `body`, or is carried by it; all are beyond the base.
+const fn is_beyond<Tree: Compiled>(body: usize, mut k: usize) -> bool {
+    while body != BASE && k != BASE && k > body {
+        k = Tree::LINKS[k].parent;
+    }
+    body == BASE || k == body
+}
+
+/// Whether joint `j` is beyond `body`.
+const fn is_joint_beyond<Tree: Compiled>(body: usize, j: usize) -> bool {
+    let mut k = 0;
+    while k < Tree::LINKS.len() {
+        let link = &Tree::LINKS[k];
+        if link.idx_v == j && !matches!(link.joint.kind, JointKind::Fixed) {
+            return is_beyond::<Tree>(body, k);
+        }
+        k += 1;
+    }
+    // The second coordinate of two: its parent has no body.
+    body == BASE
+}
+
+/// The bodies on coordinate `l` beyond `body`, with what the joints on them pass to them.
+const fn carried<Tree: Compiled>(l: usize, body: usize) -> Distribution {
+    let (length, mut sum, mut k) = (Tree::LENGTH, Distribution::NOTHING, 0);
+    while k < Tree::PLACES.len() {
+        let BodyPlacement { joint, rot, pos } = Tree::PLACES[k];
+        if joint == l && is_beyond::<Tree>(body, k) {
+            let link = &Tree::LINKS[k];
+            let own = Distribution {
+                mass: link.inertia.mass * length * length,
+                moment: scale(link.inertia.first_moment, length),
+                second: second_moment(&link.inertia.rotational),
+            };
+            sum = sum.plus(own, &mul(&rot, &transpose(&link.to_joint_frame)), pos);
+        }
+        k += 1;
+    }
+    let mut j = 0;
+    while j < Tree::JOINTS.len() {
+        let by = &Tree::JOINTS[j];
+        if by.parent == l && by.first == j && is_joint_beyond::<Tree>(body, j) {
+            let all = carried::<Tree>(last::<Tree>(j), BASE);
+            sum = sum.plus(passed_by(all, by.motion), &by.rot, by.pos);
+        }
+        j += 1;
+    }
+    let size = sqrt(dot(sum.moment, sum.moment));
+    let DMat3 { x_axis: x, y_axis: y, z_axis: z } = sum.second;
+    let largest = sqrt(dot(x, x) + dot(y, y) + dot(z, z));
+    let second = DMat3::from_cols(kept_vec(x, largest), kept_vec(y, largest), kept_vec(z, largest));
+    Distribution { mass: sum.mass, moment: kept_vec(sum.moment, size), second }
+}
+
+/// The part of this body's parameters that its joint passes to the parent.
+const fn passed_by(body: Distribution, motion: JointMotion) -> Distribution {
+    let Distribution { mass, moment, second } = body;
+    let mut left = Joint { mass, moment, second, ..PADDING_JOINT };
+    let passed = passed(&mut left, motion);
+    let moment = DVec3::new(0.0, 0.0, passed.rod);
+    Distribution { mass: passed.mass, moment, second: passed.spread }
+}

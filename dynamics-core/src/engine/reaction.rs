@@ -1,0 +1,234 @@
+//! The wrenches in joints, beside inverse dynamics.
+//!
+//! Regrouping to base parameters leaves τ as it is, and not the forces within the robot. The wrench
+//! in the joint of a body is that of the inertia beyond it in the field of its joint, with what the
+//! joints beyond return: each of these has passed constant parameters, which [`Cut`] adds again.
+//! Where all that moves with a joint is beyond the cut, the parameters that the joint passed are
+//! added to its own total: behind a revolute joint they are a mass, h_z and Σ_zz.
+
+use core::borrow::Borrow;
+use core::marker::PhantomData;
+
+use super::acceleration_field::{AccelerationField, Inertia, Wrench};
+use super::call::Call;
+use super::compile::{Compiled, CompiledRobot, Cut, Distribution, JointPair};
+use super::folding::{Folded, Mat3, Sym3, Vec3};
+use super::{Engine, loaded_again};
+use crate::algorithms::TorquesAndWrenches;
+use crate::effects::{Declared, Effect};
+use crate::model::{Bodies, Robot};
+use crate::scalar::Real;
+use crate::spatial::Force;
+use crate::state::{Configuration, RobotState};
+use crate::trig::Kernel;
+
+/// The wrenches that a recursion keeps: none, or those in the joints of a list of bodies.
+pub(crate) trait Reactions<Scalar: Real, Tree: Compiled> {
+    /// The bodies.
+    const BODIES: &'static [usize] = &[];
+    /// The sum over the joints that each body carries.
+    type Sums;
+    /// The sums over none.
+    const NOTHING: Self::Sums;
+
+    /// Adds what joint J returns.
+    fn add<const J: usize>(sums: &mut Self::Sums, returned: &Wrench<Scalar>);
+
+    /// Keeps the wrenches of the bodies that move with joint I, which carries `total`.
+    fn keep<Effects, const I: usize, const B: usize, const Q: usize, const V: usize>(
+        &mut self,
+        call: Call<'_, Scalar, Tree, Effects, B, Q, V>,
+        field: &AccelerationField<Scalar>,
+        total: &Wrench<Scalar>,
+        sums: &Self::Sums,
+    ) where
+        Effects: Effect<Scalar, B, V>;
+}
+
+impl<Scalar: Real, Tree: Compiled> Reactions<Scalar, Tree> for () {
+    type Sums = ();
+    const NOTHING: () = ();
+
+    #[cfg_attr(optimised, inline(always))]
+    fn add<const J: usize>((): &mut (), _: &Wrench<Scalar>) {}
+
+    #[cfg_attr(optimised, inline(always))]
+    fn keep<Effects, const I: usize, const B: usize, const Q: usize, const V: usize>(
+        &mut self,
+        _: Call<'_, Scalar, Tree, Effects, B, Q, V>,
+        _: &AccelerationField<Scalar>,
+        _: &Wrench<Scalar>,
+        (): &(),
+    ) where
+        Effects: Effect<Scalar, B, V>,
+    {
+    }
+}
+
+/// The wrenches of a list of N bodies, each in its body's own frame.
+pub(crate) struct Kept<Scalar: Real, List, const N: usize>([Force<Scalar>; N], PhantomData<List>);
+
+impl<Scalar: Real, Tree: Compiled, List: Bodies<N>, const N: usize> Reactions<Scalar, Tree>
+    for &mut Kept<Scalar, List, N>
+{
+    const BODIES: &'static [usize] = &List::NUMBERS;
+    type Sums = [Wrench<Scalar>; N];
+    const NOTHING: Self::Sums = [Wrench::ZERO; N];
+
+    #[cfg_attr(optimised, inline(always))]
+    fn add<const J: usize>(sums: &mut Self::Sums, returned: &Wrench<Scalar>) {
+        for_each_joint!(K, {
+            if Cut::<Tree, List, N, J, K>::CARRIES_JOINT {
+                sums[K] = sums[K] + *returned;
+            }
+        });
+    }
+
+    #[cfg_attr(optimised, inline(always))]
+    fn keep<Effects, const I: usize, const B: usize, const Q: usize, const V: usize>(
+        &mut self,
+        call: Call<'_, Scalar, Tree, Effects, B, Q, V>,
+        field: &AccelerationField<Scalar>,
+        total: &Wrench<Scalar>,
+        sums: &Self::Sums,
+    ) where
+        Effects: Effect<Scalar, B, V>,
+    {
+        for_each_joint!(
+            K,
+            Cut::<Tree, List, N, I, K>::IS_ON_JOINT,
+            beyond = Call::beyond::<List, N, I, K> as fn(_, &_, &_, &_) -> _,
+            {
+                self.0[K] = beyond(call, field, total, &sums[K]);
+            }
+        );
+    }
+}
+
+impl<Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize>
+    Call<'_, Scalar, Tree, Effects, B, Q, V>
+where
+    Scalar: Real,
+    Tree: Compiled,
+    Effects: Effect<Scalar, B, V>,
+{
+    /// The wrench in the joint of the K-th body of the list, which moves with joint I: `total` is
+    /// that of the joint over base parameters, `carried` that of the joints on the body.
+    #[cfg_attr(optimised, inline(always))]
+    fn beyond<List: Bodies<N>, const N: usize, const I: usize, const K: usize>(
+        self,
+        field: &AccelerationField<Scalar>,
+        total: &Wrench<Scalar>,
+        carried: &Wrench<Scalar>,
+    ) -> Force<Scalar> {
+        let wrench = if Cut::<Tree, List, N, I, K>::IS_WHOLE {
+            *total + field.wrench(&constant(Cut::<Tree, List, N, I, K>::PASSED))
+        } else {
+            let mut inertia = constant(Cut::<Tree, List, N, I, K>::CARRIED);
+            let mut exerted = Wrench::ZERO;
+            for_each_joint!(M, {
+                if JointPair::<Tree, I, M>::HAS_BODY {
+                    let (body, place) = JointPair::<Tree, I, M>::BODY;
+                    if Cut::<Tree, List, N, I, K>::is_beyond(*body) {
+                        if Effects::PAYLOAD[*body] {
+                            inertia = self.with_load(*body, place, inertia);
+                        }
+                        if Effects::WRENCH {
+                            exerted = exerted + self.exerted(*body, place, field);
+                        }
+                    }
+                }
+            });
+            let all = *carried + field.wrench(&inertia);
+            Wrench { f: all.f - exerted.f, n: all.n - exerted.n }
+        };
+        let place = Cut::<Tree, List, N, I, K>::PLACE;
+        let rot = Mat3::constant(&place.rot);
+        let f = rot.transpose_mul(wrench.f).scale(Folded::constant(Tree::LENGTH_INV));
+        let n = rot.transpose_mul(wrench.n - Vec3::constant(place.pos).cross(wrench.f));
+        Force::new(n.get(), f.get())
+    }
+}
+
+/// Parameters that are known while compiling.
+#[cfg_attr(optimised, inline(always))]
+fn constant<Scalar: Real>(of: &Distribution) -> Inertia<Scalar> {
+    Inertia {
+        mass: Folded::constant(of.mass),
+        moment: Vec3::constant(of.moment),
+        second: Sym3::of(&Mat3::constant(&of.second)),
+    }
+}
+
+impl<Arm, Sines> Engine<Arm, Sines> {
+    /// The torques of [`Engine::rnea`] and, beside them, the wrenches fᵢ in the joints of some
+    /// bodies: what the parent exerts on body i through its joint, N·m and N, in the body's own
+    /// frame and about its origin, as [`crate::algorithms::rnea_and_wrenches`] computes it.
+    ///
+    /// A force sensor in a link is a fixed joint of the description, whose body is all that is
+    /// beyond it: its fᵢ is the prediction of the sensor under every effect of the scene, to be
+    /// subtracted from the measurement. Other bodies add nothing to the machine code. A body that
+    /// the robot does not have does not compile; nor does a scene with
+    /// [`BaseParameters`](crate::effects::BaseParameters), of which no wrench follows.
+    ///
+    /// # Shape
+    /// V, and N wrenches in the order of the list.
+    ///
+    /// # Cost
+    /// Some 50 cycles of a Cortex-M4F for a last body, on top of [`Engine::rnea`]; the same
+    /// instructions for all data.
+    ///
+    /// # Source
+    /// Featherstone & Orin (2000), (3) to (8), over base parameters and those that they lack.
+    ///
+    /// # Example
+    /// ```
+    /// use dynamics_core::{Core, Engine, effects::RIGID_BODY, model::{OnBody, Robot}, robots::Ur5e, state::State};
+    /// const WRIST: usize = Ur5e::MODEL.body("wrist_3");
+    /// let state = State { q: [0.1_f64; 6], qd: [0.5; 6], qdd: [1.0; 6] };
+    /// let one = Engine::<Ur5e>::rnea_and_wrenches(&state, &RIGID_BODY, OnBody::<WRIST>);
+    /// let all = Core::<Ur5e>::rnea_and_wrenches(&state, &RIGID_BODY);
+    /// assert!((one.wrenches[0].lin - all.wrenches[WRIST].lin).length() < 1e-13);
+    /// ```
+    #[doc(alias = "reaction wrench")]
+    #[doc(alias = "force sensor")]
+    #[inline(never)]
+    #[must_use]
+    pub fn rnea_and_wrenches<
+        Scalar: Real,
+        Effects,
+        List,
+        const N: usize,
+        const B: usize,
+        const Q: usize,
+        const V: usize,
+    >(
+        state: impl RobotState<Scalar, Q, V>,
+        effects: &Effects,
+        bodies: List,
+    ) -> TorquesAndWrenches<Scalar, V, N>
+    where
+        Arm: Robot<B, Q, V>,
+        Sines: Kernel<Scalar>,
+        Effects: Effect<Scalar, B, V>,
+        List: Bodies<N>,
+    {
+        scene_is_taken!();
+        const {
+            assert!(
+                Effects::BASE_PARAMETERS == 0,
+                "wrenches in joints do not follow from base parameters"
+            );
+        }
+        let _ = bodies;
+        let trig = state.configuration().trig_or(Self::trig_source());
+        let trig = trig.borrow();
+        let mut kept = Kept::<Scalar, List, N>([Force::ZERO; N], PhantomData);
+        let mut tau = [Scalar::ZERO; V];
+        let call: Call<'_, Scalar, CompiledRobot<Arm, B, Q, V>, _, B, Q, V> =
+            Self::call(trig, effects);
+        let back = loaded_again(&state, trig);
+        call.write_torques(&back.coordinates, state.state(), &mut tau, &mut kept);
+        TorquesAndWrenches { tau, wrenches: kept.0 }
+    }
+}

@@ -80,8 +80,9 @@ pub fn tracking(context: &Context) -> Result<String> {
             bound > SLACK * max,
             "{name}: its bound of {bound:.2e} rad has become slack: the largest error is {max:.2e}"
         );
-        let mrad = [max, bound].map(|rad| format!("{:.2}", 1e3 * rad));
-        outcomes.push(format!("{name} {} mrad", mrad.join(" of ")));
+        let [max, bound] = [max, bound].map(|rad| format!("{:.2}", 1e3 * rad));
+        let unit = if report.is_led() { "mm" } else { "mrad" };
+        outcomes.push(format!("{name} {max} of {bound} {unit}"));
         if !HELD.contains(&&**name) {
             continue;
         }

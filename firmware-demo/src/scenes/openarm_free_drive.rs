@@ -4,7 +4,8 @@
 //! The torque of a tick is that of gravity and the tool, [`HandGuiding`]'s on top of it, and
 //! [`Breakaway`]'s push and dither. It has no trajectory of its own: the reference of the loop is
 //! the place where the arm begins, and the law does not read it: it cannot be a
-//! [`Scene`](crate::scene::Scene), which compares laws along a trajectory.
+//! [`Scene`](crate::scene::Scene), which compares laws along a trajectory. Its runs are
+//! [trials](trial) of a [plant] in the hand.
 //!
 //! # Sources
 //!

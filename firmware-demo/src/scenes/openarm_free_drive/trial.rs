@@ -54,10 +54,15 @@ impl Less {
     ];
 }
 
-/// A trial, of which everything that is random follows from a number.
+/// A trial.
 #[derive(Clone, Copy, Debug)]
 pub struct Trial {
-    pub seed: u32,
+    /// The posture at the start, rad.
+    pub posture: Q,
+    /// The directions in which the hand leads the arm, the second one after the rest.
+    pub ways: [Vec3; 2],
+    /// The numbers that draw the plant and the frames that are lost.
+    pub random: Random,
     /// The hand of the arm holds a tool.
     pub tool: bool,
     /// The plant has the stiction that is drawn, and is otherwise the law's model, or it is not.
@@ -278,26 +283,29 @@ fn ticks(seconds: f32) -> u32 {
 }
 
 impl Trial {
-    /// The trials of the scene, each with the name of its law. Those without one part follow.
-    pub const RUNS: [(&str, Self); 5] = [
-        ("feedforward", Self::OF_SCENE),
-        ("pd", Self { less: Less::AllButGravity, ..Self::OF_SCENE }),
-        ("empty-hand", Self { tool: false, ..Self::OF_SCENE }),
-        ("feedforward", Self { plant: PlantModel::Mismatched, ..Self::OF_SCENE }),
-        ("pd", Self { plant: PlantModel::Mismatched, less: Less::AllButGravity, ..Self::OF_SCENE }),
-    ];
-    const OF_SCENE: Self = Self {
-        seed: 1,
-        tool: true,
-        plant: PlantModel::Exact,
-        less: Less::Nothing,
-        seconds: [0.5, 2.0, 0.5, 3.0],
-        again: false,
-    };
+    /// The trial of the scene under a law that lacks a part. Of the axes of space, this way is the
+    /// one whose forces are nearest to the medians of [`Trial::drawn`].
+    pub fn of_scene(less: Less, plant: PlantModel, tool: bool) -> Self {
+        Self {
+            posture: [0.5, 0.6, 0.2, 1.0, 0.1, -0.2, 0.3],
+            ways: [Vec3::Y, Vec3::NEG_Y],
+            random: Random::seeded(0),
+            tool,
+            plant,
+            less,
+            seconds: [0.5, 2.0, 0.5, 3.0],
+            again: false,
+        }
+    }
 
-    /// The trial of the scene whose law lacks a part.
-    pub const fn without(less: Less) -> Self {
-        Self { less, ..Self::OF_SCENE }
+    /// A trial with a posture and ways of its own, of a plant that is off and rests for ten
+    /// seconds.
+    pub fn drawn(seed: u32, less: Less, tool: bool) -> Self {
+        let mut random = Random::seeded(seed);
+        let posture = posture(&mut random);
+        let ways = [direction(&mut random), direction(&mut random)];
+        let (plant, seconds) = (PlantModel::Mismatched, [0.5, 2.0, 1.0, 10.0]);
+        Self { posture, ways, random, tool, plant, less, seconds, again: true }
     }
 
     /// The ticks before and of the rest.
@@ -307,10 +315,8 @@ impl Trial {
 
     /// Runs it; nothing if there were no such law, or if the arm had no forward dynamics.
     pub fn run(&self) -> Option<Outcome> {
-        let mut random = Random::seeded(self.seed);
-        let near = posture(&mut random);
-        let (way, back) = (direction(&mut random), direction(&mut random));
-        let plant = Plant::new(near, self.tool, self.plant, random);
+        let (near, [way, back]) = (self.posture, self.ways);
+        let plant = Plant::new(near, self.tool, self.plant, self.random);
         let (law, joints) = (law(self.less, self.tool)?, joints(&near).ok()?);
         let gains = Gains { kp: [0.0; 7], kd: [0.0; 7] };
         let gate = MotionController::try_new(controller()).ok()?;

@@ -171,9 +171,9 @@ impl Probe<7> for Unpacked {
 
 type Loop<'a> = ControlLoop<Kept<'a, &'a Joints>, &'a Joints, NoBrake, 7>;
 
-/// A tick from the frames that came to those that are sent.
+/// A tick from the frames that came to those that are sent, between the markers of its regions.
 #[inline(never)]
-fn tick(
+fn marked_tick(
     control: &mut Loop<'_>,
     joints: &Joints,
     law: &FreeDrive,
@@ -191,7 +191,7 @@ fn tick(
 
 /// The address of the function that is called each tick.
 pub fn tick_at() -> usize {
-    tick as *const () as usize
+    marked_tick as *const () as usize
 }
 
 /// The arm in its loop.
@@ -209,7 +209,7 @@ struct Cell<'a> {
 impl Cell<'_> {
     fn tick(&mut self) -> Option<()> {
         let Self { control, joints, law, reference, replies, plant, out, .. } = self;
-        let (commands, status) = tick(control, joints, law, reference, replies);
+        let (commands, status) = marked_tick(control, joints, law, reference, replies);
         if !out.status.is_some_and(|status| status.mode != Mode::Full) {
             out.status = Some(status);
         }

@@ -260,6 +260,7 @@ mod tests {
             "sample 0 0.1 0.2 0.11 2e-1",
             "rms 1e-3 2e-3",
             "max [1e-3, 2e-3]",
+            "start 6.5",
             "stack 512",
         ] {
             assert!(recording.line(line).is_ok_and(|accepted| accepted), "{line}");

@@ -4,7 +4,8 @@
 //! The torque of a tick is that of gravity and the tool, [`HandGuiding`]'s on top of it, and
 //! [`Breakaway`]'s push and dither. It has no trajectory of its own: the reference of the loop is
 //! the place where the arm begins, and the law does not read it: it cannot be a
-//! [`Scene`](crate::scene::Scene), which compares laws along a trajectory.
+//! [`Scene`](crate::scene::Scene), which compares laws along a trajectory. Its runs are
+//! [trials](trial) of a [plant] in the hand.
 //!
 //! # Sources
 //!
@@ -26,6 +27,7 @@ use dynamics_core::model::{BodyInertia, Robot};
 use dynamics_core::robots::OpenArm;
 use dynamics_core::spatial::SpatialInertia;
 use dynamics_core::state::State;
+use glam::Vec3;
 use joint_drivers::can::{CanError, FdFrame};
 use joint_drivers::mit::Scale;
 use joint_drivers::mit::damiao::{DM4310, DM4340, DM8009, Damiao};
@@ -36,6 +38,9 @@ use motion_control::{
     Breakaway, BreakawayConfig, ConfigError, Estimate, Fault, Gains, HandGuiding,
     HandGuidingConfig, MotionControllerConfig, SafetyLimits, SupervisorConfig,
 };
+
+pub mod plant;
+pub mod trial;
 
 /// s.
 pub const TICK: f32 = 2e-3;
@@ -58,7 +63,7 @@ pub const GEARS: [f32; 7] = [0.05, 0.05, 0.1, 0.1, 0.05, 0.05, 0.05];
 
 /// The body that is led, and the place of its grip in it, m.
 pub const HAND: usize = OpenArm::MODEL.body("hand");
-pub const GRIP: [f64; 3] = [0.0, 0.0, -0.12];
+pub const GRIP: Vec3 = Vec3::new(0.0, 0.0, -0.12);
 pub type Tool = Payload<f32, HAND>;
 pub const NO_TOOL: Tool = Payload(SpatialInertia::ZERO);
 /// 1 kg at the grip.

@@ -8,6 +8,7 @@
 //! sample TICK qd1..qdN q1..qN
 //! rms e1..eN                         max e1..eN
 //! total RMS                          status WORD…
+//! start FORCE                        of a scene that a hand leads
 //! stack BYTES
 //! done
 //! ```
@@ -41,6 +42,9 @@ pub struct Trajectory {
     pub max: Vec<f64>,
     /// RMS of the error over all joints in rad; not a number until it is reported.
     pub total: f64,
+    /// The force that starts the motion, N, of an arm that a hand leads: its one joint is the tip,
+    /// whose errors are the distances from the place of its release, m.
+    pub start: Option<f64>,
     /// The status of the safety gate.
     pub status: String,
     /// The address of the function that runs each tick.
@@ -152,6 +156,7 @@ impl Recording {
             ["rms", ref errors @ ..] => self.runs.last_mut()?.rms = numbers(errors, joints)?,
             ["max", ref errors @ ..] => self.runs.last_mut()?.max = numbers(errors, joints)?,
             ["total", rms] => self.runs.last_mut()?.total = number(rms)?,
+            ["start", force] => self.runs.last_mut()?.start = Some(number(force)?),
             ["status", ref said @ ..] => self.runs.last_mut()?.status = said.join(" "),
             ["stack", bytes] => self.stack = Some(bytes.parse().ok()?),
             [DONE] => {}
@@ -255,6 +260,7 @@ mod tests {
             "sample 0 0.1 0.2 0.11 2e-1",
             "rms 1e-3 2e-3",
             "max [1e-3, 2e-3]",
+            "start 6.5",
             "stack 512",
         ] {
             assert!(recording.line(line).is_ok_and(|accepted| accepted), "{line}");

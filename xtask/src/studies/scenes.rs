@@ -18,12 +18,14 @@ pub const PAGE: Page<'_> =
 
 pub fn text(reports: &[&Report]) -> String {
     let plain = |name: &str| name.to_uppercase();
-    format!("\n{}\n{}\n", table(reports, plain).text(), foot(reports))
+    let tables = [false, true].map(|led| table(reports, led, plain).text());
+    format!("\n{}\n{}\n", tables.join("\n"), foot(reports))
 }
 
 pub fn markdown(reports: &[&Report]) -> String {
     let bold = |name: &str| format!("**{name}**");
-    format!("{}\n{}", table(reports, bold).markdown(), foot(reports))
+    let tables = [false, true].map(|led| table(reports, led, bold).markdown());
+    format!("{}\n{}", tables.join("\n"), foot(reports))
 }
 
 fn foot(reports: &[&Report]) -> String {
@@ -31,24 +33,34 @@ fn foot(reports: &[&Report]) -> String {
     format!("{MODEL}. {IN_FLASH}. Measured with {rustc}.")
 }
 
-/// A row per scene, set off from those below it: one per effect, with what is saved and lost
-/// without it, and one per other law that the scene compares.
-fn table(reports: &[&Report], set_off: impl Fn(&str) -> String) -> Table {
-    let head = "scene, − effect, other law|tick, cycles|G474|F405|of its period|tick's code, B|flash, B|RAM, \
-                B|error RMS, mrad|max|bound|of PD's|safety gate";
+/// A row per scene whose arm a hand leads, or of all others, set off from those below it: one per
+/// effect, with what is saved and lost without it, and one per other law that the scene compares.
+pub fn table(reports: &[&Report], led: bool, set_off: impl Fn(&str) -> String) -> Table {
+    let costs = "scene, − effect, other law|tick, cycles|G474|F405|of its period|tick's code, B|flash, B|RAM, B";
+    let figures = if led {
+        "force to start, N|of gravity's alone|tip after release, mm|bound"
+    } else {
+        "error RMS, mrad|max|bound|of PD's"
+    };
+    let head = format!("{costs}|{figures}|safety gate");
     let mut table = Table::new(&head.split('|').collect::<Vec<_>>());
-    for report in reports {
+    for report in reports.iter().filter(|report| report.is_led() == led) {
         let dash = || "–".to_owned();
         let saved = |saved: i64| {
             if saved == 0 { "0".into() } else { signed_change(-saved) }
         };
-        let row = |name: String, costs: [String; 7], errors: &Errors, bound: String| {
-            let share = 100.0 * errors.rms_rad / report.tracking.pd.rms_rad;
+        let row_of = |name: String, costs: [String; 7], errors: &Errors, pd: &Errors, bound| {
+            let share = format!("{:.1} %", 100.0 * errors.figure() / pd.figure());
             let [rms, max] = [errors.rms_rad, errors.max_rad].map(milli);
-            let gate = gate(&errors.status);
-            let rest = [rms, max, bound, format!("{share:.1} %"), gate];
-            std::iter::once(name).chain(costs).chain(rest)
+            let figures = match errors.start_n {
+                Some(force) => [format!("{force:.1}"), share, max, bound],
+                None => [rms, max, bound, share],
+            };
+            let gate = std::iter::once(gate(&errors.status));
+            std::iter::once(name).chain(costs).chain(figures).chain(gate)
         };
+        let row =
+            |name, costs, errors, bound| row_of(name, costs, errors, &report.tracking.pd, bound);
         let longest = report.tick["total"].cycles.max;
         let period = f64::from(report.period_us) * CLOCK_MHZ;
         let costs = [
@@ -71,15 +83,29 @@ fn table(reports: &[&Report], set_off: impl Fn(&str) -> String) -> Table {
                 table.row([less, "needed".to_owned()].into_iter().chain(rest));
                 continue;
             };
-            let [cycles, flash] = [worth.cycles, worth.flash_bytes].map(saved);
+            // The law for a hand has its parts as numbers of run time: without them it has no other
+            // code.
+            let [cycles, flash] = [worth.cycles, worth.flash_bytes]
+                .map(|saves| if led { dash() } else { saved(saves) });
             let ram = saved(worth.ram_bytes.cast_signed());
             let costs = [cycles, dash(), dash(), dash(), flash, dash(), ram];
             table.row(row(less, costs, &worth.without, dash()));
         }
         for (law, errors) in &report.tracking.beside {
             let cycles = saved(longest as i64 - errors.tick_cycles as i64);
-            let costs = std::array::from_fn(|at| if at == 0 { cycles.clone() } else { dash() });
+            let is_cost = |at: usize| at == 0 && !led;
+            let costs = std::array::from_fn(|at| if is_cost(at) { cycles.clone() } else { dash() });
             table.row(row(label(law), costs, errors, dash()));
+        }
+        let off = &report.tracking_mismatched;
+        let further = [
+            ("gravity alone", &report.tracking.pd, &report.tracking),
+            ("model off", &off.feedforward, off),
+            ("model off, gravity alone", &off.pd, off),
+        ];
+        for (law, errors, of) in further.into_iter().filter(|_| led) {
+            let costs = std::array::from_fn(|_| dash());
+            table.row(row_of(law.into(), costs, errors, &of.pd, dash()));
         }
     }
     table

@@ -6,6 +6,7 @@ use crate::kit::meter::{CHIPS, CLOCK_MHZ, Cost, IN_FLASH, MODEL};
 use crate::kit::protocol::label;
 use crate::kit::table::{Column, Table, thousands};
 use crate::studies::scenes::report::{Errors, JointError, Report, Tracking};
+use crate::studies::scenes::table;
 
 const BY_MANUAL: &str = "max by the manual";
 
@@ -16,14 +17,18 @@ impl Report {
             "\nCost of a tick, feed-forward, {ticks} ticks ({MODEL})\n{IN_FLASH}\n\n{}",
             self.costs(&[]).text()
         );
+        let (memory, rustc, qemu) = (self.memory(), &self.rustc, &self.qemu);
+        let memory = format!("\n{memory}\n{rustc}; {qemu}; µs at {CLOCK_MHZ} MHz\n");
+        if self.is_led() {
+            return text + "\n" + &table(&[self], true, str::to_owned).text() + &memory;
+        }
         for (what, tracking) in self.trackings() {
             text += &format!("\n{what}\n\n{}", errors_table(tracking).text());
         }
         if !self.effects.is_empty() {
             text += &format!("\n{WORTH}\n\n{}", self.worth().text());
         }
-        let (memory, rustc, qemu) = (self.memory(), &self.rustc, &self.qemu);
-        text += &format!("\n{memory}\n{rustc}; {qemu}; µs at {CLOCK_MHZ} MHz\n");
+        text += &memory;
         if let Some(gains) = &self.gains {
             let inertia = match gains.pose.ends_with("inertia") {
                 true => gains.pose.clone(),

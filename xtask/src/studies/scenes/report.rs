@@ -83,6 +83,10 @@ pub struct Errors {
     pub max_rad: f64,
     /// Each joint from the base.
     pub per_joint: Vec<JointError>,
+    /// The force that starts the motion, N, if a hand leads the arm: the one joint is then the tip,
+    /// and its errors are distances, m.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub start_n: Option<f64>,
     /// The status of the safety gate.
     pub status: String,
     /// Modelled cycles of the longest tick under this law.
@@ -94,6 +98,13 @@ pub struct Errors {
 pub struct JointError {
     pub rms_rad: f64,
     pub max_rad: f64,
+}
+
+impl Errors {
+    /// The figure by which laws are compared.
+    pub fn figure(&self) -> f64 {
+        self.start_n.unwrap_or(self.rms_rad)
+    }
 }
 
 impl Tracking {
@@ -176,12 +187,18 @@ fn errors(run: &Trajectory, cost: &Cost) -> Errors {
         rms_rad: run.total,
         max_rad: run.largest(),
         per_joint: joints.map(|(&rms_rad, &max_rad)| JointError { rms_rad, max_rad }).collect(),
+        start_n: run.start,
         status: run.status.clone(),
         tick_cycles: cost.cycles.max,
     }
 }
 
 impl Report {
+    /// Whether a hand leads the arm.
+    pub fn is_led(&self) -> bool {
+        self.tracking.feedforward.start_n.is_some()
+    }
+
     /// From what the firmware said and the meter saw.
     pub fn new(
         recording: &Recording,

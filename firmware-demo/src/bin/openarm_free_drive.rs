@@ -1,0 +1,8 @@
+//! Runs the scene [`openarm_free_drive`](firmware_demo::scenes::openarm_free_drive).
+#![no_std]
+#![no_main]
+
+#[cortex_m_rt::entry]
+fn main() -> ! {
+    firmware_demo::target::led::scene()
+}

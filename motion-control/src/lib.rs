@@ -12,6 +12,7 @@
 //! | [`ContactReaction`] | what an arm does after a contact: stop, go back along its path, float | the last path |
 //! | [`MomentumObserver`] | external torques from the momentum of the joints | momentum, external torques |
 //! | [`TipWrench`] | the wrench of a contact at the tip, from external torques | none |
+//! | [`SensorLoadFit`], [`SensorLoad`] | load and offset of a force sensor, from poses at rest | sums |
 //! | [`PayloadEstimator`] | mass, centre of mass and inertia of a load from the torques of the joints | information |
 //! | [`ParameterEstimator`] | inertial parameters, frictions and armatures of an arm, from one joint's torque in each update | estimate, covariance |
 //! | [`PhysicalParameters`] | parameters that bodies can have, near those of the estimator | the last set |
@@ -100,7 +101,7 @@ pub use estimate::{
     ContactDetector, DetectedContact, Estimate, Excitation, ImpossibleParameters, MomentumObserver,
     Observer, ObserverConfig, ParameterEstimator, ParameterEstimatorConfig, PayloadEstimator,
     PayloadEstimatorConfig, PhysicalParameters, RecordError, RejectedMeasurement, RejectedRow,
-    SelectedParameters, TipWrench, TipWrenchConfig,
+    SelectedParameters, SensorLoad, SensorLoadError, SensorLoadFit, TipWrench, TipWrenchConfig,
 };
 pub use law::{
     Breakaway, BreakawayConfig, CartesianImpedance, FirstOrderHold, Gains, HandGuiding,

@@ -5,6 +5,7 @@ pub(crate) mod momentum_observer;
 pub(crate) mod observer;
 pub(crate) mod parameter_estimator;
 pub(crate) mod payload_estimator;
+pub(crate) mod sensor_load;
 #[cfg(test)]
 pub(crate) mod tests;
 pub(crate) mod tip_wrench;
@@ -17,4 +18,5 @@ pub use parameter_estimator::{
     PhysicalParameters, RecordError, RejectedRow, SelectedParameters,
 };
 pub use payload_estimator::{PayloadEstimator, PayloadEstimatorConfig, RejectedMeasurement};
+pub use sensor_load::{SensorLoad, SensorLoadError, SensorLoadFit};
 pub use tip_wrench::{TipWrench, TipWrenchConfig};

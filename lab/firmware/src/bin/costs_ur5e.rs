@@ -15,10 +15,11 @@ use robots::Ur5e;
 
 const WRIST: usize = Ur5e::MODEL.body("wrist_3");
 type RigidBody = (effects::Gravity, effects::Inertia, effects::Coriolis);
-type WithWrench = fn(&State<f32, 6, 6>, &RigidBody, OnBody<WRIST>) -> TorquesAndWrenches<f32, 6, 1>;
+type WithWrench<'a> =
+    fn(&'a State<f32, 6, 6>, &RigidBody, OnBody<WRIST>) -> TorquesAndWrenches<f32, 6, 1>;
 
 fn run() -> ! {
-    let run: WithWrench = Engine::<Ur5e>::rnea_and_wrenches;
+    let run: WithWrench<'_> = Engine::<Ur5e>::rnea_and_wrenches;
     Row::of::<Ur5e, 6, 6>("rnea_and_wrenches", "engine", "wrist_3", true).measure(
         run as usize,
         &asks::<Ur5e, 6, 6, STATES>(),

@@ -60,7 +60,7 @@ pub(super) const fn joints<Tree: Compiled>(bodies: &[usize]) -> u64 {
 }
 
 /// The number of these bodies that move with joint `i`.
-pub(super) const fn count_on<Tree: Compiled>(bodies: &[usize], i: usize) -> usize {
+const fn count_on<Tree: Compiled>(bodies: &[usize], i: usize) -> usize {
     let (mut count, mut k) = (0, 0);
     while k < bodies.len() {
         if place::<Tree>(bodies[k]).joint == i {

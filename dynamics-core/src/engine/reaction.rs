@@ -16,7 +16,7 @@ use super::folding::{Folded, Mat3, Sym3, Vec3};
 use super::{Engine, loaded_again};
 use crate::algorithms::TorquesAndWrenches;
 use crate::effects::{Declared, Effect};
-use crate::model::{Bodies, Robot};
+use crate::model::{Bodies, JointCoordinate, Robot};
 use crate::scalar::Real;
 use crate::spatial::Force;
 use crate::state::{Configuration, RobotState};
@@ -34,13 +34,15 @@ pub(crate) trait Reactions<Scalar: Real, Tree: Compiled> {
     /// Adds what joint J returns.
     fn add<const J: usize>(sums: &mut Self::Sums, returned: &Wrench<Scalar>);
 
-    /// Keeps the wrenches of the bodies that move with joint I, which carries `total`.
+    /// Keeps the wrenches of the bodies that move with joint I, which carries `total`, in axes that
+    /// `turn` is still to turn.
     fn keep<Effects, const I: usize, const B: usize, const Q: usize, const V: usize>(
         &mut self,
         call: Call<'_, Scalar, Tree, Effects, B, Q, V>,
         field: &AccelerationField<Scalar>,
         total: &Wrench<Scalar>,
         sums: &Self::Sums,
+        turn: Option<JointCoordinate<Scalar>>,
     ) where
         Effects: Effect<Scalar, B, V>;
 }
@@ -59,6 +61,7 @@ impl<Scalar: Real, Tree: Compiled> Reactions<Scalar, Tree> for () {
         _: &AccelerationField<Scalar>,
         _: &Wrench<Scalar>,
         (): &(),
+        _: Option<JointCoordinate<Scalar>>,
     ) where
         Effects: Effect<Scalar, B, V>,
     {
@@ -91,15 +94,16 @@ impl<Scalar: Real, Tree: Compiled, List: Bodies<N>, const N: usize> Reactions<Sc
         field: &AccelerationField<Scalar>,
         total: &Wrench<Scalar>,
         sums: &Self::Sums,
+        turn: Option<JointCoordinate<Scalar>>,
     ) where
         Effects: Effect<Scalar, B, V>,
     {
         for_each_joint!(
             K,
             Cut::<Tree, List, N, I, K>::IS_ON_JOINT,
-            beyond = Call::beyond::<List, N, I, K> as fn(_, &_, &_, &_) -> _,
+            beyond = Call::beyond::<List, N, I, K> as fn(_, &_, &_, &_, _) -> _,
             {
-                self.0[K] = beyond(call, field, total, &sums[K]);
+                self.0[K] = beyond(call, field, total, &sums[K], turn);
             }
         );
     }
@@ -120,6 +124,7 @@ where
         field: &AccelerationField<Scalar>,
         total: &Wrench<Scalar>,
         carried: &Wrench<Scalar>,
+        turn: Option<JointCoordinate<Scalar>>,
     ) -> Force<Scalar> {
         let wrench = if Cut::<Tree, List, N, I, K>::IS_WHOLE {
             *total + field.wrench(&constant(Cut::<Tree, List, N, I, K>::PASSED))
@@ -144,6 +149,11 @@ where
         };
         let place = Cut::<Tree, List, N, I, K>::PLACE;
         let rot = Mat3::constant(&place.rot);
+        let turned = |v: Vec3<Scalar>| match turn {
+            Some(turn) => v.turn_back(Folded::runtime(turn.sin), Folded::runtime(turn.cos)),
+            None => v,
+        };
+        let wrench = Wrench { f: turned(wrench.f), n: turned(wrench.n) };
         let f = rot.transpose_mul(wrench.f).scale(Folded::constant(Tree::LENGTH_INV));
         let n = rot.transpose_mul(wrench.n - Vec3::constant(place.pos).cross(wrench.f));
         Force::new(n.get(), f.get())

@@ -3,12 +3,13 @@
 
 use super::acceleration_field::{AccelerationField, Inertia, Wrench, along_z};
 use super::call::Call;
-use super::compile::{BodyPlacement, Compiled, CompiledJoint, JointPair, last, load, loads, place};
+use super::compile::{
+    BodyPlacement, Compiled, CompiledJoint, JointPair, are_whole, last, load, loads, place,
+};
 use super::displacement::Displacement;
 use super::folding::Folded;
 use super::folding::{Mat3, Sym3, Vec3};
 use super::joint_rates::{JointRates, SeveralRates, Twist};
-use super::named::count_on;
 use super::only_if;
 use super::reaction::Reactions;
 use super::subtree::has_subtree_functions;
@@ -97,7 +98,7 @@ where
                 visit(&mut task);
             }
         );
-        task.seen.keep::<Effects, BASE, B, Q, V>(self, &base, &Wrench::ZERO, &carried);
+        task.seen.keep::<Effects, BASE, B, Q, V>(self, &base, &Wrench::ZERO, &carried, None);
     }
 }
 
@@ -141,7 +142,8 @@ where
                 Seen::add::<J>(&mut carried, &child);
             }
         );
-        self.seen.keep::<Effects, I, B, Q, V>(self.call, &field, &total, &carried);
+        let turn = if const { Self::is_round::<I>() } { Some(at.turn) } else { None };
+        self.seen.keep::<Effects, I, B, Q, V>(self.call, &field, &total, &carried, turn);
 
         if CompiledJoint::<Tree, I>::COUNT == 1 {
             let felt = self.call.felt::<I>(total, parent.alpha);
@@ -208,7 +210,7 @@ where
             && !(Effects::WRENCH || Effects::GYROSCOPIC_ROTORS)
             && Effects::BASE_PARAMETERS == 0
             && loads::<Tree>(I, &Effects::PAYLOAD) == 0
-            && count_on::<Tree>(Seen::BODIES, I) == 0
+            && are_whole::<Tree>(Seen::BODIES, I)
     }
 
     /// ρ I (q̈ z + q̇ ω × z): the couple that the parent exerts on the rotor of joint I.

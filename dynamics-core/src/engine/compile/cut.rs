@@ -38,14 +38,8 @@ impl<Tree: Compiled, List: Bodies<N>, const N: usize, const I: usize, const K: u
         K < N && is_parent::<Tree>(Self::PLACE.joint, I) && is_joint_beyond::<Tree>(Self::BODY, I);
     /// Whether everything that moves with the joint is beyond the cut, and what regrouping left to
     /// it is all that its joint does not pass on: on the base, less is left.
-    pub(crate) const IS_WHOLE: bool = {
-        let (mut whole, mut k) = (joint::<Tree>(joint::<Tree>(I).first).parent != BASE, 0);
-        while k < Tree::PLACES.len() {
-            whole &= Tree::PLACES[k].joint != Self::LAST || is_beyond::<Tree>(Self::BODY, k);
-            k += 1;
-        }
-        whole
-    };
+    pub(crate) const IS_WHOLE: bool = joint::<Tree>(joint::<Tree>(I).first).parent != BASE
+        && is_whole::<Tree>(Self::BODY, Self::LAST);
     /// The parameters that the joint passes to its parent.
     pub(crate) const PASSED: &'static Distribution = &if Self::IS_ON_JOINT {
         passed_by(carried::<Tree>(Self::LAST, BASE), joint::<Tree>(I).motion)
@@ -62,6 +56,26 @@ impl<Tree: Compiled, List: Bodies<N>, const N: usize, const I: usize, const K: u
     pub(crate) const fn is_beyond(body: usize) -> bool {
         K < N && body < Tree::LINKS.len() && is_beyond::<Tree>(Self::BODY, body)
     }
+}
+
+/// Whether everything that moves with joint `l` is beyond those of these bodies that do.
+pub(crate) const fn are_whole<Tree: Compiled>(bodies: &[usize], l: usize) -> bool {
+    let (mut whole, mut k) = (true, 0);
+    while k < bodies.len() {
+        whole &= place::<Tree>(bodies[k]).joint != l || is_whole::<Tree>(bodies[k], l);
+        k += 1;
+    }
+    whole
+}
+
+/// Whether everything that moves with joint `l` is beyond `body`.
+const fn is_whole<Tree: Compiled>(body: usize, l: usize) -> bool {
+    let (mut whole, mut k) = (true, 0);
+    while k < Tree::PLACES.len() {
+        whole &= Tree::PLACES[k].joint != l || is_beyond::<Tree>(body, k);
+        k += 1;
+    }
+    whole
 }
 
 /// Whether body `k` is `body`, or is carried by it; all are beyond the base.

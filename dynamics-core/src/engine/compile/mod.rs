@@ -23,7 +23,7 @@ mod topology;
 mod tree;
 
 pub(crate) use base_parameters::{mat_add, outer};
-pub(crate) use cut::Cut;
+pub(crate) use cut::{Cut, are_whole};
 pub(crate) use remainder::{Distribution, Remainder};
 pub(crate) use topology::{
     Compiled, CompiledJoint, CompiledRobot, JointAndBody, JointPair, is_parent, is_slide_beyond,

@@ -180,10 +180,15 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> State<Bus, Joint, V> {
     fn take(&mut self, frame: &Bus::Frame) {
         let kept = self.positions.iter_mut().zip(&mut self.delivers);
         for (joint, (position, delivers)) in self.joints.iter_mut().zip(kept) {
-            if let Ok(report) = joint.report(frame) {
-                *position = report.position.or(*position);
-                *delivers = report.delivers.unwrap_or(*delivers);
+            match joint.report(frame) {
+                Err(CanError::Identifier) => continue,
+                Err(_) => {}
+                Ok(report) => {
+                    *position = report.position.or(*position);
+                    *delivers = report.delivers.unwrap_or(*delivers);
+                }
             }
+            return;
         }
     }
 

@@ -26,7 +26,7 @@ use dynamics_core::model::{BodyInertia, Robot};
 use dynamics_core::robots::OpenArm;
 use dynamics_core::spatial::SpatialInertia;
 use dynamics_core::state::State;
-use joint_drivers::can::{CanError, FdFrame};
+use joint_drivers::can::{CanError, ClassicFrame};
 use joint_drivers::mit::Scale;
 use joint_drivers::mit::damiao::{DM4310, DM4340, DM8009, Damiao};
 use joint_drivers::{
@@ -130,7 +130,7 @@ pub fn breakaway() -> BreakawayConfig<f32, 7> {
 }
 
 /// The drives on their bus.
-pub type Joints = CanJoints<Outbox<FdFrame, 7>, Damiao, 7>;
+pub type Joints = CanJoints<Outbox<ClassicFrame, 7>, Damiao, 7>;
 
 /// Drives 1 to 7, which reply to hosts 0x11 to 0x17, of joints that are near these positions.
 ///

@@ -15,7 +15,7 @@ use firmware_demo::scenes::openarm_free_drive::{
     GEARS, GRIP, HAND, MOTORS, RESOLUTION, SLIDING, STICTION, TICK, WRIST,
 };
 use glam::DVec3;
-use joint_drivers::can::FdFrame;
+use joint_drivers::can::ClassicFrame;
 
 pub type Q = [f64; 7];
 /// The plant's steps in a tick, of 250 µs.
@@ -169,7 +169,7 @@ impl Plant {
 
     /// A tick of drives and arm; `added` is the part of the commands that is accounted for. Returns
     /// the replies.
-    pub fn tick(&mut self, commands: &[Option<FdFrame>; 7], added: &Q) -> Vec<FdFrame> {
+    pub fn tick(&mut self, commands: &[Option<ClassicFrame>; 7], added: &Q) -> Vec<ClassicFrame> {
         let mut replies = Vec::new();
         for part in 0..PARTS {
             for joint in (0..7).filter(|joint| ARRIVAL[*joint] == part) {
@@ -193,7 +193,7 @@ impl Plant {
     }
 
     /// The drive's side of Damiao's protocol: torque alone, and a reply.
-    fn drive(&mut self, joint: usize, command: &FdFrame) -> FdFrame {
+    fn drive(&mut self, joint: usize, command: &ClassicFrame) -> ClassicFrame {
         let data: [u8; 8] = command.data().try_into().expect("eight bytes");
         let word = u64::from_be_bytes(data);
         assert_eq!(word >> 12 & 0xff_ffff, 0, "a gain");
@@ -210,7 +210,7 @@ impl Plant {
         let id = joint as u64 + 1;
         let reply = (id | 0x10) << 56 | position << 40 | velocity << 28 | (word & 0xfff) << 16;
         let host = StandardId::new(joint as u16 + 0x11).expect("eleven bits");
-        FdFrame::new(host, &(reply | 0x1f19).to_be_bytes()).expect("eight bytes")
+        ClassicFrame::new(host, &(reply | 0x1f19).to_be_bytes()).expect("eight bytes")
     }
 }
 

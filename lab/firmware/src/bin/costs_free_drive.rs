@@ -14,7 +14,7 @@ use embedded_can::{Frame, StandardId};
 use firmware_demo::scenes::openarm_free_drive::{
     Free, FreeDrive, Joints, Kept, RESOLUTION, TOOL, breakaway, controller, guiding, joints,
 };
-use joint_drivers::can::FdFrame;
+use joint_drivers::can::ClassicFrame;
 use joint_drivers::{ControlLoop, Law, NoBrake};
 use motion_control::{Estimate, Gains, MotionController};
 
@@ -24,11 +24,11 @@ type Loop<'a> = ControlLoop<Kept<'a, &'a Joints>, &'a Joints, NoBrake, 7>;
 const Q: [f32; 7] = [0.5, 0.6, 0.2, 1.0, 0.1, -0.2, 0.3];
 
 /// The replies of a tick in which each joint is a few steps further.
-fn replies(tick: usize) -> Option<[FdFrame; 7]> {
+fn replies(tick: usize) -> Option<[ClassicFrame; 7]> {
     let reply = |joint: usize| {
         let count = ((Q[joint] + 12.5) / RESOLUTION) as u64 + (tick / 4) as u64;
         let word = (0x11 + joint as u64) << 56 | count << 40 | 0x800 << 28 | 0x800 << 16 | 0x1f19;
-        FdFrame::new(StandardId::new(0x11 + joint as u16)?, &word.to_be_bytes())
+        ClassicFrame::new(StandardId::new(0x11 + joint as u16)?, &word.to_be_bytes())
     };
     let [a, b, c, d, e, f, g] = core::array::from_fn(reply);
     Some([a?, b?, c?, d?, e?, f?, g?])
@@ -38,8 +38,8 @@ fn replies(tick: usize) -> Option<[FdFrame; 7]> {
 #[inline(never)]
 fn tick(
     (control, joints, law): &mut (Loop<'_>, &Joints, &FreeDrive),
-    came: &[FdFrame; 7],
-) -> [Option<FdFrame>; 7] {
+    came: &[ClassicFrame; 7],
+) -> [Option<ClassicFrame>; 7] {
     for frame in came {
         joints.receive(frame);
     }

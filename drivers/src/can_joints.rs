@@ -128,12 +128,15 @@ struct State<Bus, Joint, const V: usize> {
     joints: [Joint; V],
     positions: [Option<f32>; V],
     delivers: [Result<(), CanError>; V],
+    /// The joint behind the one that took the last frame: replies mostly come in order.
+    next: usize,
 }
 
 impl<Bus: Can, Joint: CanJoint, const V: usize> CanJoints<Bus, Joint, V> {
     /// The joints, of which none has reported yet.
     pub const fn new(bus: Bus, joints: [Joint; V]) -> Self {
-        Self(RefCell::new(State { bus, joints, positions: [None; V], delivers: [Ok(()); V] }))
+        let (positions, delivers) = ([None; V], [Ok(()); V]);
+        Self(RefCell::new(State { bus, joints, positions, delivers, next: 0 }))
     }
 
     /// Returns the bus to its owner.
@@ -178,15 +181,18 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> State<Bus, Joint, V> {
 
     /// A frame that is wrong says nothing: its joint has then no position.
     fn take(&mut self, frame: &Bus::Frame) {
-        let kept = self.positions.iter_mut().zip(&mut self.delivers);
-        for (joint, (position, delivers)) in self.joints.iter_mut().zip(kept) {
-            match joint.report(frame) {
+        for _ in 0..V {
+            let at = self.next;
+            self.next = if at + 1 < V { at + 1 } else { 0 };
+            let Some(joint) = self.joints.get_mut(at) else { return };
+            let report = match joint.report(frame) {
                 Err(CanError::Identifier) => continue,
-                Err(_) => {}
-                Ok(report) => {
-                    *position = report.position.or(*position);
-                    *delivers = report.delivers.unwrap_or(*delivers);
-                }
+                report => report,
+            };
+            let kept = self.positions.get_mut(at).zip(self.delivers.get_mut(at));
+            if let (Ok(report), Some((position, delivers))) = (report, kept) {
+                *position = report.position.or(*position);
+                *delivers = report.delivers.unwrap_or(*delivers);
             }
             return;
         }
@@ -378,8 +384,10 @@ where
     /// The frames to send, which are then no longer here. Frames that nobody takes are
     /// [`CanError::Full`] in the next tick.
     pub fn commands(&self) -> [Option<F>; V] {
-        let taken =
-            self.0.try_borrow_mut().map(|mut state| state.bus.0.each_mut().map(Option::take));
-        taken.unwrap_or([const { None }; V])
+        let none = [const { None }; V];
+        match self.0.try_borrow_mut() {
+            Ok(mut state) => core::mem::replace(&mut state.bus.0, none),
+            Err(_) => none,
+        }
     }
 }

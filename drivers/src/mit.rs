@@ -349,13 +349,10 @@ impl<P: Protocol> Drive<P> {
             Feedback::Status(status) => return Ok(Reply::Status(status)),
             Feedback::State { counts, motor, drive, status } => ((motor, drive, status), counts),
         };
-        if position == 0 || position == u16::MAX {
-            return Err(CanError::Range);
-        }
-        let mapping = *self.mapping.mapping();
+        let position = self.position(position)?;
+        let mapping = self.mapping.mapping();
         let velocity = mapping.velocity(self.axes.velocity.value(velocity)).map_err(not_finite)?;
         let torque = mapping.torque(self.axes.torque.value(torque)).map_err(not_finite)?;
-        let position = self.place(self.axes.position.value(position)).map_err(not_finite)?;
         let (motor_temperature, drive_temperature, status) = feedback;
         let state =
             State { position, velocity, torque, motor_temperature, drive_temperature, status };
@@ -363,7 +360,12 @@ impl<P: Protocol> Drive<P> {
     }
 
     /// The joint's position at a count, rad: with the scales and turns that the count lacks.
-    fn place(&mut self, count: f32) -> Result<f32, MappingError> {
+    #[inline]
+    fn position(&mut self, count: u16) -> Result<f32, CanError> {
+        if count == 0 || count == u16::MAX {
+            return Err(CanError::Range);
+        }
+        let count = self.axes.position.value(count);
         let half = 0.5 * self.period;
         let scales = match self.last {
             Some(last) if count - last.count > half => self.scales - 1.0,
@@ -371,7 +373,8 @@ impl<P: Protocol> Drive<P> {
             _ => self.scales,
         };
         let shaft = count + scales * self.period;
-        let joint = self.mapping.position_at(shaft * (1.0 / TAU), &mut self.whole)?;
+        let joint = self.mapping.position_at(shaft * (1.0 / TAU), &mut self.whole);
+        let joint = joint.map_err(not_finite)?;
         self.scales = scales;
         self.last = Some(Last { joint, count, shaft });
         Ok(joint)
@@ -453,12 +456,13 @@ impl<P: Protocol> CanJoint for Drive<P> {
         self.set_torque(torque)
     }
 
+    #[inline]
     fn report<F: Frame>(&mut self, frame: &F) -> Result<Report, CanError> {
-        Ok(match self.reply(frame)? {
-            Reply::State(state) => {
-                Report { position: Some(state.position), delivers: state.status }
+        Ok(match self.protocol.decode(frame)? {
+            Feedback::State { counts: [position, ..], status, .. } => {
+                Report { position: Some(self.position(position)?), delivers: status }
             }
-            Reply::Status(status) => Report { position: None, delivers: Some(status) },
+            Feedback::Status(status) => Report { position: None, delivers: Some(status) },
         })
     }
 }

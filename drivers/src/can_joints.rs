@@ -338,12 +338,16 @@ impl<Bus: Can, Joint: PdCanJoint, const V: usize> PdDrives<V> for &CanJoints<Bus
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug)]
-pub struct Outbox<F, const V: usize>([Option<F>; V]);
+pub struct Outbox<F, const V: usize> {
+    frames: [Option<F>; V],
+    /// The frames that are here, from the first place on.
+    kept: usize,
+}
 
 impl<F, const V: usize> Outbox<F, V> {
     /// An empty one, with room for a frame of each joint.
     pub const fn new() -> Self {
-        Self([const { None }; V])
+        Self { frames: [const { None }; V], kept: 0 }
     }
 }
 
@@ -359,8 +363,8 @@ impl<F: embedded_can::Frame + Clone, const V: usize> Can for Outbox<F, V> {
 
     /// Keeps the frame, if those of the last tick were taken.
     fn transmit(&mut self, frame: &F) -> nb::Result<Option<F>, ErrorKind> {
-        let free = self.0.iter_mut().find(|frame| frame.is_none());
-        *free.ok_or(WouldBlock)? = Some(frame.clone());
+        *self.frames.get_mut(self.kept).ok_or(WouldBlock)? = Some(frame.clone());
+        self.kept += 1;
         Ok(None)
     }
 
@@ -384,10 +388,11 @@ where
     /// The frames to send, which are then no longer here. Frames that nobody takes are
     /// [`CanError::Full`] in the next tick.
     pub fn commands(&self) -> [Option<F>; V] {
-        let none = [const { None }; V];
-        match self.0.try_borrow_mut() {
-            Ok(mut state) => core::mem::replace(&mut state.bus.0, none),
-            Err(_) => none,
-        }
+        let Ok(mut state) = self.0.try_borrow_mut() else { return [const { None }; V] };
+        let Outbox { frames, kept } = &mut state.bus;
+        *kept = 0;
+        let taken = frames.clone();
+        frames.iter_mut().for_each(|frame| *frame = None);
+        taken
     }
 }

@@ -499,13 +499,14 @@ impl Axis {
     }
 
     fn of_zero(&self) -> u16 {
-        (self.zero + 0.5) as u16
+        (self.zero + 0.5) as u32 as u16
     }
 
     /// The nearest count; that of the end for a quantity beyond it.
     fn count(&self, quantity: f32) -> u16 {
-        // The conversion makes zero of what is below it.
-        (can::limit(quantity, self.most) * self.per_unit + (self.zero + 0.5)) as u16
+        // Within the range of u16: the conversion to u32 alone saturates in hardware, and makes zero
+        // of what is below it.
+        (can::limit(quantity, self.most) * self.per_unit + (self.zero + 0.5)) as u32 as u16
     }
 
     fn value(&self, count: u16) -> f32 {

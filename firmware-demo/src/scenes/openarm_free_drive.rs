@@ -240,9 +240,7 @@ impl Law<7, FreeDrive> for Free {
     ) -> [f32; 7] {
         let at = State { qd: estimate.qd, ..State::at(estimate.q) };
         let mut torque = Self::feedforward(&at, drive);
-        let (viscous, coulomb, gears) = drive.friction;
-        let scene = (drive.gravity, drive.tool, viscous, coulomb, gears);
-        let mut friction = Engine::<OpenArm>::rnea(&at, &scene);
+        let mut friction = Engine::<OpenArm>::motor_torque(&at, &torque, &drive.friction);
         for (friction, gravity) in friction.iter_mut().zip(&torque) {
             *friction -= gravity;
         }

@@ -112,8 +112,7 @@ impl<Arm, Sines> Engine<Arm, Sines> {
         let mut motors = *tau;
         for_each_joint!(J, {
             if Index::<J, V>::IS_BELOW {
-                let at =
-                    joint_state::<Scalar, CompiledRobot<Arm, B, Q, V>, Q, V, J>(state);
+                let at = joint_state::<Scalar, CompiledRobot<Arm, B, Q, V>, Q, V, J>(state);
                 effects.torque(J, at, &mut motors[J]);
                 load_friction(effects, J, at, &mut motors[J]);
             }

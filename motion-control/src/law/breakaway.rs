@@ -301,9 +301,12 @@ impl<R: Real> Joint<R> {
             self.phase = 0;
             (R::ZERO, free)
         };
-        let most = free / (longest + c + c);
-        let most = R::either(measured & (most > R::ZERO), most, R::ZERO);
-        let torque = wanted.clamped(-most, most);
+        let torque = if measured & (free > R::ZERO) & (wanted.abs() > R::ZERO) {
+            let most = free / (longest + c + c);
+            wanted.clamped(-most, most)
+        } else {
+            R::ZERO
+        };
         self.energy -= c * (torque - last).abs();
         self.torque = [torque, last];
         torque

@@ -173,7 +173,8 @@ impl<R: Real, const V: usize, const CIRCLES: u128> HandGuiding<R, V, CIRCLES> {
     /// oppose the velocity is not compensated.
     ///
     /// # Cost
-    /// By count: some 40 flops a free joint, 25 a locked one, the same for all estimates.
+    /// By count: some 40 flops a joint at most; fewer for one that is locked, slow, or away from
+    /// its walls.
     ///
     /// ```
     /// # use motion_control::{Estimate, HandGuiding, HandGuidingConfig, LimitedSpring, SpeedBrake};
@@ -232,20 +233,30 @@ impl<R: Real, const V: usize, const CIRCLES: u128> HandGuiding<R, V, CIRCLES> {
     fn damper(&self, i: usize, qd: R) -> R {
         let brake = &self.config.brake;
         let (limit, most) = (entry(&brake.speed, i), entry(&brake.torque, i));
+        let damping = entry(&self.config.damping, i);
+        if qd.abs() <= limit {
+            return -finite(damping * qd);
+        }
         let slow = qd.clamped(-limit, limit);
         let brakes = (entry(&brake.damping, i) * (slow - qd)).clamped(-most, most);
-        brakes - finite(entry(&self.config.damping, i) * slow)
+        brakes - finite(damping * slow)
     }
 
     /// σ F̂, less the errors, towards zero.
     #[inline(always)]
     fn compensation(&self, i: usize, qd: R, friction: R, error: R) -> R {
+        let moves = qd.abs() * entry(&self.rest_inv, i) - R::ONE;
+        if moves <= R::ZERO {
+            return R::ZERO;
+        }
         let (most, share) = (entry(&self.config.compensation, i), self.config.share * friction);
         let tau = share - share.clamped(-error.abs(), error.abs());
         let opposes = tau * qd > R::ZERO;
-        let moves = qd.abs() * entry(&self.rest_inv, i) - R::ONE;
-        let tau = R::either(opposes & all_finite(&[tau, error]), tau, R::ZERO);
-        moves.clamped(R::ZERO, R::ONE) * tau.clamped(-most, most)
+        if !opposes | !all_finite(&[tau, error]) {
+            return R::ZERO;
+        }
+        let rise = if moves < R::ONE { moves } else { R::ONE };
+        rise * tau.clamped(-most, most)
     }
 }
 
@@ -262,7 +273,11 @@ impl<R: Real, const V: usize> LimitedSpring<R, V> {
     fn push(&self, i: usize, depth: R, inward: R) -> R {
         let inward = R::either(inward > R::ZERO, inward, R::ZERO);
         let push = entry(&self.stiffness, i) * depth + entry(&self.damping, i) * inward;
-        R::either(depth.is_finite(), push, R::ZERO).clamped(R::ZERO, entry(&self.torque, i))
+        if (push > R::ZERO) & depth.is_finite() {
+            push.clamped(R::ZERO, entry(&self.torque, i))
+        } else {
+            R::ZERO
+        }
     }
 }
 

@@ -214,7 +214,9 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> State<Bus, Joint, V> {
                     Err(Other(error)) => Err(CanError::Bus(error.kind())),
                 }
             });
-            failed = failed.and(sent.map_err(|error| JointError { joint, error }));
+            if let (Err(error), Ok(())) = (sent, failed) {
+                failed = Err(JointError { joint, error });
+            }
         }
         failed
     }

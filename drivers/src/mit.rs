@@ -385,8 +385,8 @@ impl<P: Protocol> Drive<P> {
         let torque = can::limit(torque, self.most);
         let at_shaft = self.mapping.mapping().shaft_torque(torque).map_err(not_finite)?;
         Ok(Counts {
-            position: self.axes.position.of_zero(),
-            velocity: self.axes.velocity.of_zero(),
+            position: const { above_half(u16::MAX) },
+            velocity: const { above_half(P::TOP) },
             kp: 0,
             kd: 0,
             torque: self.axes.torque.count(at_shaft),
@@ -477,6 +477,11 @@ fn not_finite(_: MappingError) -> CanError {
     CanError::NotFinite
 }
 
+/// The count of zero, of which the last is `top`: half a count above it.
+const fn above_half(top: u16) -> u16 {
+    top / 2 + 1
+}
+
 /// The counts of a quantity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Axis {
@@ -496,10 +501,6 @@ impl Axis {
     fn signed(most: f32, top: u16) -> Self {
         let half = 0.5 * f32::from(top);
         Self { most, per_unit: half / most, per_count: most / half, zero: half }
-    }
-
-    fn of_zero(&self) -> u16 {
-        (self.zero + 0.5) as u32 as u16
     }
 
     /// The nearest count; that of the end for a quantity beyond it.

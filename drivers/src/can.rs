@@ -151,10 +151,19 @@ pub const fn fd_length(bytes: usize) -> Option<usize> {
     })
 }
 
-/// A CAN FD data frame of up to 64 bytes, or a remote frame.
+/// A frame with room for `MOST` bytes of data: [`FdFrame`] or [`ClassicFrame`].
 ///
-/// For HALs whose own frame of more than 8 bytes does not implement [`embedded_can::Frame`]: copy
-/// identifier and data from one to the other.
+/// For HALs whose own frame does not implement [`embedded_can::Frame`]: copy identifier and data
+/// from one to the other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CanFrame<const MOST: usize> {
+    id: Id,
+    data: [u8; MOST],
+    length: u8,
+    is_remote: bool,
+}
+
+/// A CAN FD data frame of up to 64 bytes, or a remote frame.
 ///
 /// ```
 /// use embedded_can::{Frame, StandardId};
@@ -163,49 +172,61 @@ pub const fn fd_length(bytes: usize) -> Option<usize> {
 /// assert_eq!(FdFrame::new(id, &[0x50; 24]).unwrap().data(), [0x50; 24]);
 /// assert!(FdFrame::new(id, &[0x50; 23]).is_none()); // no code for this length
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct FdFrame {
-    id: Id,
-    data: [u8; 64],
-    length: usize,
-    is_remote: bool,
-}
+pub type FdFrame = CanFrame<64>;
 
-impl Frame for FdFrame {
+/// A frame of up to 8 bytes: of classic CAN, or of CAN FD that needs no more.
+///
+/// ```
+/// use embedded_can::{Frame, StandardId};
+/// use joint_drivers::can::ClassicFrame;
+/// let id = StandardId::new(0x101).unwrap();
+/// assert_eq!(ClassicFrame::new(id, &[0x50; 8]).unwrap().data(), [0x50; 8]);
+/// assert!(ClassicFrame::new(id, &[0x50; 12]).is_none());
+/// ```
+pub type ClassicFrame = CanFrame<8>;
+
+impl<const MOST: usize> Frame for CanFrame<MOST> {
+    #[inline]
     fn new(id: impl Into<Id>, data: &[u8]) -> Option<Self> {
-        if fd_length(data.len()) != Some(data.len()) {
+        let length = data.len();
+        if fd_length(length) != Some(length) {
             return None;
         }
-        let mut all = [0; 64];
-        all.get_mut(..data.len())?.copy_from_slice(data);
-        Some(Self { id: id.into(), data: all, length: data.len(), is_remote: false })
+        let mut all = [0; MOST];
+        all.get_mut(..length)?.copy_from_slice(data);
+        let length = u8::try_from(length).ok()?;
+        Some(Self { id: id.into(), data: all, length, is_remote: false })
     }
 
     /// CAN FD has no remote frames: this is one of classic CAN, of at most 8 bytes.
     fn new_remote(id: impl Into<Id>, dlc: usize) -> Option<Self> {
-        (dlc <= 8).then_some(Self { id: id.into(), data: [0; 64], length: dlc, is_remote: true })
+        let length = u8::try_from(dlc).ok().filter(|dlc| *dlc <= 8)?;
+        Some(Self { id: id.into(), data: [0; MOST], length, is_remote: true })
     }
 
     fn is_extended(&self) -> bool {
         matches!(self.id, Id::Extended(_))
     }
 
+    #[inline]
     fn is_remote_frame(&self) -> bool {
         self.is_remote
     }
 
+    #[inline]
     fn id(&self) -> Id {
         self.id
     }
 
     /// The length in bytes, not the code of it.
     fn dlc(&self) -> usize {
-        self.length
+        self.length.into()
     }
 
+    #[inline]
     fn data(&self) -> &[u8] {
         let length = if self.is_remote { 0 } else { self.length };
-        self.data.get(..length).unwrap_or_default()
+        self.data.get(..length.into()).unwrap_or_default()
     }
 }
 

@@ -128,12 +128,15 @@ struct State<Bus, Joint, const V: usize> {
     joints: [Joint; V],
     positions: [Option<f32>; V],
     delivers: [Result<(), CanError>; V],
+    /// The joint behind the one that took the last frame: replies mostly come in order.
+    next: usize,
 }
 
 impl<Bus: Can, Joint: CanJoint, const V: usize> CanJoints<Bus, Joint, V> {
     /// The joints, of which none has reported yet.
     pub const fn new(bus: Bus, joints: [Joint; V]) -> Self {
-        Self(RefCell::new(State { bus, joints, positions: [None; V], delivers: [Ok(()); V] }))
+        let (positions, delivers) = ([None; V], [Ok(()); V]);
+        Self(RefCell::new(State { bus, joints, positions, delivers, next: 0 }))
     }
 
     /// Returns the bus to its owner.
@@ -178,12 +181,20 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> State<Bus, Joint, V> {
 
     /// A frame that is wrong says nothing: its joint has then no position.
     fn take(&mut self, frame: &Bus::Frame) {
-        let kept = self.positions.iter_mut().zip(&mut self.delivers);
-        for (joint, (position, delivers)) in self.joints.iter_mut().zip(kept) {
-            if let Ok(report) = joint.report(frame) {
+        for _ in 0..V {
+            let at = self.next;
+            self.next = if at + 1 < V { at + 1 } else { 0 };
+            let Some(joint) = self.joints.get_mut(at) else { return };
+            let report = match joint.report(frame) {
+                Err(CanError::Identifier) => continue,
+                report => report,
+            };
+            let kept = self.positions.get_mut(at).zip(self.delivers.get_mut(at));
+            if let (Ok(report), Some((position, delivers))) = (report, kept) {
                 *position = report.position.or(*position);
                 *delivers = report.delivers.unwrap_or(*delivers);
             }
+            return;
         }
     }
 
@@ -203,7 +214,9 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> State<Bus, Joint, V> {
                     Err(Other(error)) => Err(CanError::Bus(error.kind())),
                 }
             });
-            failed = failed.and(sent.map_err(|error| JointError { joint, error }));
+            if let (Err(error), Ok(())) = (sent, failed) {
+                failed = Err(JointError { joint, error });
+            }
         }
         failed
     }
@@ -327,12 +340,16 @@ impl<Bus: Can, Joint: PdCanJoint, const V: usize> PdDrives<V> for &CanJoints<Bus
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug)]
-pub struct Outbox<F, const V: usize>([Option<F>; V]);
+pub struct Outbox<F, const V: usize> {
+    frames: [Option<F>; V],
+    /// The frames that are here, from the first place on.
+    kept: usize,
+}
 
 impl<F, const V: usize> Outbox<F, V> {
     /// An empty one, with room for a frame of each joint.
     pub const fn new() -> Self {
-        Self([const { None }; V])
+        Self { frames: [const { None }; V], kept: 0 }
     }
 }
 
@@ -348,8 +365,8 @@ impl<F: embedded_can::Frame + Clone, const V: usize> Can for Outbox<F, V> {
 
     /// Keeps the frame, if those of the last tick were taken.
     fn transmit(&mut self, frame: &F) -> nb::Result<Option<F>, ErrorKind> {
-        let free = self.0.iter_mut().find(|frame| frame.is_none());
-        *free.ok_or(WouldBlock)? = Some(frame.clone());
+        *self.frames.get_mut(self.kept).ok_or(WouldBlock)? = Some(frame.clone());
+        self.kept += 1;
         Ok(None)
     }
 
@@ -373,8 +390,11 @@ where
     /// The frames to send, which are then no longer here. Frames that nobody takes are
     /// [`CanError::Full`] in the next tick.
     pub fn commands(&self) -> [Option<F>; V] {
-        let taken =
-            self.0.try_borrow_mut().map(|mut state| state.bus.0.each_mut().map(Option::take));
-        taken.unwrap_or([const { None }; V])
+        let Ok(mut state) = self.0.try_borrow_mut() else { return [const { None }; V] };
+        let Outbox { frames, kept } = &mut state.bus;
+        *kept = 0;
+        let taken = frames.clone();
+        frames.iter_mut().for_each(|frame| *frame = None);
+        taken
     }
 }

@@ -238,8 +238,10 @@ impl EncoderMapping {
         turns: f32,
         whole: &mut Option<f32>,
     ) -> Result<f32, MappingError> {
-        let near = (self.near * self.mapping.shaft_per_joint() + self.mapping.zero()) * (1.0 / TAU);
-        let off = whole.unwrap_or(floor(near - turns + 0.5) as f32);
+        let off = whole.unwrap_or_else(|| {
+            let near = self.near * self.mapping.shaft_per_joint() + self.mapping.zero();
+            floor(near * (1.0 / TAU) - turns + 0.5) as f32
+        });
         let position = self.mapping.position((turns + off) * TAU)?;
         if !self.is_absolute() {
             *whole = Some(off);

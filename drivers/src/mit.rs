@@ -349,13 +349,10 @@ impl<P: Protocol> Drive<P> {
             Feedback::Status(status) => return Ok(Reply::Status(status)),
             Feedback::State { counts, motor, drive, status } => ((motor, drive, status), counts),
         };
-        if position == 0 || position == u16::MAX {
-            return Err(CanError::Range);
-        }
-        let mapping = *self.mapping.mapping();
+        let position = self.position(position)?;
+        let mapping = self.mapping.mapping();
         let velocity = mapping.velocity(self.axes.velocity.value(velocity)).map_err(not_finite)?;
         let torque = mapping.torque(self.axes.torque.value(torque)).map_err(not_finite)?;
-        let position = self.place(self.axes.position.value(position)).map_err(not_finite)?;
         let (motor_temperature, drive_temperature, status) = feedback;
         let state =
             State { position, velocity, torque, motor_temperature, drive_temperature, status };
@@ -363,7 +360,12 @@ impl<P: Protocol> Drive<P> {
     }
 
     /// The joint's position at a count, rad: with the scales and turns that the count lacks.
-    fn place(&mut self, count: f32) -> Result<f32, MappingError> {
+    #[inline]
+    fn position(&mut self, count: u16) -> Result<f32, CanError> {
+        if count == 0 || count == u16::MAX {
+            return Err(CanError::Range);
+        }
+        let count = self.axes.position.value(count);
         let half = 0.5 * self.period;
         let scales = match self.last {
             Some(last) if count - last.count > half => self.scales - 1.0,
@@ -371,7 +373,8 @@ impl<P: Protocol> Drive<P> {
             _ => self.scales,
         };
         let shaft = count + scales * self.period;
-        let joint = self.mapping.position_at(shaft * (1.0 / TAU), &mut self.whole)?;
+        let joint = self.mapping.position_at(shaft * (1.0 / TAU), &mut self.whole);
+        let joint = joint.map_err(not_finite)?;
         self.scales = scales;
         self.last = Some(Last { joint, count, shaft });
         Ok(joint)
@@ -382,8 +385,8 @@ impl<P: Protocol> Drive<P> {
         let torque = can::limit(torque, self.most);
         let at_shaft = self.mapping.mapping().shaft_torque(torque).map_err(not_finite)?;
         Ok(Counts {
-            position: self.axes.position.of_zero(),
-            velocity: self.axes.velocity.of_zero(),
+            position: const { above_half(u16::MAX) },
+            velocity: const { above_half(P::TOP) },
             kp: 0,
             kd: 0,
             torque: self.axes.torque.count(at_shaft),
@@ -453,12 +456,13 @@ impl<P: Protocol> CanJoint for Drive<P> {
         self.set_torque(torque)
     }
 
+    #[inline]
     fn report<F: Frame>(&mut self, frame: &F) -> Result<Report, CanError> {
-        Ok(match self.reply(frame)? {
-            Reply::State(state) => {
-                Report { position: Some(state.position), delivers: state.status }
+        Ok(match self.protocol.decode(frame)? {
+            Feedback::State { counts: [position, ..], status, .. } => {
+                Report { position: Some(self.position(position)?), delivers: status }
             }
-            Reply::Status(status) => Report { position: None, delivers: Some(status) },
+            Feedback::Status(status) => Report { position: None, delivers: Some(status) },
         })
     }
 }
@@ -471,6 +475,11 @@ impl<P: Protocol> PdCanJoint for Drive<P> {
 
 fn not_finite(_: MappingError) -> CanError {
     CanError::NotFinite
+}
+
+/// The count of zero, of which the last is `top`: half a count above it.
+const fn above_half(top: u16) -> u16 {
+    top / 2 + 1
 }
 
 /// The counts of a quantity.
@@ -494,14 +503,11 @@ impl Axis {
         Self { most, per_unit: half / most, per_count: most / half, zero: half }
     }
 
-    fn of_zero(&self) -> u16 {
-        (self.zero + 0.5) as u16
-    }
-
     /// The nearest count; that of the end for a quantity beyond it.
     fn count(&self, quantity: f32) -> u16 {
-        // The conversion makes zero of what is below it.
-        (can::limit(quantity, self.most) * self.per_unit + (self.zero + 0.5)) as u16
+        // Within the range of u16: the conversion to u32 alone saturates in hardware, and makes zero
+        // of what is below it.
+        (can::limit(quantity, self.most) * self.per_unit + (self.zero + 0.5)) as u32 as u16
     }
 
     fn value(&self, count: u16) -> f32 {

@@ -2,46 +2,16 @@
 
 use core::f32::consts::{PI, TAU};
 
-use embedded_can::{ExtendedId, Frame, Id, StandardId};
-use joint_drivers::can::{CanError, FdFrame};
+use embedded_can::{ExtendedId, Frame, StandardId};
+use joint_drivers::can::{CanError, ClassicFrame, FdFrame};
 use joint_drivers::moteus::{Mode, Moteus};
 use joint_drivers::odrive::{AxisState, ODrive, Reply};
 use joint_drivers::{Direction, EncoderMapping, JointMapping, JointRange};
 
 use super::{identity, near_zero};
 
-/// A frame of classic CAN: at most 8 bytes.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct ClassicFrame(pub(super) FdFrame);
-
-impl Frame for ClassicFrame {
-    fn new(id: impl Into<Id>, data: &[u8]) -> Option<Self> {
-        (data.len() <= 8).then(|| FdFrame::new(id, data).map(Self))?
-    }
-
-    fn new_remote(id: impl Into<Id>, dlc: usize) -> Option<Self> {
-        FdFrame::new_remote(id, dlc).map(Self)
-    }
-
-    fn is_extended(&self) -> bool {
-        self.0.is_extended()
-    }
-
-    fn is_remote_frame(&self) -> bool {
-        self.0.is_remote_frame()
-    }
-
-    fn id(&self) -> Id {
-        self.0.id()
-    }
-
-    fn dlc(&self) -> usize {
-        self.0.dlc()
-    }
-
-    fn data(&self) -> &[u8] {
-        self.0.data()
-    }
+pub(super) fn classic(frame: &FdFrame) -> ClassicFrame {
+    ClassicFrame::new(frame.id(), frame.data()).unwrap()
 }
 
 pub(super) fn standard(id: u16, data: &[u8]) -> FdFrame {
@@ -76,7 +46,7 @@ fn odrive_commands_are_the_protocols_golden_frames() {
         (axis.clear_errors(), 0x38, &[0]),
     ];
     for (frame, id, data) in golden {
-        assert_eq!(frame, Ok(ClassicFrame(standard(id, data))));
+        assert_eq!(frame, Ok(classic(&standard(id, data))));
     }
     for (request, id) in [(axis.request_estimates(), 0x29), (axis.request_torques(), 0x3c)] {
         let remote: ClassicFrame = request.unwrap();

@@ -59,7 +59,7 @@ pub use regressor::{
     regressor_row_of_bodies,
 };
 pub use rnea_two_velocities::rnea_two_velocities;
-pub use transmitted::transmitted_torque;
+pub use transmitted::{motor_torque, transmitted_torque};
 pub(crate) use tree_pass::{inward, per_body};
 pub use wrenches::{TorquesAndWrenches, rnea_and_wrenches};
 

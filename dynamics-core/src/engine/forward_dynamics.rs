@@ -13,7 +13,7 @@ use super::ltdl::{decompose, substitute};
 use super::{Engine, Index};
 use crate::algorithms::MassMatrix;
 use crate::algorithms::NotPositiveDefinite;
-use crate::effects::{Bias, Declared, Effect, transmitted};
+use crate::effects::{Bias, Declared, Effect, load_friction, transmitted};
 use crate::model::Robot;
 use crate::scalar::Real;
 use crate::state::{Configuration, RobotState, State};
@@ -88,6 +88,36 @@ impl<Arm, Sines> Engine<Arm, Sines> {
         Call::<Scalar, CompiledRobot<Arm, B, Q, V>, Effects, B, Q, V>::behind_gears(
             effects, state, tau,
         )
+    }
+
+    /// The torques that the motors must supply where that of all else is `tau`, N·m or N, as
+    /// [`crate::algorithms::motor_torque`] computes them.
+    ///
+    /// ```
+    /// use dynamics_core::{Engine, effects::Viscous, robots::Ur5e, state::State};
+    /// let moving = State { qd: [0.5_f32; 6], ..State::at([0.0; 6]) };
+    /// assert_eq!(Engine::<Ur5e>::motor_torque(&moving, &[5.0; 6], &Viscous([2.0; 6])), [6.0; 6]);
+    /// ```
+    #[cfg_attr(optimised, inline(always))]
+    #[must_use]
+    pub fn motor_torque<Scalar: Real, Effects, const B: usize, const Q: usize, const V: usize>(
+        state: &State<Scalar, Q, V>,
+        tau: &[Scalar; V],
+        effects: &Effects,
+    ) -> [Scalar; V]
+    where
+        Arm: Robot<B, Q, V>,
+        Effects: Effect<Scalar, B, V>,
+    {
+        let mut motors = *tau;
+        for_each_joint!(J, {
+            if Index::<J, V>::IS_BELOW {
+                let at = joint_state::<Scalar, CompiledRobot<Arm, B, Q, V>, Q, V, J>(state);
+                effects.torque(J, at, &mut motors[J]);
+                load_friction(effects, J, at, &mut motors[J]);
+            }
+        });
+        motors
     }
 }
 

@@ -28,7 +28,7 @@ use dynamics_core::robots::OpenArm;
 use dynamics_core::spatial::SpatialInertia;
 use dynamics_core::state::State;
 use glam::Vec3;
-use joint_drivers::can::{CanError, FdFrame};
+use joint_drivers::can::{CanError, ClassicFrame};
 use joint_drivers::mit::Scale;
 use joint_drivers::mit::damiao::{DM4310, DM4340, DM8009, Damiao};
 use joint_drivers::{
@@ -135,7 +135,7 @@ pub fn breakaway() -> BreakawayConfig<f32, 7> {
 }
 
 /// The drives on their bus.
-pub type Joints = CanJoints<Outbox<FdFrame, 7>, Damiao, 7>;
+pub type Joints = CanJoints<Outbox<ClassicFrame, 7>, Damiao, 7>;
 
 /// Drives 1 to 7, which reply to hosts 0x11 to 0x17, of joints that are near these positions.
 ///
@@ -245,9 +245,7 @@ impl Law<7, FreeDrive> for Free {
     ) -> [f32; 7] {
         let at = State { qd: estimate.qd, ..State::at(estimate.q) };
         let mut torque = Self::feedforward(&at, drive);
-        let (viscous, coulomb, gears) = drive.friction;
-        let scene = (drive.gravity, drive.tool, viscous, coulomb, gears);
-        let mut friction = Engine::<OpenArm>::rnea(&at, &scene);
+        let mut friction = Engine::<OpenArm>::motor_torque(&at, &torque, &drive.friction);
         for (friction, gravity) in friction.iter_mut().zip(&torque) {
             *friction -= gravity;
         }

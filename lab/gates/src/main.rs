@@ -14,6 +14,8 @@
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
 mod counters;
+#[path = "../../firmware/src/bin/costs/on_bus.rs"]
+mod on_bus;
 mod rows;
 #[cfg(target_os = "none")]
 #[path = "../../../firmware-demo/cores/src/start.rs"]
@@ -41,6 +43,7 @@ fn work() {
     rows::of::<A1, 16, 12>();
     ticks::of::<PickAndPlace, 6, 6, 6, 6>(&UR5E);
     ticks::of::<TaughtPath, 6, 6, 6, 6>(&SO101);
+    ticks::on_bus();
     println!("done");
 }
 

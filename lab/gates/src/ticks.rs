@@ -1,5 +1,6 @@
 //! The whole tick of a scene, from its encoders to its drives, as `marked_tick` is for the meter.
 
+use embedded_can::Frame;
 use firmware_demo::digest::Digest;
 use firmware_demo::replay::Replay;
 use firmware_demo::scene::Scene;
@@ -63,4 +64,24 @@ pub fn of<S, const B: usize, const Q: usize, const V: usize, const N: usize>(
         Ok(Digest(digest)) => println!("tick {} {cycles} {instructions} {digest:016x}", S::NAME),
         Err(interrupted) => panic!("{interrupted}"),
     }
+}
+
+/// Prints the row of `openarm_free_drive`, with its frames.
+#[inline(never)]
+pub fn on_bus() {
+    let (mut cycles, mut instructions, mut digest) = (0, 0, Digest::EMPTY);
+    let counted = crate::on_bus::with(|arm| {
+        for came in (0..TICKS as usize).filter_map(crate::on_bus::replies) {
+            let begin = read();
+            let sent = crate::on_bus::tick(arm, &came);
+            let count = between(begin, read());
+            cycles = count.cycles.max(cycles);
+            instructions = count.instructions.max(instructions);
+            for frame in sent.iter().flatten() {
+                digest.add::<8>(core::array::from_fn(|i| frame.data()[i].into()));
+            }
+        }
+    });
+    assert!(counted.is_some(), "the arm is none");
+    println!("tick openarm_free_drive {cycles} {instructions} {:016x}", digest.0);
 }

@@ -147,8 +147,8 @@ pub struct Breakaway<R, const V: usize> {
 struct Joint<R> {
     /// E.
     energy: R,
-    /// The position of the tick before, if it was measured.
-    last: Option<R>,
+    /// The position of the tick before; not finite if it was not measured.
+    last: R,
     /// The torques of the last ticks whose steps have not been measured: of the tick before, and of
     /// the one before that.
     torque: [R; 2],
@@ -176,7 +176,7 @@ impl<R: Real, const V: usize> Breakaway<R, V> {
         config.check()?;
         let joints = config.energy.map(|energy| Joint {
             energy,
-            last: None,
+            last: R::from_f64(f64::INFINITY),
             torque: [R::ZERO; 2],
             play: R::ZERO,
             way: R::ZERO,
@@ -229,11 +229,10 @@ impl<R: Real> Joint<R> {
     fn step(&mut self, q: R, late: bool, longest: R) -> Option<R> {
         let [last, before] = self.torque;
         let torque = if late { before } else { last };
-        let from = self.last;
-        self.last = q.is_finite().then_some(q);
         // The short way, for angles that are within a turn.
-        let step = self.last.zip(from).map(|(to, from)| nearest_turn(to - from, R::ZERO));
-        let step = step.filter(|step| step.abs() <= R::from_f64(FAR) * longest);
+        let step = nearest_turn(q - self.last, R::ZERO);
+        self.last = q;
+        let step = (step.abs() <= R::from_f64(FAR) * longest).then_some(step);
         self.energy -= step.map_or(torque.abs() * longest, |step| torque * step);
         step
     }
@@ -254,12 +253,14 @@ impl<R: Real> Joint<R> {
         };
         let steps = |count| R::from_f64(count) * config.resolution;
         self.way += step;
-        self.along += self.side * step;
-        self.pushed = self.pushed.saturating_add(1);
-        // The end of the push, by its time and way, or by a hand that turns back.
-        let pushed = (self.pushed >= config.push_ticks) | (self.along >= steps(FADE));
-        if pushed | (self.along <= -steps(MOVED)) {
-            self.side = R::ZERO;
+        if self.side.abs() > R::ZERO {
+            self.along += self.side * step;
+            self.pushed = self.pushed.saturating_add(1);
+            // The end of the push, by its time and way, or by a hand that turns back.
+            let pushed = (self.pushed >= config.push_ticks) | (self.along >= steps(FADE));
+            if pushed | (self.along <= -steps(MOVED)) {
+                self.side = R::ZERO;
+            }
         }
         if self.way.abs() >= steps(MOVED) {
             if self.still >= config.window {
@@ -301,9 +302,12 @@ impl<R: Real> Joint<R> {
             self.phase = 0;
             (R::ZERO, free)
         };
-        let most = free / (longest + c + c);
-        let most = R::either(measured & (most > R::ZERO), most, R::ZERO);
-        let torque = wanted.clamped(-most, most);
+        let torque = if measured & (free > R::ZERO) & (wanted.abs() > R::ZERO) {
+            let most = free / (longest + c + c);
+            wanted.clamped(-most, most)
+        } else {
+            R::ZERO
+        };
         self.energy -= c * (torque - last).abs();
         self.torque = [torque, last];
         torque

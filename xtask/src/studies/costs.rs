@@ -21,8 +21,9 @@ use crate::studies::study::Bench;
 pub use report::Report;
 
 /// Two bins for each robot, inverse dynamics and the rest, but one for the SO-101 and for the PUMA,
-/// two for robots with loops, and one for links that bend: the compiler builds them side by side.
-pub const BINS: [&str; 14] = [
+/// two for robots with loops, one for links that bend, and one for the tick of an arm on CAN: the
+/// compiler builds them side by side.
+pub const BINS: [&str; 15] = [
     "costs_ur5e",
     "forward_ur5e",
     "costs_panda",
@@ -37,6 +38,7 @@ pub const BINS: [&str; 14] = [
     "costs_clusters",
     "costs_loops",
     "costs_flexible",
+    "costs_free_drive",
 ];
 
 pub const PAGE: &str = "docs/costs.md";

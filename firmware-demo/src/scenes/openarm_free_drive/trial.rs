@@ -3,7 +3,7 @@
 use dynamics_core::effects::{Gravity, LoadFriction};
 use dynamics_core::state::State;
 use glam::Vec3;
-use joint_drivers::can::FdFrame;
+use joint_drivers::can::ClassicFrame;
 use joint_drivers::{ControlLoop, NoBrake, Phase, Probe};
 use motion_control::{Breakaway, Gains, Mode, MotionController, Status};
 
@@ -178,8 +178,8 @@ fn marked_tick(
     joints: &Joints,
     law: &FreeDrive,
     reference: &State<f32, 7, 7>,
-    came: &Replies<FdFrame>,
-) -> (Replies<FdFrame>, Status) {
+    came: &Replies<ClassicFrame>,
+) -> (Replies<ClassicFrame>, Status) {
     marker::start::<WHOLE>();
     marker::start::<READ>();
     came.iter().flatten().for_each(|frame| joints.receive(frame));
@@ -200,7 +200,7 @@ struct Cell<'a> {
     joints: &'a Joints,
     law: &'a FreeDrive,
     reference: State<f32, 7, 7>,
-    replies: Replies<FdFrame>,
+    replies: Replies<ClassicFrame>,
     plant: Plant,
     seconds: [f32; 4],
     out: Outcome,

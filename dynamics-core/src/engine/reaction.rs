@@ -126,11 +126,18 @@ where
         carried: &Wrench<Scalar>,
         turn: Option<JointCoordinate<Scalar>>,
     ) -> Force<Scalar> {
+        let place = Cut::<Tree, List, N, I, K>::PLACE;
+        let (p, length_inv) = (Vec3::constant(place.pos), Folded::constant(Tree::LENGTH_INV));
         let wrench = if Cut::<Tree, List, N, I, K>::IS_WHOLE {
-            *total + field.wrench(&constant(Cut::<Tree, List, N, I, K>::PASSED))
+            let Inertia { mass, moment, .. } = constant(Cut::<Tree, List, N, I, K>::PASSED);
+            let (mass, moment) = (mass * length_inv, moment.scale(length_inv));
+            let passed = field.wrench(&Inertia { mass, moment, second: Sym3::ZERO });
+            let about = field.wrench(&constant(Cut::<Tree, List, N, I, K>::PASSED_ABOUT_BODY));
+            let n = total.n - p.cross(total.f) + about.n;
+            Wrench { f: total.f.scale(length_inv) + passed.f, n }
         } else {
             let mut inertia = constant(Cut::<Tree, List, N, I, K>::CARRIED);
-            let mut exerted = Wrench::ZERO;
+            let mut sum = *carried;
             for_each_joint!(M, {
                 if JointPair::<Tree, I, M>::HAS_BODY {
                     let (body, place) = JointPair::<Tree, I, M>::BODY;
@@ -139,24 +146,27 @@ where
                             inertia = self.with_load(*body, place, inertia);
                         }
                         if Effects::WRENCH {
-                            exerted = exerted + self.exerted(*body, place, field);
+                            let fx = self.exerted(*body, place, field);
+                            sum = Wrench { f: sum.f - fx.f, n: sum.n - fx.n };
                         }
                     }
                 }
             });
-            let all = *carried + field.wrench(&inertia);
-            Wrench { f: all.f - exerted.f, n: all.n - exerted.n }
+            let all = sum + field.wrench(&inertia);
+            Wrench { f: all.f.scale(length_inv), n: all.n - p.cross(all.f) }
         };
-        let place = Cut::<Tree, List, N, I, K>::PLACE;
         let rot = Mat3::constant(&place.rot);
-        let turned = |v: Vec3<Scalar>| match turn {
-            Some(turn) => v.turn_back(Folded::runtime(turn.sin), Folded::runtime(turn.cos)),
-            None => v,
-        };
-        let wrench = Wrench { f: turned(wrench.f), n: turned(wrench.n) };
-        let f = rot.transpose_mul(wrench.f).scale(Folded::constant(Tree::LENGTH_INV));
-        let n = rot.transpose_mul(wrench.n - Vec3::constant(place.pos).cross(wrench.f));
-        Force::new(n.get(), f.get())
+        let (f, n) = (turned(wrench.f, turn), turned(wrench.n, turn));
+        Force::new(rot.transpose_mul(n).get(), rot.transpose_mul(f).get())
+    }
+}
+
+/// A vector in the axes of a body that this turn is still to turn, if any.
+#[cfg_attr(optimised, inline(always))]
+fn turned<Scalar: Real>(v: Vec3<Scalar>, turn: Option<JointCoordinate<Scalar>>) -> Vec3<Scalar> {
+    match turn {
+        Some(turn) => v.turn_back(Folded::runtime(turn.sin), Folded::runtime(turn.cos)),
+        None => v,
     }
 }
 
@@ -234,7 +244,7 @@ impl<Arm, Sines> Engine<Arm, Sines> {
         let trig = state.configuration().trig_or(Self::trig_source());
         let trig = trig.borrow();
         let mut kept = Kept::<Scalar, List, N>([Force::ZERO; N], PhantomData);
-        let mut tau = [Scalar::ZERO; V];
+        let mut tau = const { [Scalar::ZERO; V] };
         let call: Call<'_, Scalar, CompiledRobot<Arm, B, Q, V>, _, B, Q, V> =
             Self::call(trig, effects);
         let back = loaded_again(&state, trig);

@@ -46,6 +46,14 @@ impl<Tree: Compiled, List: Bodies<N>, const N: usize, const I: usize, const K: u
     } else {
         Distribution::NOTHING
     };
+    /// The parameters whose couple about the joint's origin is that of these about the body's, which
+    /// is on the joint's axis where all is beyond the cut: h − m p and Σ − h pᵀ.
+    pub(crate) const PASSED_ABOUT_BODY: &'static Distribution = &{
+        let (mut about, z) = (*Self::PASSED, Self::PLACE.pos.z);
+        about.second.z_axis.z -= about.moment.z * z;
+        about.moment.z -= about.mass * z;
+        about
+    };
     /// Those beyond the cut, without what is left beyond the joints there.
     pub(crate) const CARRIED: &'static Distribution = &if Self::IS_ON_JOINT {
         carried::<Tree>(Self::LAST, Self::BODY)

@@ -110,6 +110,14 @@ pub enum ConfigParameter {
     Forgetting,
     /// The greatest innovation of an estimator, in standard deviations.
     InnovationLimit,
+    /// The continuous or peak torque of a motor, against each other and the limits of the gate.
+    ThermalTorque,
+    /// The thermal time constants of a motor.
+    ThermalTime,
+    /// The share of a motor's thermal resistance.
+    ThermalShare,
+    /// The greatest temperature of a winding, or that of the ambient.
+    Temperature,
 }
 
 impl ConfigParameter {
@@ -209,6 +217,15 @@ impl fmt::Display for ConfigError {
             ConfigParameter::InnovationLimit => {
                 "the limit of innovations is not between 3 and 1000"
             }
+            ConfigParameter::ThermalTorque => {
+                "a continuous torque is not a positive number, or is above the peak, or the peak \
+                 above the limit of torque, or the rate of the torque too low"
+            }
+            ConfigParameter::ThermalTime => "a thermal time constant is too short, or not finite",
+            ConfigParameter::ThermalShare => {
+                "a share of thermal resistance is not above 0 and up to 1"
+            }
+            ConfigParameter::Temperature => "a winding may not be warmer than the ambient",
         })
     }
 }

@@ -505,13 +505,16 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
     /// Replaces the limits of torque by those of a thermal model, before each tick; the tick's
     /// [`Command::torque`](crate::Command::torque) then goes to [`ThermalLimit::update`].
     ///
-    /// A loop that calls [`Self::set_limits`] gives it [`ThermalLimit::within`] instead.
+    /// [`Self::set_limits`], which would lift them for up to 32 ticks, has to get limits of
+    /// [`ThermalLimit::within`].
     ///
     /// # Cost
-    /// A copy of a number a joint.
+    /// A copy of a number a joint in V + 1 of 32 ticks, and a comparison.
     #[inline]
     pub fn limit_torques(&mut self, thermal: &ThermalLimit<R, V>) {
-        self.supervisor.limit_torques(thermal.torque());
+        if thermal.changed() {
+            self.supervisor.limit_torques(thermal.torque());
+        }
     }
 }
 

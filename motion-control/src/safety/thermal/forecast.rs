@@ -6,7 +6,7 @@
 use super::{Joint, Sum, ThermalLimit, ticks};
 use dynamics_core::scalar::Real;
 
-/// Up to 2²⁴ − 1 blocks, 37 h at 1 kHz.
+/// Up to 2²⁴ − 1 blocks, 149 h at 1 kHz.
 const LEVELS: usize = 24;
 
 #[derive(Clone, Copy)]
@@ -65,14 +65,14 @@ impl<R: Real> Joint<R> {
         [self.winding, self.housing] = x.map(Sum::of);
     }
 
-    /// The blocks after which w exceeds the one at which this torque is the limit; `None` if never.
+    /// The blocks after which, and after Σ τ² before them, w exceeds the one at which this torque is the limit; `None` if never.
     ///
     /// In the steady state of heat g, w − c = r g and σ c = d (1 + r) g. With g from a steady w
     /// above the bound, w crosses it once. Otherwise the steady state at the bound is above w and c
     /// for ever, unless the housing is hotter: then it is assumed to stay so.
-    fn blocks(&self, torque: R, g: R) -> Option<u32> {
+    fn blocks(&self, before: R, torque: R, g: R) -> Option<u32> {
         let bound = (self.base - torque) / self.slope;
-        let mut x = [self.winding.sum, self.housing.sum];
+        let mut x = [self.winding.sum + self.heat * before, self.housing.sum];
         let holds = (torque <= self.peak) & (x[0] <= bound);
         if !holds {
             return Some(0);
@@ -108,10 +108,10 @@ impl<R: Real, const V: usize> ThermalLimit<R, V> {
     pub fn holds_for(&self, joint: usize, torque: R) -> R {
         let block = ticks::<R, V>();
         let torque = torque.abs();
-        let blocks = self
-            .joints
-            .get(joint)
-            .map_or(Some(0), |joint| joint.blocks(torque, joint.heat * block * torque * torque));
+        let at = self.joints.get(joint).zip(self.energy.get(joint));
+        let blocks = at.map_or(Some(0), |(joint, &energy)| {
+            joint.blocks(energy, torque, joint.heat * block * torque * torque)
+        });
         blocks
             .map_or(R::ONE / R::ZERO, |blocks| crate::real::<R>(blocks) * block * self.config.tick)
     }

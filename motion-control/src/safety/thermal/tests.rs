@@ -72,8 +72,8 @@ fn arm<R: Real, const V: usize>(random: &mut Random) -> ([Motor; V], ThermalConf
         let (ratio, hottest) = (random.within(1.0, 5.0), random.within(80.0, 155.0));
         let block = tick * ticks::<f64, V>();
         // From the shortest times that are accepted.
-        let shortest = (11.5 * ratio * ratio * rho).max(8.1) * block;
-        let winding = shortest * random.log(1.0, 30.0);
+        let shortest = (9.2 * ratio * ratio * rho).max(8.1) * block;
+        let winding = shortest * random.log(1.0, 10.0);
         let housing = (winding * random.log(1.0, 100.0)).max(8.1 * block * (1.0 - rho) / rho);
         let watts = random.log(1.0, 100.0);
         let total = (hottest - AMBIENT) / watts;
@@ -117,7 +117,7 @@ fn wanted(random: &mut Random, kind: u32, tick: u32, held: &mut f64) -> f64 {
     }
     match kind {
         0 => 2.0,
-        1 if tick.is_multiple_of(16) => 2.0,
+        1 if tick.is_multiple_of(48) => 2.0,
         1 => -0.1,
         _ => *held,
     }
@@ -142,11 +142,11 @@ fn hottest<R: Real>(arms: u64, limited: bool) -> Vec<f64> {
         thermal = thermal.resumed(&state, R::ZERO);
         for (i, motor) in arm.iter_mut().enumerate() {
             let span = motor.hottest - AMBIENT;
-            let saved = [thermal.state().winding[i], thermal.state().housing[i]];
+            let saved = [state.winding[i], state.housing[i]];
             motor.kelvin = saved.map(|x| AMBIENT + span * x.to_f64());
         }
         let (mut rises, mut held) = ([0.0_f64; 5], [0.0; 5]);
-        for tick in 0..1500 {
+        for tick in 0..2000 {
             let torque = core::array::from_fn(|i| {
                 let kind = (seed as u32 + i as u32) % 6;
                 let peak = config.peak[i];
@@ -182,7 +182,7 @@ fn no_winding_of_ten_thousand_random_loads_is_hotter_than_its_limit() {
 fn a_torque_that_may_last_is_the_continuous_one_and_no_limit_steps() {
     let limits = limits(1e4);
     let mut thermal = ThermalLimit::<f32, 1>::try_new(motors([2.0]), &limits).expect("motors");
-    assert!((1.996..2.0).contains(&thermal.torque()[0]));
+    assert!((1.985..2.0).contains(&thermal.torque()[0]));
     thermal = thermal.resumed(&ThermalState { winding: [0.0], housing: [0.0] }, 0.0);
     let (mut last, mut step) = (thermal.torque()[0], 0.0_f32);
     // Cold, at all that is allowed for two hours, and off for one.
@@ -191,10 +191,10 @@ fn a_torque_that_may_last_is_the_continuous_one_and_no_limit_steps() {
         step = step.max((thermal.torque()[0] - last).abs());
         last = thermal.torque()[0];
         if tick == 7_199_999 {
-            assert!((1.99..2.01).contains(&last), "{last}");
+            assert!((1.98..2.0).contains(&last), "{last}");
         }
     }
-    assert!((last, thermal.status()) == (6.0, ThermalStatus::Cool) && step < 0.012 * 6.0, "{step}");
+    assert!((last, thermal.status()) == (6.0, ThermalStatus::Cool) && step < 0.04 * 6.0, "{step}");
 }
 
 #[test]
@@ -207,6 +207,8 @@ fn forecasts_are_what_the_limit_does() {
         let winding = [random.next()];
         let housing = [random.next() * (1.0 - config.share[0])];
         let mut thermal = thermal.resumed(&ThermalState { winding, housing }, 0.0);
+        // The block that its begin counts in advance.
+        (0..33).for_each(|_| thermal.update(&[0.0]));
         let torque = random.within(0.3, 1.02) * config.peak[0];
         let seconds = thermal.holds_for(0, torque);
         let mut held = 0;
@@ -216,7 +218,7 @@ fn forecasts_are_what_the_limit_does() {
         }
         // A block ends in the first of its ticks; the housing may be thought hotter.
         let held = f64::from(held) * config.tick;
-        let block = 8.0 * config.tick;
+        let block = ticks::<f64, 1>() * config.tick;
         finite += i32::from(seconds.is_finite() && seconds > 0.0);
         assert!(seconds.min(300_000.0 * config.tick) <= held + 1e-9 + block, "{seconds} {held}");
         let heavy = (torque > config.continuous[0]) & (held < 299_999.0 * config.tick);
@@ -233,7 +235,7 @@ fn temperatures_outlast_a_restart_and_follow_a_hotter_drive() {
     let new = || ThermalLimit::<f32, 2>::try_new(motors([2.0, 1.0]), &limits(1e4)).expect("motors");
     let warm = ThermalState { winding: [0.7, 0.2], housing: [0.3, 0.1] };
     // But for the block at the peak with which it begins.
-    let near = |[a, b]: [f32; 2], [c, d]: [f32; 2]| (a - c).abs().max((b - d).abs()) < 5e-3;
+    let near = |[a, b]: [f32; 2], [c, d]: [f32; 2]| (a - c).abs().max((b - d).abs()) < 1e-2;
     assert!(near(new().resumed(&warm, 0.0).state().winding, warm.winding));
     // 100 s by blocks, and by a forecast.
     let mut ticked = new().resumed(&warm, 0.0);
@@ -253,7 +255,7 @@ fn temperatures_outlast_a_restart_and_follow_a_hotter_drive() {
     for tick in 0..60_000 {
         hot.measured(1, if tick < 9 { f32::NAN } else { 140.0 });
         hot.update(&[0.0; 2]);
-        assert!((last - hot.torque()[1]).abs() < 0.03 * 3.0, "a step");
+        assert!((last - hot.torque()[1]).abs() < 0.04 * 3.0, "a step");
         last = hot.torque()[1];
         if states.last() != Some(&hot.status()) {
             states.push(hot.status());
@@ -266,7 +268,7 @@ fn temperatures_outlast_a_restart_and_follow_a_hotter_drive() {
     assert!((hot.celsius(1) - 140.0).abs() < 0.2);
     // A torque that is none is not forgotten, nor does it last.
     hot.update(&[f32::NAN; 2]);
-    (0..8).for_each(|_| hot.update(&[0.0; 2]));
+    (0..32).for_each(|_| hot.update(&[0.0; 2]));
     assert!(hot.state().winding[0] > 0.2 && hot.torque()[0].is_finite());
 }
 

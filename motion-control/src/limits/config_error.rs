@@ -112,12 +112,8 @@ pub enum ConfigParameter {
     InnovationLimit,
     /// The continuous or peak torque of a motor, against each other and the limits of the gate.
     ThermalTorque,
-    /// The thermal time constants of a motor.
-    ThermalTime,
-    /// The share of a motor's thermal resistance.
-    ThermalShare,
-    /// The greatest temperature of a winding, or that of the ambient.
-    Temperature,
+    /// A thermal time constant, a share of resistance or a temperature of a motor.
+    ThermalMotor,
 }
 
 impl ConfigParameter {
@@ -221,11 +217,9 @@ impl fmt::Display for ConfigError {
                 "a continuous torque is not a positive number, or is above the peak, or the peak \
                  above the limit of torque, or the rate of the torque too low"
             }
-            ConfigParameter::ThermalTime => "a thermal time constant is too short, or not finite",
-            ConfigParameter::ThermalShare => {
-                "a share of thermal resistance is not above 0 and up to 1"
+            ConfigParameter::ThermalMotor => {
+                "a thermal time, share or temperature of a motor is outside its range"
             }
-            ConfigParameter::Temperature => "a winding may not be warmer than the ambient",
         })
     }
 }

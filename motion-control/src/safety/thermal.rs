@@ -88,7 +88,7 @@ impl<R: Real, const V: usize> ThermalConfig<R, V> {
     /// [`ConfigError::OutOfRange`] names the number.
     pub fn check(&self) -> Result<(), ConfigError> {
         ConfigParameter::Tick.positive(self.tick)?;
-        (0..V).try_for_each(|i| self.joint(i).map(|_| ()))
+        (0..V).try_for_each(|i| self.joint(i).1)
     }
 
     /// The share of the greatest rise of a joint's winding that a temperature is, °C.
@@ -96,16 +96,12 @@ impl<R: Real, const V: usize> ThermalConfig<R, V> {
         (celsius - self.ambient) / (entry(&self.hottest, i) - self.ambient)
     }
 
-    /// The coefficients of (1) and (2), of a joint as hot as it may be.
-    fn joint(&self, i: usize) -> Result<Joint<R>, ConfigError> {
+    /// The coefficients of (1) and (2), of a joint as hot as it may be, and whether they are valid.
+    fn joint(&self, i: usize) -> (Joint<R>, Result<(), ConfigError>) {
         let of = |values| entry::<R>(values, i);
         let (continuous, peak, rho) = (of(&self.continuous), of(&self.peak), of(&self.share));
         let [half, eighth, fade] = [0.5, 0.125, FADE].map(R::from_f64);
-        let torques = (continuous > R::ZERO) & (peak >= continuous) & peak.is_finite();
-        ConfigParameter::ThermalTorque.require(torques)?;
-        ConfigParameter::ThermalShare.require((rho > R::ZERO) & (rho <= R::ONE))?;
         let span = of(&self.hottest) - self.ambient;
-        ConfigParameter::Temperature.positive(span)?;
         let ticks = ticks::<R, V>();
         let block = self.tick * ticks;
         let [a, epsilon] = [&self.winding_time, &self.housing_time].map(|time| block / of(time));
@@ -118,8 +114,11 @@ impl<R: Real, const V: usize> ThermalConfig<R, V> {
         let most = ticks * peak * peak;
         let long = |x: R| (x > R::ZERO) & (x <= eighth);
         let slow = (heat + heat) * most <= (R::ONE - kappa) * fade;
+        let torques = (continuous > R::ZERO) & (peak >= continuous) & peak.is_finite();
+        let shares = (rho > R::ZERO) & (rho <= R::ONE) & (span > R::ZERO) & span.is_finite();
         let times = long(a) & long(epsilon) & (d <= eighth) & slow;
-        ConfigParameter::ThermalTime.require(times)?;
+        let checked = (ConfigParameter::ThermalTorque.require(torques))
+            .and(ConfigParameter::ThermalMotor.require(shares & times));
         let inflow = d * (R::ONE + kappa);
         let hottest = inflow / (sigma + inflow);
         let cooled = kappa * (R::ONE - hottest * (R::ONE + sigma));
@@ -127,7 +126,10 @@ impl<R: Real, const V: usize> ThermalConfig<R, V> {
         let base = (cooled / (heat * ticks)).sqrt() * less + slope;
         let (winding, housing) = (Sum::of(R::ONE), Sum::of(hottest));
         let most = most * R::from_f64(FAR * FAR);
-        Ok(Joint { heat, most, kappa, d, sigma, base, slope, peak, hottest, winding, housing })
+        (
+            Joint { heat, most, kappa, d, sigma, base, slope, peak, hottest, winding, housing },
+            checked,
+        )
     }
 }
 
@@ -229,13 +231,11 @@ impl<R: Real, const V: usize> ThermalLimit<R, V> {
         limits: &SafetyLimits<R, V>,
     ) -> Result<Self, ConfigError> {
         config.check()?;
-        let mut joints = [Joint::NONE; V];
-        for (i, joint) in joints.iter_mut().enumerate() {
-            *joint = config.joint(i)?;
+        let joints: [_; V] = core::array::from_fn(|i| config.joint(i).0);
+        for (joint, (rate, torque)) in joints.iter().zip(limits.rate.iter().zip(&limits.torque)) {
             let heat = joint.heat * ticks::<R, V>() * joint.peak * joint.peak;
-            let falls = joint.slope * (heat + heat) <= entry(&limits.rate, i);
-            let within = joint.peak <= entry(&limits.torque, i);
-            ConfigParameter::ThermalTorque.require(within & falls)?;
+            let holds = (joint.slope * (heat + heat) <= *rate) & (joint.peak <= *torque);
+            ConfigParameter::ThermalTorque.require(holds)?;
         }
         let zero = [R::ZERO; V];
         Ok(Self { config, joints, energy: zero, limit: zero, at: 0 }.begun())
@@ -383,20 +383,6 @@ struct Joint<R> {
 }
 
 impl<R: Real> Joint<R> {
-    const NONE: Self = Self {
-        heat: R::ZERO,
-        most: R::ZERO,
-        kappa: R::ZERO,
-        d: R::ZERO,
-        sigma: R::ZERO,
-        base: R::ZERO,
-        slope: R::ZERO,
-        peak: R::ZERO,
-        hottest: R::ZERO,
-        winding: Sum::of(R::ZERO),
-        housing: Sum::of(R::ZERO),
-    };
-
     /// A block with this Σ τ², by (1).
     #[inline(always)]
     fn step(&mut self, energy: R) {

@@ -289,17 +289,17 @@ fn the_gate_has_the_limits_and_the_numbers_of_a_motor_are_checked() {
         change(&mut config);
         refused(ThermalLimit::try_new(config, &limits(8.0)))
     };
-    use ConfigParameter::{Temperature, ThermalShare, ThermalTime, ThermalTorque, Tick};
+    use ConfigParameter::{ThermalMotor, ThermalTorque, Tick};
     assert_eq!(refused(|_| ()), None);
     assert_eq!(refused(|config| config.tick = f64::NAN), Some(Tick));
     assert_eq!(refused(|config| config.continuous = [0.0]), Some(ThermalTorque));
     assert_eq!(refused(|config| config.peak = [1.9]), Some(ThermalTorque));
     assert_eq!(refused(|config| config.peak = [8.1]), Some(ThermalTorque));
-    assert_eq!(refused(|config| config.share = [0.0]), Some(ThermalShare));
-    assert_eq!(refused(|config| config.share = [f64::NAN]), Some(ThermalShare));
-    assert_eq!(refused(|config| config.winding_time = [0.06]), Some(ThermalTime));
-    assert_eq!(refused(|config| config.housing_time = [f64::INFINITY]), Some(ThermalTime));
-    assert_eq!(refused(|config| config.hottest = [25.0]), Some(Temperature));
+    assert_eq!(refused(|config| config.share = [0.0]), Some(ThermalMotor));
+    assert_eq!(refused(|config| config.share = [f64::NAN]), Some(ThermalMotor));
+    assert_eq!(refused(|config| config.winding_time = [0.06]), Some(ThermalMotor));
+    assert_eq!(refused(|config| config.housing_time = [f64::INFINITY]), Some(ThermalMotor));
+    assert_eq!(refused(|config| config.hottest = [25.0]), Some(ThermalMotor));
     let slow = SafetyLimits { rate: [1e-3], ..limits(8.0) };
     assert_eq!(
         super::tests::refused(ThermalLimit::try_new(motors([2.0]), &slow)),

@@ -24,12 +24,12 @@
 //! 1 − e⁻ᵃ ≥ a − a²/2, c' is what the housing does not exceed within it, and (1) does not decrease
 //! with w or c.
 //!
-//! **w does not exceed 1**: let c₁ be such that σ c₁ = d (1 + κ) (1 − c₁), and c̄ = c₁ (1 + σ). From
-//! w ≤ 1 and c ≤ c₁, a heat g ≤ κ (1 − c̄) + (1 − κ) (1 − w) leads to w + g ≤ 1 + κ (1 − c), so that
-//! c' ≤ c + d (1 + κ) (1 − c) ≤ c̄; by (1) then w ≤ 1 and c ≤ c₁ again. This bound of g is linear in w.
-//! The heat of (2) is convex until τ_max, and constant beyond. Both ends of the convex part are
-//! below the bound if q² = κ (1 − c̄) / (a ρ), which is 1 − O(a), and if 2 a ρ (τ_max/τ_c)² is at most
-//! (1 − κ)/4, which [`ThermalConfig::check`] requires.
+//! **w does not exceed 1**: let c₁ be such that σ c₁ = d (1 + κ) (1 − c₁), and c̄ = c₁ (1 + σ).
+//! From w ≤ 1 and c ≤ c₁, a heat g ≤ κ (1 − c̄) + (1 − κ) (1 − w) leads to w + g ≤ 1 + κ (1 − c),
+//! so that c' ≤ c + d (1 + κ) (1 − c) ≤ c̄; by (1) then w ≤ 1 and c ≤ c₁ again. This bound of g is
+//! linear in w. The heat of (2) is convex until τ_max, and constant beyond. Both ends of the
+//! convex part are below the bound if q² = κ (1 − c̄) / (a ρ), which is 1 − O(a), and if 2 a ρ
+//! (τ_max/τ_c)² is at most (1 − κ)/4, which [`ThermalConfig::check`] requires.
 //!
 //! The model and what is read from data sheets: maxon, "Formulas handbook" (2012), chapter 4.5,
 //! thermal behaviour. I²t, one mass alone, is ρ = 1.
@@ -179,8 +179,8 @@ pub enum ThermalStatus {
 /// greatest temperature; the source has the proof. The torque that may last is less than τ_c by
 /// 64 ticks in T_w: 0.5 % at 1 ms and 12 s.
 ///
-/// There is no step of torque: in a tick a limit changes by no more than the rate of the gate, which
-/// [`Self::try_new`] checks, and by 4 % of a peak of 3 τ_c at 1 ms, 12 s and ρ = 0.4.
+/// There is no step of torque: in a tick a limit changes by no more than the rate of the gate,
+/// which [`Self::try_new`] checks, and by 4 % of a peak of 3 τ_c at 1 ms, 12 s and ρ = 0.4.
 ///
 /// A new one has motors that are as hot as they may be: unless [`Self::resumed`] says
 /// otherwise, this is what is known after a restart.
@@ -192,7 +192,7 @@ pub enum ThermalStatus {
 ///     tick: 1e-3, continuous: [3.0_f32], peak: [9.0], winding_time: [12.0], housing_time: [600.0],
 ///     share: [0.4], hottest: [120.0], ambient: 30.0,
 /// };
-/// let mut thermal = ThermalLimit::try_new(motor, &limits)?; // after a restart, of which nothing is known
+/// let mut thermal = ThermalLimit::try_new(motor, &limits)?; // nothing is known
 /// assert!(thermal.torque()[0] < 3.0 && thermal.torque()[0] > 2.99);
 /// thermal = thermal.resumed(&ThermalState { winding: [0.0], housing: [0.0] }, 0.0);
 /// assert_eq!((thermal.torque(), thermal.status()), (&[9.0], ThermalStatus::Cool));

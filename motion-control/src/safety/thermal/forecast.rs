@@ -65,7 +65,8 @@ impl<R: Real> Joint<R> {
         [self.winding, self.housing] = x.map(Sum::of);
     }
 
-    /// The blocks after which, and after Σ τ² before them, w exceeds the one at which this torque is the limit; `None` if never.
+    /// The blocks after which, and after Σ τ² before them, w exceeds the one at which this torque
+    /// is the limit; `None` if never.
     ///
     /// In the steady state of heat g, w − c = r g and σ c = d (1 + r) g. With g from a steady w
     /// above the bound, w crosses it once. Otherwise the steady state at the bound is above w and c

@@ -31,7 +31,7 @@
 //! convex part are below the bound if q² = κ (1 − c̄) / (a ρ), which is 1 − O(a), and if 2 a ρ
 //! (τ_max/τ_c)² is at most (1 − κ)/4, which [`ThermalConfig::check`] requires.
 //!
-//! The model and what is read from data sheets: maxon, "Formulas handbook" (2012), chapter 4.5,
+//! The model and its numbers on data sheets: Braun, "Formulae Handbook" (maxon academy, 2012),
 //! thermal behaviour. I²t, one mass alone, is ρ = 1.
 
 use crate::entry;
@@ -174,7 +174,7 @@ pub enum ThermalStatus {
 /// it is, and the continuous torque when the winding is as hot as it may be.
 ///
 /// In each tick [`MotionController::limit_torques`](crate::MotionController::limit_torques) gives
-/// the limits to the gate, which therefore sees no other excess than that of its own limits, and
+/// the limits to the gate, which every torque passes, that of a held arm too, and
 /// [`Self::update`] gets the torques that went to the drives. A winding then does not exceed its
 /// greatest temperature; the source has the proof. The torque that may last is less than τ_c by
 /// 64 ticks in T_w: 0.5 % at 1 ms and 12 s.

@@ -9,7 +9,7 @@ use embedded_hal::digital::OutputPin;
 use motion_control::{
     Command, CompletedTick, ConfigError, Detect, Estimate, Fault, Gains, MeasurementAge, Mode,
     MotionController, ObservedTick, OnCircles, Reference, ReferencedTick, ResetError, SafetyLimits,
-    Status, StopCategory, TickCounter, feedback,
+    Status, StopCategory, ThermalLimit, TickCounter, feedback,
 };
 
 #[cfg(any(test, feature = "async"))]
@@ -351,6 +351,11 @@ where
         deceleration: f32,
     ) -> Result<bool, ConfigError> {
         self.controller.set_limits(limits, deceleration)
+    }
+
+    /// Replaces the limits of torque before a tick: as [`MotionController::limit_torques`].
+    pub fn limit_torques(&mut self, thermal: &ThermalLimit<f32, V>) {
+        self.controller.limit_torques(thermal);
     }
 
     /// Restarts a stopped arm: clears the fault and leads the arm back onto its trajectory. The

@@ -12,7 +12,7 @@ use motion_control::{
     BreakawayConfig, Gains, HandGuidingConfig, ImpedanceConfig, InertiaShapingConfig,
     LimitedSpring, MotionControllerConfig, MotionLimits, ObserverConfig, ParameterEstimatorConfig,
     PassivityGains, PayloadEstimatorConfig, SafetyLimits, SpeedBrake, SupervisorConfig,
-    TipWrenchConfig, WayPoint,
+    ThermalConfig, ThermalState, TipWrenchConfig, WayPoint,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -119,6 +119,17 @@ fn controller_configurations_roundtrip_bit_by_bit() {
         damping: positive,
         torque: positive,
     });
+    comes_back(ThermalConfig {
+        tick: 1e-3,
+        continuous: positive,
+        peak: positive,
+        winding_time: [12.0, 13.0],
+        housing_time: [600.0, 700.0],
+        share: [0.4, 1.0],
+        hottest: [120.0, 155.0],
+        ambient: 40.0,
+    });
+    comes_back(ThermalState { winding: a, housing: positive });
     comes_back(MotionLimits { velocity: a[0], acceleration: b[1] });
     comes_back(WayPoint { q: a, qd: b, ticks: u32::MAX });
     comes_back(State { q: [0.1_f64, 0.2, 0.3], qd: [0.4, 0.5], qdd: [0.6, 0.7] });

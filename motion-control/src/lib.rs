@@ -31,6 +31,7 @@
 //! | [`ZeroOrderHold`], [`FirstOrderHold`], [`Interpolator`], [`InertiaUpdate`] | the torque in ticks without a computation of the dynamics | last torques |
 //! | [`Fault`], [`Reaction`] | what each fault leads to | |
 //! | [`FrozenEncoder`], [`ReferenceStep`], [`Saturation`] | faults that take several ticks to show | the last ticks |
+//! | [`ThermalLimit`] | torques that no winding overheats by, and how long one can be held | temperatures |
 //! | [`TickCounter`], [`Watchdog`] | missed ticks, overruns, and what feeds a watchdog | a count |
 //! | [`Approach`] | the way from any pose to the start of a motion | none |
 //! | [`Circles`], [`OnCircles`] | which joints are points on a circle: the short way, at any number of turns | none |
@@ -128,7 +129,8 @@ pub use reference::{
 };
 pub use safety::{
     CompletedTick, CountedTick, Detect, Detectors, FrozenEncoder, ReferenceStep, Saturation,
-    StopCategory, SupervisorConfig, TickCounter, Watchdog,
+    StopCategory, SupervisorConfig, ThermalConfig, ThermalLimit, ThermalState, ThermalStatus,
+    TickCounter, Watchdog,
 };
 
 use dynamics_core::scalar::Real;

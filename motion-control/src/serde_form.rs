@@ -103,5 +103,16 @@ serde_record!(law::InertiaShapingConfig<R, V> {
     damping: Array<R, V>,
     torque: Array<R, V>,
 } check);
+serde_record!(safety::ThermalConfig<R, V> {
+    tick: R,
+    continuous: Array<R, V>,
+    peak: Array<R, V>,
+    winding_time: Array<R, V>,
+    housing_time: Array<R, V>,
+    share: Array<R, V>,
+    hottest: Array<R, V>,
+    ambient: R,
+} check);
+serde_record!(safety::ThermalState<R, V> { winding: Array<R, V>, housing: Array<R, V> });
 serde_record!(limits::MotionLimits<R> { velocity: R, acceleration: R });
 serde_record!(reference::WayPoint<R, V> { q: Array<R, V>, qd: Array<R, V>, ticks: u32 });

@@ -110,6 +110,10 @@ pub enum ConfigParameter {
     Forgetting,
     /// The greatest innovation of an estimator, in standard deviations.
     InnovationLimit,
+    /// The continuous or peak torque of a motor, against each other and the limits of the gate.
+    ThermalTorque,
+    /// A thermal time constant, a share of resistance or a temperature of a motor.
+    ThermalMotor,
 }
 
 impl ConfigParameter {
@@ -208,6 +212,13 @@ impl fmt::Display for ConfigError {
             ConfigParameter::Forgetting => "the share to forget is not at least 0 and less than 1",
             ConfigParameter::InnovationLimit => {
                 "the limit of innovations is not between 3 and 1000"
+            }
+            ConfigParameter::ThermalTorque => {
+                "a continuous torque is not a positive number, or is above the peak, or the peak \
+                 above the limit of torque, or the rate of the torque too low"
+            }
+            ConfigParameter::ThermalMotor => {
+                "a thermal time, share or temperature of a motor is outside its range"
             }
         })
     }

@@ -24,8 +24,8 @@ use crate::limits::{Circles, ConfigError, Fault, Mode, SafetyLimits};
 use crate::motion::hold;
 use crate::motion::resume::ResumeTrajectory;
 use crate::reference::Reference;
-use crate::safety::StopCategory;
 use crate::safety::supervisor::Supervisor;
+use crate::safety::{StopCategory, ThermalLimit};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::{State, all_finite};
 
@@ -500,6 +500,21 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
         let tick = self.observer.tick();
         let qd = &self.observer.estimate().qd;
         self.supervisor.relimit(limits, deceleration * tick, tick, qd, A::CIRCLES)
+    }
+
+    /// Replaces the limits of torque by those of a thermal model, before each tick; the tick's
+    /// [`Command::torque`](crate::Command::torque) then goes to [`ThermalLimit::update`].
+    ///
+    /// [`Self::set_limits`], which would lift them for up to 32 ticks, has to get limits of
+    /// [`ThermalLimit::within`].
+    ///
+    /// # Cost
+    /// A copy of a number a joint in V + 1 of 32 ticks, and a comparison.
+    #[inline]
+    pub fn limit_torques(&mut self, thermal: &ThermalLimit<R, V>) {
+        if thermal.changed() {
+            self.supervisor.limit_torques(thermal.torque());
+        }
     }
 }
 

@@ -652,6 +652,11 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         (self.middle, self.half) = (before.middle, before.half);
     }
 
+    #[inline(always)]
+    pub(crate) fn limit_torques(&mut self, most: &[R; V]) {
+        self.torque_limit = *most;
+    }
+
     /// The greatest torque of each joint.
     pub(crate) fn torque_limit(&self) -> &[R; V] {
         &self.torque_limit

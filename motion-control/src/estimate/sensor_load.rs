@@ -192,7 +192,8 @@ impl<R: Real> SensorLoadFit<R> {
         // determinant over the square of the trace.
         let rows = a.map(|[x, y, z]| R::Vec3::new(x, y, z));
         let determinant = rows[0].dot(rows[1].cross(rows[2]));
-        if !(determinant > R::from_f64(TURNED) * whole * trace * trace) {
+        let turns = determinant > R::from_f64(TURNED) * whole * trace * trace;
+        if !turns {
             return Err(SensorLoadError::OneDirection);
         }
         let [hx, hy, hz] = shifted_solution(&a, R::ZERO, &[-x, -y, -z]);

@@ -47,7 +47,7 @@ pub struct TorquesAndWrenches<R: Real, const V: usize, const N: usize> {
 /// let all = rnea_and_wrenches(&Ur5e::MODEL, &State::at([0.0_f64; 6]), &RIGID_BODY);
 /// // The shoulder carries the weight of the whole arm.
 /// let mass: f64 = Ur5e::MODEL.links.iter().map(|link| link.inertia.mass).sum();
-/// assert!((all.wrenches[0].lin.length() - mass * 9.80665).abs() < 1e-11);
+/// assert!((all.wrenches[0].lin.length() - mass * 9.81).abs() < 1e-11);
 /// ```
 #[doc(alias = "reaction wrench")]
 #[doc(alias = "force sensor")]

@@ -30,7 +30,7 @@ const TURNED: f64 = 1e-3;
 /// use motion_control::SensorLoad;
 /// use dynamics_core::{glam::DVec3, spatial::Force};
 /// // A tool of 1.2 kg, its centre 80 mm before the sensor, which shows 3 N too much along x.
-/// let load = SensorLoad { mass: 1.2, first_moment: DVec3::new(0.0, 0.0, 0.096), offset: Force::new(DVec3::ZERO, DVec3::X * 3.0) };
+/// let load = SensorLoad::<f64> { mass: 1.2, first_moment: DVec3::new(0.0, 0.0, 0.096), offset: Force::new(DVec3::ZERO, DVec3::X * 3.0) };
 /// let hanging = load.at_rest(DVec3::new(0.0, 0.0, 9.81));
 /// assert!((hanging.lin.z + 1.2 * 9.81).abs() < 1e-12 && hanging.lin.x == 3.0);
 /// ```
@@ -101,7 +101,7 @@ impl core::error::Error for SensorLoadError {}
 /// ```
 /// use motion_control::{SensorLoad, SensorLoadFit};
 /// use dynamics_core::{glam::DVec3, spatial::Force};
-/// let load = SensorLoad { mass: 0.7, first_moment: DVec3::new(0.01, 0.0, 0.04), offset: Force::new(DVec3::Y * 0.1, DVec3::X * 3.0) };
+/// let load = SensorLoad::<f64> { mass: 0.7, first_moment: DVec3::new(0.01, 0.0, 0.04), offset: Force::new(DVec3::Y * 0.1, DVec3::X * 3.0) };
 /// let mut fit = SensorLoadFit::new();
 /// for gravity in [DVec3::X, DVec3::Y, DVec3::Z, -DVec3::X, -DVec3::Z].map(|axis| axis * 9.81) {
 ///     fit.add(gravity, &load.at_rest(gravity)); // the sensor's reading, in an application

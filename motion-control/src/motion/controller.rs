@@ -486,7 +486,7 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
     /// assert!((270..=271).contains(&ticks)); // from 3 to 0.3 rad/s at 10 rad/s²
     /// let beyond = SafetyLimits { lower: [0.5], ..slow };
     /// let error = controller.set_limits(&beyond, 10.0).unwrap_err();
-    /// assert_eq!(error.to_string(), "joint 0: its position, 0, is outside its new range, 0.5 to 1");
+    /// assert_eq!(error.to_string(), "joint 0: its position, 0, is outside its new range");
     /// # Ok::<(), ConfigError>(())
     /// ```
     #[doc(alias = "reduced speed")]

@@ -31,6 +31,7 @@ pub fn detectors(_: &Motion) -> Found {
     PickAndPlace::detectors()
 }
 
+#[allow(dead_code, reason = "the Pico 2 enables no drive")]
 pub fn enable<Encoders>(_: &mut Encoders) {}
 
 /// # Errors

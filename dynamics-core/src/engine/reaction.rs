@@ -26,6 +26,9 @@ use crate::trig::Kernel;
 pub(crate) trait Reactions<Scalar: Real, Tree: Compiled> {
     /// The bodies.
     const BODIES: &'static [usize] = &[];
+    /// Whether there are some. A recursion without them makes no call of this trait: an empty one
+    /// that takes references changes the order of its products.
+    const KEEPS: bool = !Self::BODIES.is_empty();
     /// The sum over the joints that each body carries.
     type Sums;
     /// The sums over none.

@@ -79,26 +79,30 @@ where
             J,
             const {
                 CompiledJoint::<Tree, J>::IS_ON_BASE
-                    && !(Seen::BODIES.is_empty() && has_subtree_functions::<Tree>(Effects::WRENCH))
+                    && (Seen::KEEPS || !has_subtree_functions::<Tree>(Effects::WRENCH))
             },
             visit = Task::visit::<J> as fn(&mut _, &_) -> Wrench<Scalar>,
             {
                 let returned = visit(&mut task, &base);
-                Seen::add::<J>(&mut carried, &returned);
+                if Seen::KEEPS {
+                    Seen::add::<J>(&mut carried, &returned);
+                }
             }
         );
         for_each_joint!(
             J,
             const {
                 CompiledJoint::<Tree, J>::IS_ON_BASE
-                    && (Seen::BODIES.is_empty() && has_subtree_functions::<Tree>(Effects::WRENCH))
+                    && (!Seen::KEEPS && has_subtree_functions::<Tree>(Effects::WRENCH))
             },
             visit = Task::root_subtree::<J> as fn(&mut _),
             {
                 visit(&mut task);
             }
         );
-        task.seen.keep::<Effects, BASE, B, Q, V>(self, &base, &Wrench::ZERO, &carried, None);
+        if Seen::KEEPS {
+            task.seen.keep::<Effects, BASE, B, Q, V>(self, &base, &Wrench::ZERO, &carried, None);
+        }
     }
 }
 
@@ -139,11 +143,15 @@ where
             {
                 let child = visit(self, &field);
                 total = Wrench { f: total.f + child.f, n: total.n + child.n };
-                Seen::add::<J>(&mut carried, &child);
+                if Seen::KEEPS {
+                    Seen::add::<J>(&mut carried, &child);
+                }
             }
         );
-        let turn = if const { Self::is_round::<I>() } { Some(at.turn) } else { None };
-        self.seen.keep::<Effects, I, B, Q, V>(self.call, &field, &total, &carried, turn);
+        if Seen::KEEPS {
+            let turn = if const { Self::is_round::<I>() } { Some(at.turn) } else { None };
+            self.seen.keep::<Effects, I, B, Q, V>(self.call, &field, &total, &carried, turn);
+        }
 
         if CompiledJoint::<Tree, I>::COUNT == 1 {
             let felt = self.call.felt::<I>(total, parent.alpha);

@@ -295,7 +295,7 @@ impl<Arm> Engine<Arm> {
         // Not a constant, as in `torques`: where sines are known it costs instructions (decision
         // 13).
         let mut tau = [Scalar::ZERO; V];
-        Self::call(trig, effects).write_torques(&back.coordinates, state, &mut tau, ());
+        Self::call(trig, effects).write_torques(&back.coordinates, state, &mut tau);
         tau
     }
 }

@@ -11,15 +11,16 @@ use core::marker::PhantomData;
 
 use super::acceleration_field::{AccelerationField, Inertia, Wrench};
 use super::call::Call;
-use super::compile::{Compiled, CompiledRobot, Cut, Distribution, JointPair};
+use super::compile::{Compiled, CompiledJoint, CompiledRobot, Cut, Distribution, JointPair};
 use super::folding::{Folded, Mat3, Sym3, Vec3};
+use super::rnea::Task;
 use super::{Engine, loaded_again};
 use crate::algorithms::TorquesAndWrenches;
 use crate::effects::{Declared, Effect};
-use crate::model::{Bodies, JointCoordinate, Robot};
+use crate::model::{BASE, Bodies, JointCoordinate, Robot};
 use crate::scalar::Real;
 use crate::spatial::Force;
-use crate::state::{Configuration, RobotState};
+use crate::state::{Configuration, RobotState, State};
 use crate::trig::Kernel;
 
 /// The wrenches that a recursion keeps: none, or those in the joints of a list of bodies.
@@ -27,7 +28,7 @@ pub(crate) trait Reactions<Scalar: Real, Tree: Compiled> {
     /// The bodies.
     const BODIES: &'static [usize] = &[];
     /// Whether there are some. A recursion without them makes no call of this trait: an empty one
-    /// that takes references changes the order of its products.
+    /// that takes references makes the compiler order its products otherwise.
     const KEEPS: bool = !Self::BODIES.is_empty();
     /// The sum over the joints that each body carries.
     type Sums;
@@ -119,6 +120,33 @@ where
     Tree: Compiled,
     Effects: Effect<Scalar, B, V>,
 {
+    /// The recursion of inverse dynamics, which also keeps the wrenches of some bodies; `tau` holds
+    /// zeros.
+    #[cfg_attr(optimised, inline(always))]
+    fn write_torques_and<List: Bodies<N>, const N: usize>(
+        self,
+        back: &[JointCoordinate<Scalar>; Q],
+        state: &State<Scalar, Q, V>,
+        tau: &mut [Scalar; V],
+        seen: &mut Kept<Scalar, List, N>,
+    ) {
+        let (base, mut carried) = (self.base(), [Wrench::ZERO; N]);
+        let mut task = Task { call: self, back, state, tau, seen };
+        for_each_joint!(
+            J,
+            CompiledJoint::<Tree, J>::IS_ON_BASE,
+            visit = Task::visit::<J> as fn(&mut _, &_) -> Wrench<Scalar>,
+            {
+                let returned = visit(&mut task, &base);
+                <&mut Kept<Scalar, List, N> as Reactions<Scalar, Tree>>::add::<J>(
+                    &mut carried,
+                    &returned,
+                );
+            }
+        );
+        task.seen.keep::<Effects, BASE, B, Q, V>(self, &base, &Wrench::ZERO, &carried, None);
+    }
+
     /// The wrench in the joint of the K-th body of the list, which moves with joint I: `total` is
     /// that of the joint over base parameters, `carried` that of the joints on the body.
     #[cfg_attr(optimised, inline(always))]
@@ -251,7 +279,7 @@ impl<Arm, Sines> Engine<Arm, Sines> {
         let call: Call<'_, Scalar, CompiledRobot<Arm, B, Q, V>, _, B, Q, V> =
             Self::call(trig, effects);
         let back = loaded_again(&state, trig);
-        call.write_torques(&back.coordinates, state.state(), &mut tau, &mut kept);
+        call.write_torques_and(&back.coordinates, state.state(), &mut tau, &mut kept);
         TorquesAndWrenches { tau, wrenches: kept.0 }
     }
 }

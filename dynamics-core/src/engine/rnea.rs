@@ -16,7 +16,7 @@ use super::subtree::has_subtree_functions;
 use crate::effects::{
     BodyState, Declared, Effect, RegroupedInertia, call_hook, hook, load_friction,
 };
-use crate::model::{BASE, JointCoordinate};
+use crate::model::JointCoordinate;
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::{Force, Motion, SpatialInertia, Xform};
 use crate::state::State;
@@ -58,51 +58,42 @@ where
         // A constant: behind a loop that clears the torques the compiler would reverse the order of
         // the sines and spill more of them.
         let mut tau = const { [Scalar::ZERO; V] };
-        self.write_torques(back, state, &mut tau, ());
+        self.write_torques(back, state, &mut tau);
         tau
     }
 
-    /// The torques of [`Self::torques`], written into `tau`, which holds zeros; wrenches into
-    /// `seen`.
+    /// The torques of [`Self::torques`], written into `tau`, which holds zeros.
     #[cfg_attr(optimised, inline(always))]
-    pub(super) fn write_torques<Seen: Reactions<Scalar, Tree>>(
+    pub(super) fn write_torques(
         self,
         back: &[JointCoordinate<Scalar>; Q],
         state: &State<Scalar, Q, V>,
         tau: &mut [Scalar; V],
-        seen: Seen,
     ) {
         let base = self.base();
-        let mut task = Task { call: self, back, state, tau, seen };
-        let mut carried = Seen::NOTHING;
+        let mut task = Task { call: self, back, state, tau, seen: () };
         for_each_joint!(
             J,
             const {
                 CompiledJoint::<Tree, J>::IS_ON_BASE
-                    && (Seen::KEEPS || !has_subtree_functions::<Tree>(Effects::WRENCH))
+                    && !has_subtree_functions::<Tree>(Effects::WRENCH)
             },
-            visit = Task::visit::<J> as fn(&mut _, &_) -> Wrench<Scalar>,
+            visit = Task::visit::<J> as fn(&mut _, &_) -> _,
             {
-                let returned = visit(&mut task, &base);
-                if Seen::KEEPS {
-                    Seen::add::<J>(&mut carried, &returned);
-                }
+                visit(&mut task, &base);
             }
         );
         for_each_joint!(
             J,
             const {
                 CompiledJoint::<Tree, J>::IS_ON_BASE
-                    && (!Seen::KEEPS && has_subtree_functions::<Tree>(Effects::WRENCH))
+                    && has_subtree_functions::<Tree>(Effects::WRENCH)
             },
             visit = Task::root_subtree::<J> as fn(&mut _),
             {
                 visit(&mut task);
             }
         );
-        if Seen::KEEPS {
-            task.seen.keep::<Effects, BASE, B, Q, V>(self, &base, &Wrench::ZERO, &carried, None);
-        }
     }
 }
 

@@ -15,7 +15,7 @@ use crate::region;
 use crate::scene::{App, Effects, Errors, Name, OMEGA_N, QUEUE, Record, Scene, StartError, ZETA};
 use crate::sim_io::Wires;
 
-pub mod led;
+pub mod guided;
 #[cfg(feature = "telemetry")]
 pub mod watch;
 

@@ -226,7 +226,7 @@ impl<Arm, Sines> Engine<Arm, Sines> {
     /// V, and N wrenches in the order of the list.
     ///
     /// # Cost
-    /// Some 50 cycles of a Cortex-M4F for a last body, on top of [`Engine::rnea`]; the same
+    /// Some 60 cycles of a Cortex-M4F for a last body, on top of [`Engine::rnea`]; the same
     /// instructions for all data.
     ///
     /// # Source

@@ -4,5 +4,5 @@
 
 #[cortex_m_rt::entry]
 fn main() -> ! {
-    firmware_demo::target::led::scene()
+    firmware_demo::target::guided::scene()
 }

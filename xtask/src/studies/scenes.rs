@@ -18,13 +18,13 @@ pub const PAGE: Page<'_> =
 
 pub fn text(reports: &[&Report]) -> String {
     let plain = |name: &str| name.to_uppercase();
-    let tables = [false, true].map(|led| table(reports, led, plain).text());
+    let tables = [false, true].map(|guided| table(reports, guided, plain).text());
     format!("\n{}\n{}\n", tables.join("\n"), foot(reports))
 }
 
 pub fn markdown(reports: &[&Report]) -> String {
     let bold = |name: &str| format!("**{name}**");
-    let tables = [false, true].map(|led| table(reports, led, bold).markdown());
+    let tables = [false, true].map(|guided| table(reports, guided, bold).markdown());
     format!("{}\n{}", tables.join("\n"), foot(reports))
 }
 
@@ -35,16 +35,16 @@ fn foot(reports: &[&Report]) -> String {
 
 /// A row per scene whose arm a hand leads, or of all others, set off from those below it: one per
 /// effect, with what is saved and lost without it, and one per other law that the scene compares.
-pub fn table(reports: &[&Report], led: bool, set_off: impl Fn(&str) -> String) -> Table {
+pub fn table(reports: &[&Report], guided: bool, set_off: impl Fn(&str) -> String) -> Table {
     let costs = "scene, − effect, other law|tick, cycles|G474|F405|of its period|tick's code, B|flash, B|RAM, B";
-    let figures = if led {
+    let figures = if guided {
         "force to start, N|of gravity's alone|tip after release, mm|bound"
     } else {
         "error RMS, mrad|max|bound|of PD's"
     };
     let head = format!("{costs}|{figures}|safety gate");
     let mut table = Table::new(&head.split('|').collect::<Vec<_>>());
-    for report in reports.iter().filter(|report| report.is_led() == led) {
+    for report in reports.iter().filter(|report| report.is_guided() == guided) {
         let dash = || "–".to_owned();
         let saved = |saved: i64| {
             if saved == 0 { "0".into() } else { signed_change(-saved) }
@@ -86,14 +86,14 @@ pub fn table(reports: &[&Report], led: bool, set_off: impl Fn(&str) -> String) -
             // The law for a hand has its parts as numbers of run time: without them it has no other
             // code.
             let [cycles, flash] = [worth.cycles, worth.flash_bytes]
-                .map(|saves| if led { dash() } else { saved(saves) });
+                .map(|saves| if guided { dash() } else { saved(saves) });
             let ram = saved(worth.ram_bytes.cast_signed());
             let costs = [cycles, dash(), dash(), dash(), flash, dash(), ram];
             table.row(row(less, costs, &worth.without, dash()));
         }
         for (law, errors) in &report.tracking.beside {
             let cycles = saved(longest as i64 - errors.tick_cycles as i64);
-            let is_cost = |at: usize| at == 0 && !led;
+            let is_cost = |at: usize| at == 0 && !guided;
             let costs = std::array::from_fn(|at| if is_cost(at) { cycles.clone() } else { dash() });
             table.row(row(label(law), costs, errors, dash()));
         }
@@ -103,7 +103,7 @@ pub fn table(reports: &[&Report], led: bool, set_off: impl Fn(&str) -> String) -
             ("model off", &off.feedforward, off),
             ("model off, gravity alone", &off.pd, off),
         ];
-        for (law, errors, of) in further.into_iter().filter(|_| led) {
+        for (law, errors, of) in further.into_iter().filter(|_| guided) {
             let costs = std::array::from_fn(|_| dash());
             table.row(row_of(law.into(), costs, errors, &of.pd, dash()));
         }

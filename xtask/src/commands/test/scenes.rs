@@ -78,11 +78,11 @@ pub fn tracking(context: &Context) -> Result<String> {
         );
         // The distances of an arm that sticks scatter by more.
         refuse_if!(
-            !report.is_led() && bound > SLACK * max,
+            !report.is_guided() && bound > SLACK * max,
             "{name}: its bound of {bound:.2e} rad has become slack: the largest error is {max:.2e}"
         );
         let [max, bound] = [max, bound].map(|rad| format!("{:.2}", 1e3 * rad));
-        let unit = if report.is_led() { "mm" } else { "mrad" };
+        let unit = if report.is_guided() { "mm" } else { "mrad" };
         outcomes.push(format!("{name} {max} of {bound} {unit}"));
         if !HELD.contains(&&**name) {
             continue;

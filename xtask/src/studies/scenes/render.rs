@@ -19,7 +19,7 @@ impl Report {
         );
         let (memory, rustc, qemu) = (self.memory(), &self.rustc, &self.qemu);
         let memory = format!("\n{memory}\n{rustc}; {qemu}; µs at {CLOCK_MHZ} MHz\n");
-        if self.is_led() {
+        if self.is_guided() {
             return text + "\n" + &table(&[self], true, str::to_owned).text() + &memory;
         }
         for (what, tracking) in self.trackings() {

@@ -195,7 +195,7 @@ fn errors(run: &Trajectory, cost: &Cost) -> Errors {
 
 impl Report {
     /// Whether a hand leads the arm.
-    pub fn is_led(&self) -> bool {
+    pub fn is_guided(&self) -> bool {
         self.tracking.feedforward.start_n.is_some()
     }
 

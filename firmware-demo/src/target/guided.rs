@@ -1,4 +1,5 @@
-//! The scene that a hand leads: its trials one after the other, without an interrupt.
+//! The scene of an arm that is guided by hand: its trials one after the other, without an
+//! interrupt.
 
 use cortex_m_semihosting::debug;
 use motion_control::Status;

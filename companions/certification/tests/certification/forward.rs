@@ -325,7 +325,8 @@ fn difference(of: &Worst, exact: &[f64]) -> f64 {
 #[test]
 fn the_worst_errors_of_the_page_are_those_of_fifty_digits() {
     let recorded: Vec<RecordedForward> = serde_json::from_str(WORST).expect("as certify writes it");
-    assert_eq!(recorded.len(), 10);
+    // Both of four arms, and the engine of the leg.
+    assert_eq!(recorded.len(), 9);
     for one in &recorded {
         let title = format!("### {}: {}\n", one.robot, one.function.name());
         let section = PAGE.split_once(&title).expect("it is on the page").1;

@@ -57,10 +57,26 @@ pub fn of(robot: &str) -> Vec<Cost> {
     rows.filter_map(|line| cost(&cells(line))).collect()
 }
 
-/// A row: function, sin/cos, instructions, cycles, µs, flops, share of the floor, code, stack.
+/// A row: function, sin/cos, instructions, cycles, those from two flash memories, µs, flops, share of
+/// the floor, code, stack.
 fn cost(cells: &[&str]) -> Option<Cost> {
-    let &[name, trigonometry, _, _, instructions, _, _, cycles, microseconds, _, _, code, stack] =
-        cells
+    let &[
+        name,
+        trigonometry,
+        _,
+        _,
+        instructions,
+        _,
+        _,
+        cycles,
+        _,
+        _,
+        microseconds,
+        _,
+        _,
+        code,
+        stack,
+    ] = cells
     else {
         return None;
     };

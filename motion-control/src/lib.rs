@@ -123,9 +123,10 @@ pub use motion::{
     hold,
 };
 pub use reference::{
-    GeometricPath, JointFriction, PathLimits, PathPoint, PathSpline, PathSplineError, Recorded,
-    Reference, RestToRest, Shaped, Shaper, ShaperError, ShaperProblem, TaughtPath, TimedPath,
-    TimedPathError, Trajectory, TrajectoryError, Vibration, WayPoint,
+    GeometricPath, GoalError, JerkLimits, JointFriction, MovingGoal, PathLimits, PathPoint,
+    PathSpline, PathSplineError, Recorded, Reference, RestToRest, Shaped, Shaper, ShaperError,
+    ShaperProblem, TaughtPath, TimedPath, TimedPathError, Trajectory, TrajectoryError, Vibration,
+    WayPoint,
 };
 pub use safety::{
     CompletedTick, CountedTick, Detect, Detectors, FrozenEncoder, ReferenceStep, Saturation,

@@ -89,3 +89,20 @@ pub(crate) fn refused<T>(checked: Result<T, ConfigError>) -> Option<ConfigParame
         _ => None,
     }
 }
+
+/// Uniform numbers.
+pub(crate) struct Random(pub(crate) u64);
+
+impl Random {
+    pub(crate) fn next(&mut self) -> f64 {
+        self.0 =
+            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1u64 << 53) as f64
+    }
+    pub(crate) fn within(&mut self, least: f64, most: f64) -> f64 {
+        least + (most - least) * self.next()
+    }
+    pub(crate) fn log(&mut self, least: f64, most: f64) -> f64 {
+        least * (most / least).powf(self.next())
+    }
+}

@@ -15,6 +15,7 @@ mod hop;
 mod impedance;
 mod integrators;
 mod momentum_observer;
+mod moving_goal;
 mod panda_payload;
 mod parameter_estimator;
 mod payload_estimator;

@@ -86,6 +86,10 @@ pub enum ConfigParameter {
     Amplification,
     /// The dead band, the damping or the greatest torque of a joint whose inertia is shaped.
     ShapedJoint,
+    /// A limit of velocity, acceleration or jerk.
+    JerkLimit,
+    /// A position at which a reference is at rest.
+    RestPosition,
     /// The spacing of the way-points of a path.
     PathSpacing,
     /// A stiffness of an impedance.
@@ -193,6 +197,10 @@ impl fmt::Display for ConfigError {
             ConfigParameter::ShapedJoint => {
                 "a number of a joint whose inertia is shaped is negative or not finite"
             }
+            ConfigParameter::JerkLimit => {
+                "a limit of velocity, acceleration or jerk is not within 1e-9 and 1e9"
+            }
+            ConfigParameter::RestPosition => "a position of rest is not finite",
             ConfigParameter::PathSpacing => "a spacing of way-points is not a positive number",
             ConfigParameter::Stiffness => "a stiffness of the impedance is not a positive number",
             ConfigParameter::DampingRatio => "the damping ratio is not a positive number",

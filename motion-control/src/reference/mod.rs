@@ -1,6 +1,7 @@
 //! The motion that the arm should follow: trajectories, paths, and their timing.
 
 pub(crate) mod geometric_path;
+pub(crate) mod goal;
 pub(crate) mod path_spline;
 pub(crate) mod shaper;
 pub(crate) mod taught_path;
@@ -8,6 +9,7 @@ pub(crate) mod timed_path;
 pub(crate) mod trajectory;
 
 pub use geometric_path::{GeometricPath, PathPoint};
+pub use goal::{GoalError, JerkLimits, MovingGoal};
 pub use path_spline::{PathSpline, PathSplineError};
 pub use shaper::{Shaped, Shaper, ShaperError, ShaperProblem, Vibration};
 pub use taught_path::{Recorded, TaughtPath};

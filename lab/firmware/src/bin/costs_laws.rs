@@ -160,6 +160,33 @@ fn taught_path(path: &mut TaughtPath<f32, 6, 40>, q: &[f32; 6]) -> Recorded {
     path.record(q)
 }
 
+/// A goal that is moved on the way to the last one, and the reference there.
+#[inline(never)]
+fn moving_goal(goal: &mut MovingGoal<f32, 6>, q: &[f32; 6]) -> ArmState<f32, 6> {
+    let tick = goal.ticks() / 3 * 2;
+    let _arrival = goal.set(tick, q);
+    goal.at(tick)
+}
+
+#[inline(never)]
+fn on_the_way(goal: &MovingGoal<f32, 6>, tick: u32) -> ArmState<f32, 6> {
+    goal.at(tick)
+}
+
+fn goals(asks: &[Ask<6>; STATES]) {
+    let limits = [JerkLimits { velocity: 2.0, acceleration: 10.0, jerk: 100.0 }; 6];
+    let Ok(mut goal) = MovingGoal::try_new(&asks[0].state.q, limits, 1e-3) else {
+        return;
+    };
+    let run = moving_goal;
+    row("moving_goal", "law", false)
+        .measure(run as *const () as usize, asks, |ask| run(&mut goal, &ask.state.q));
+    let ticks: [u32; STATES] = core::array::from_fn(|k| goal.ticks() / STATES as u32 * k as u32);
+    let run = on_the_way;
+    row("moving_goal_at", "law", false)
+        .measure(run as *const () as usize, &ticks, |tick| run(&goal, *tick));
+}
+
 fn paths(asks: &[Ask<6>; STATES]) {
     let mut path = PathSpline::<f32, 6, 4>::EMPTY;
     let points = [[0.0; 6], [0.4; 6], [0.6; 6], [0.4; 6]];
@@ -193,6 +220,7 @@ fn run() -> ! {
     if laws(&asks).is_ok() {
         regressors(&asks);
         paths(&asks);
+        goals(&asks);
     }
     costs::done()
 }

@@ -1,28 +1,12 @@
 //! Random loads against a motor in K, W and J/K, forecasts, restarts, the gate and its refusals.
 
 use super::*;
+use crate::tests::Random;
 use crate::tests::{controlled, refused, safety_limits};
 use crate::{MotionController, PreviousTick};
 use dynamics_core::state::State;
 
 const AMBIENT: f64 = 25.0;
-
-/// Uniform numbers in [0, 1): a 64-bit linear congruence.
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 =
-            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1u64 << 53) as f64
-    }
-    fn within(&mut self, least: f64, most: f64) -> f64 {
-        least + (most - least) * self.next()
-    }
-    fn log(&mut self, least: f64, most: f64) -> f64 {
-        least * (most / least).powf(self.next())
-    }
-}
 
 /// A motor as circuits have it: resistances in K/W, capacities in J/K, watts at τ_c and a hot
 /// winding, and copper's coefficient of resistance, which is zero for windings that lose as much

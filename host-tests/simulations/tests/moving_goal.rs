@@ -1,0 +1,171 @@
+//! Claims about goals that move: durations against Ruckig, and limits on the way.
+
+use std::fs::File;
+use std::io::{BufWriter, Write};
+
+use dynamics_core::state::State;
+use host_tests::recordings;
+use motion_control::{JerkLimits, MovingGoal, Reference};
+use serde::Deserialize;
+
+use crate::common::Rng;
+
+const TICK: f32 = 1e-3;
+
+/// The output of `host-tests/oracle/moving_goals.py`.
+#[derive(Deserialize)]
+struct Recording {
+    problems: Vec<Problem>,
+}
+
+/// Of each joint the limits of velocity, acceleration and jerk, its velocity and acceleration, and
+/// the way to the goal.
+#[derive(Deserialize)]
+struct Problem {
+    joints: [[f64; 6]; 6],
+    seconds: f64,
+}
+
+/// Least and greatest duration as shares of those of Ruckig, in which the limits have a factor.
+fn shares(problems: &[Problem], factor: f64) -> [f64; 2] {
+    let mut range = [f64::INFINITY, 0.0_f64];
+    for Problem { joints, seconds } in problems {
+        let limits = joints.map(|[velocity, acceleration, jerk, ..]| {
+            let [velocity, acceleration, jerk] = [velocity, acceleration, jerk].map(|x| factor * x);
+            JerkLimits { velocity, acceleration, jerk }
+        });
+        let [qd, qdd, goal] = [3, 4, 5].map(|k| joints.map(|joint| joint[k]));
+        let mut motion = MovingGoal::try_new(&[0.0; 6], limits, 1e-3).unwrap();
+        let from = State { q: [0.0; 6], qd, qdd };
+        motion.set_from(0, &from, &goal).unwrap();
+        let share = motion.seconds() / seconds;
+        range = [range[0].min(share), range[1].max(share)];
+    }
+    range
+}
+
+#[test]
+fn durations_are_those_of_ruckig_within_five_per_cent() {
+    let recording: Recording = recordings::read("moving_goals");
+    assert_eq!(recording.problems.len(), 1500);
+    let [least, most] = shares(&recording.problems, 1.0);
+    assert!(least >= 1.0 && most < 1.05, "{least} {most}");
+    // Other limits are found: all durations are then less, or the longest too long.
+    let [least, _] = shares(&recording.problems, 1.001);
+    assert!(least < 1.0, "{least}");
+}
+
+/// How far a motion goes beyond a limit, as shares of the limits of velocity, acceleration and jerk,
+/// and how far its positions are from the integral of its velocities, rad.
+#[derive(Debug, Default)]
+struct Seen {
+    shares: [f64; 3],
+    apart: f64,
+    goals: u32,
+    /// Joints that move, and those that arrive before 0.95 of the duration.
+    joints: u32,
+    early: u32,
+}
+
+impl Seen {
+    fn see(&mut self, of: usize, share: f64) {
+        self.shares[of] = self.shares[of].max(share);
+    }
+
+    /// One tick of the motion: its jerk is constant, or changes once.
+    fn tick(&mut self, motion: &MovingGoal<f32, 6>, limits: &[JerkLimits<f32>; 6], tick: u32) {
+        let [before, after] = [tick, tick + 1].map(|tick| motion.at(tick));
+        for (j, limits) in limits.iter().enumerate() {
+            let of = |rate: fn(&State<f32, 6, 6>) -> &[f32; 6]| {
+                [&before, &after].map(|state| f64::from(rate(state)[j]))
+            };
+            let [q, qd, qdd] = [of(|s| &s.q), of(|s| &s.qd), of(|s| &s.qdd)];
+            let (h, jerk) = (f64::from(TICK), f64::from(limits.jerk));
+            self.see(0, qd[1].abs() / f64::from(limits.velocity));
+            self.see(1, qdd[1].abs() / f64::from(limits.acceleration));
+            // Roundings of the acceleration and of the time are a jerk of their own.
+            let time = f64::from(motion.seconds()) * jerk;
+            let rounding = 2.0 * f64::from(f32::EPSILON) * (f64::from(limits.acceleration) + time);
+            self.see(2, ((qdd[1] - qdd[0]).abs() - rounding) / (jerk * h));
+            let trapezoid = 0.5 * h * (qd[0] + qd[1]);
+            let curved = h * h * (qdd[1] - qdd[0]).abs() / 6.0 + jerk * h * h * h / 6.0;
+            self.apart = self.apart.max((q[1] - q[0] - trapezoid).abs() - curved);
+        }
+    }
+}
+
+fn limits(rng: &mut Rng) -> JerkLimits<f32> {
+    let mut factor =
+        |low: f64, decades: f64| 10.0_f64.powf(low + decades * 0.5 * (1.0 + rng.within(1.0)));
+    let velocity = factor(-0.5, 1.5);
+    let acceleration = velocity * factor(-0.3, 1.5);
+    let jerk = acceleration * factor(-0.3, 1.5);
+    let [velocity, acceleration, jerk] = [velocity, acceleration, jerk].map(|x| x as f32);
+    JerkLimits { velocity, acceleration, jerk }
+}
+
+/// Whether states differ by roundings alone.
+fn is_near(state: &State<f32, 6, 6>, other: &State<f32, 6, 6>) -> bool {
+    let near = |a: &[f32; 6], b: &[f32; 6]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-5);
+    state.q == other.q && near(&state.qd, &other.qd) && near(&state.qdd, &other.qdd)
+}
+
+/// Goals at random ticks: near, far, and where the joint is.
+fn random_goals(goals: u32, mut out: impl Write) -> Seen {
+    let mut rng = Rng::new(50);
+    let mut seen = Seen::default();
+    for _ in 0..goals / 20 {
+        let limits: [_; 6] = std::array::from_fn(|_| limits(&mut rng));
+        let start = [(); 6].map(|()| rng.within(1.0) as f32);
+        let mut motion = MovingGoal::try_new(&start, limits, TICK).unwrap();
+        let mut tick = 0;
+        for _ in 0..20 {
+            let from = motion.at(tick);
+            let goal = from.q.map(|q| match rng.below(10) {
+                0 => q,
+                1..5 => q + (rng.within(1.0) * 10.0_f64.powf(-2.0 + rng.within(2.0))) as f32,
+                _ => rng.within(3.0) as f32,
+            });
+            let arrival = motion.set(tick, &goal).unwrap();
+            assert!(is_near(&motion.at(tick), &from), "{from:?} {motion:?}");
+            assert_eq!(motion.at(arrival), State::at(goal));
+            let ticks = arrival - tick;
+            for _ in 0..20 {
+                seen.tick(&motion, &limits, tick + rng.below(ticks as usize + 1) as u32);
+            }
+            seen.goals += 1;
+            let late = motion.at(tick + (0.95 * f64::from(ticks)) as u32);
+            for j in (0..6).filter(|&j| ticks > 100 && (goal[j] - from.q[j]).abs() > 1e-3) {
+                seen.joints += 1;
+                seen.early += u32::from(late.q[j] == goal[j] && late.qd[j] == 0.0);
+            }
+            for j in 0..6 {
+                let JerkLimits { velocity, acceleration, jerk } = limits[j];
+                let joint = [velocity, acceleration, jerk, from.qd[j], from.qdd[j]];
+                let way = f64::from(goal[j]) - f64::from(from.q[j]);
+                let all = joint.into_iter().map(f64::from).chain([way]);
+                all.for_each(|x| out.write_all(&x.to_le_bytes()).unwrap());
+            }
+            out.write_all(&f64::from(motion.seconds()).to_le_bytes()).unwrap();
+            tick += rng.below((1.1 * f64::from(ticks)) as usize + 2) as u32;
+        }
+    }
+    seen
+}
+
+/// `GOALS=FILE` writes the problems and durations for `host-tests/oracle/moving_goals.py FILE`.
+#[test]
+fn a_hundred_thousand_goals_exceed_no_limit() {
+    let file = std::env::var_os("GOALS").map(|path| File::create(path).unwrap());
+    let seen = match file {
+        Some(file) => random_goals(100_000, BufWriter::new(file)),
+        None => random_goals(100_000, std::io::sink()),
+    };
+    assert_eq!(seen.goals, 100_000);
+    // The limits are used to 1.6e-5, which is left for rounding.
+    for share in seen.shares {
+        assert!((0.9999..=1.0).contains(&share), "{seen:?}");
+    }
+    assert!(seen.apart < 2e-6, "{seen:?}");
+    assert!(seen.joints > 300_000 && seen.early < seen.joints / 1000, "{seen:?}");
+}

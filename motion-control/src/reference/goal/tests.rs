@@ -1,0 +1,99 @@
+use super::*;
+use crate::tests::Random;
+
+fn limits<R: Real>(random: &mut Random, low: f64, high: f64) -> JerkLimits<R> {
+    let mut draw = || R::from_f64(random.log(low, high));
+    JerkLimits { velocity: draw(), acceleration: draw(), jerk: draw() }
+}
+
+/// Limits, positions and ticks of any size: what is not refused is finite, and ends at the goal.
+fn is_finite_at_any_size<R: Real>(seed: u64) -> (u32, u32) {
+    let mut random = Random(seed);
+    let (mut refused, mut reached) = (0, 0);
+    for _ in 0..20_000 {
+        let tick = R::from_f64(random.log(1e-5, 1.0));
+        let all = [(); 2].map(|()| limits(&mut random, 1e-9, 1e9));
+        let mut size = || R::from_f64(random.log(1e-12, 1e12) * (random.next() - 0.5));
+        let q = [size(), size()];
+        let goals = [[size(), size()], [q[0], size()]];
+        let mut goal = MovingGoal::try_new(&q, all, tick).unwrap();
+        for to in goals {
+            let from = (f64::from(goal.ticks()) * random.next() * 1.2) as u32;
+            let Ok(arrival) = goal.set(from, &to) else {
+                refused += 1;
+                continue;
+            };
+            reached += 1;
+            for share in [0.0, 0.1, 0.5, 0.9, 1.0] {
+                let ticks = f64::from(arrival - from) * share;
+                assert!(goal.at(from + ticks as u32).is_finite(), "{goal:?}");
+            }
+            assert_eq!(goal.at(arrival), State::at(to));
+        }
+    }
+    (refused, reached)
+}
+
+#[test]
+fn a_motion_of_any_size_is_finite_or_refused() {
+    for (refused, reached) in [is_finite_at_any_size::<f32>(1), is_finite_at_any_size::<f64>(2)] {
+        assert!(refused > 1000 && reached > 1000, "{refused} {reached}");
+    }
+}
+
+const LIMITS: JerkLimits<f64> = JerkLimits { velocity: 1.0, acceleration: 2.0, jerk: 10.0 };
+
+#[test]
+fn a_refused_goal_changes_nothing() {
+    let mut goal = MovingGoal::try_new(&[0.0, 1.0], [LIMITS; 2], 1e-3).unwrap();
+    goal.set(0, &[1.0, 0.0]).unwrap();
+    let before = goal;
+    assert_eq!(goal.set(300, &[f64::NAN, 0.0]), Err(GoalError::NotFinite { joint: 0 }));
+    assert_eq!(goal.set(300, &[0.0, f64::INFINITY]), Err(GoalError::NotFinite { joint: 1 }));
+    assert_eq!(goal.set(300, &[0.0, 1e7]), Err(GoalError::TooLong));
+    assert_eq!(goal.set(u32::MAX, &[0.0, 0.0]), Err(GoalError::TooLong));
+    let fast = State { qd: [0.0, -0.9], qdd: [0.0, -1.9], ..State::at([0.0; 2]) };
+    assert_eq!(goal.set_from(300, &fast, &[0.0, 0.0]), Err(GoalError::Start { joint: 1 }));
+    let unknown = State { qd: [f64::NAN, 0.0], ..State::at([0.0; 2]) };
+    assert!(goal.set_from(300, &unknown, &[0.0, 0.0]).is_err());
+    assert_eq!(goal, before);
+    // The same speed, of which the acceleration takes away.
+    let slower = State { qdd: [0.0, 1.9], ..fast };
+    assert!(goal.set_from(300, &slower, &[0.0, 0.0]).is_ok());
+    assert_eq!(goal.at(300), slower);
+}
+
+#[test]
+fn limits_that_are_none_are_refused() {
+    for limits in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e10, 1e-10].map(|x| {
+        [
+            JerkLimits { velocity: x, ..LIMITS },
+            JerkLimits { acceleration: x, ..LIMITS },
+            JerkLimits { jerk: x, ..LIMITS },
+        ]
+    }) {
+        for limits in limits {
+            let parameter = ConfigParameter::JerkLimit;
+            let error = MovingGoal::try_new(&[0.0], [limits], 1e-3).unwrap_err();
+            assert_eq!(error, ConfigError::OutOfRange { parameter });
+        }
+    }
+    assert!(MovingGoal::try_new(&[f64::NAN], [LIMITS], 1e-3).is_err());
+    assert!(MovingGoal::try_new(&[0.0], [LIMITS], 0.0).is_err());
+}
+
+/// From rest the durations have closed forms: with and without a time at the greatest acceleration
+/// and velocity.
+#[test]
+fn rest_to_rest_takes_the_time_of_the_closed_forms() {
+    let [v, a, j]: [f64; 3] = [1.0, 2.0, 10.0];
+    let cruising = |d: f64| d / v + v / a + a / j;
+    let accelerating = |d: f64| a / j + (a * a / (j * j) + 4.0 * d / a).sqrt();
+    let jerking = |d: f64| (32.0 * d / j).cbrt();
+    for (d, expected) in [(3.0, cruising(3.0)), (0.3, accelerating(0.3)), (0.05, jerking(0.05))] {
+        let mut goal = MovingGoal::try_new(&[0.2], [LIMITS], 1e-3).unwrap();
+        goal.set(0, &[0.2 - d]).unwrap();
+        let ratio = goal.seconds() / expected;
+        assert!((1.0..1.01).contains(&ratio), "{d}: {ratio}");
+    }
+}

@@ -1,0 +1,372 @@
+//! A tip that is moved by twists: damped differential inverse kinematics within the joints' limits.
+//!
+//! In each tick the joint speeds solve (1), where d are the speeds of least squares, p those
+//! towards a posture, and clamp limits a joint to speeds from which it can still stop before the
+//! end of its range:
+//!
+//! ```text
+//! q̇ = clamp(d)      d = p + Jᵀ x      J clamp(p + Jᵀ x) + λ² x = v          (1)
+//! ```
+//!
+//! This is one step of Newton's method in each tick, from the set of clamped joints of the tick
+//! before: these joints are held at their limits, and x is solved for the others. x are multipliers
+//! of the task, so that a held joint becomes free when its d leads away from the end.
+//!
+//! With the step s = a h of the speed in a tick h, a speed u towards an end at the distance e,
+//! measured from where the joint is in the middle of the tick, can be stopped in whole ticks if
+//!
+//! ```text
+//! u (u/2 + s) ≤ a e      u ≤ √(s² + 2 a e) − s                              (2)
+//! ```
+//!
+//! which the speed u − s of the next tick then fulfils too. Nakamura & Hanafusa, "Inverse kinematic
+//! solutions with singularity robustness for robot manipulator control" (1986); Flacco, De Luca &
+//! Khatib, "Control of redundant robots under hard joint constraints: saturation in the null space"
+//! (2015); Hintermüller, Ito & Kunisch, "The primal-dual active set strategy as a semismooth Newton
+//! method" (2002).
+
+use super::damped_motion::{damped_motion, dot, scaled};
+use crate::law::pose_error;
+use crate::limits::{ConfigError, ConfigParameter, MotionLimits};
+use crate::reference::Reference;
+use dynamics_core::algorithms::frame::Pose;
+use dynamics_core::scalar::{Real, Vector};
+use dynamics_core::spatial::Motion;
+use dynamics_core::state::{State, all_finite};
+
+#[cfg(test)]
+mod tests;
+
+/// Roundings of a position that the ends of a range are kept away from.
+const ROUNDINGS: f64 = 4.0;
+/// The distance from which on the end of a range is no limit, rad or m.
+const FAR: f64 = 1e6;
+
+/// The limits of a [`TipMotion`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TipMotionConfig<R, const V: usize> {
+    /// The length of a tick, s.
+    pub tick: R,
+    /// The least position of each joint, rad or m; −∞ for none.
+    pub lower: [R; V],
+    /// The greatest position of each joint, rad or m; ∞ for none.
+    pub upper: [R; V],
+    /// The greatest speed, which may be infinite, and the greatest acceleration of each joint.
+    pub limits: [MotionLimits<R>; V],
+    /// λ, rad: the joints move at most 1/λ times as fast as (ω, v/ℓ); 0.05 suits arms.
+    pub damping: R,
+    /// ℓ, the length at which a displacement counts as much as a rotation, m: a third of the reach.
+    pub length: R,
+    /// The posture towards which the joints move as far as the tip's motion leaves them free, rad
+    /// or m; only arms of more than six joints have such a freedom.
+    pub posture: [R; V],
+    /// Speed towards the posture per distance, 1/s; 0 for no posture.
+    pub posture_gain: R,
+}
+
+impl<R: Real, const V: usize> TipMotionConfig<R, V> {
+    /// Checks every number.
+    ///
+    /// # Errors
+    /// [`ConfigError::OutOfRange`] names a number that is beyond its range.
+    pub fn check(&self) -> Result<(), ConfigError> {
+        ConfigParameter::Tick.positive(self.tick)?;
+        ConfigParameter::TipDamping.positive(self.damping)?;
+        ConfigParameter::TipLength.positive(self.length)?;
+        let posture = all_finite(&self.posture) & self.posture_gain.is_finite();
+        ConfigParameter::Posture.require(posture & (self.posture_gain >= R::ZERO))?;
+        for (j, limits) in self.limits.iter().enumerate() {
+            ConfigParameter::JointRange.require(self.lower[j] <= self.upper[j])?;
+            ConfigParameter::JointSpeed.require(limits.velocity > R::ZERO)?;
+            ConfigParameter::JointSpeed.positive(limits.acceleration)?;
+        }
+        Ok(())
+    }
+}
+
+/// How a tip moves in a tick of a [`TipMotion`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
+pub enum TipStatus {
+    /// As the twist says, up to damping and while the joints accelerate.
+    Follows,
+    /// Along the twist, but slower: the joint is at its greatest speed.
+    Slowed {
+        /// The joint.
+        joint: usize,
+    },
+    /// As near to the twist as the other joints can: the joint is at, or brakes before, the end of
+    /// its range.
+    Limited {
+        /// The joint with the largest number of those that are.
+        joint: usize,
+    },
+    /// It comes to rest: a number of the twist or of the Jacobian is not finite.
+    NotFinite,
+}
+
+/// The reference of an arm whose tip is moved by a twist that is new in each tick: a joystick, or
+/// [`TipGoal`].
+///
+/// [`Self::step`] takes the Jacobian of the tip at the reference [`Self::state`] and advances it;
+/// as a [`Reference`] it has this state in every tick. No joint ever exceeds its range, speed or
+/// acceleration, and each can always stop before the end of its range. A reference that begins
+/// beyond one of them, see [`Self::restart`], comes back at the greatest acceleration; beyond the
+/// end of a range it stops, and moves inwards only.
+///
+/// - A joint at its greatest speed slows the whole arm, and joints that have to accelerate do so
+///   together, so that the tip keeps its direction.
+/// - A joint at the end of its range stays there, and the others move the tip as near to the twist
+///   as they can; an arm of more than six joints goes on along the twist.
+/// - Near a singular posture, motions along directions that the tip loses fade out smoothly.
+/// - The tip comes first: the posture uses what freedom is left.
+///
+/// ```
+/// use motion_control::{MotionLimits, Reference, TipMotion, TipMotionConfig, TipStatus};
+/// use dynamics_core::{Engine, algorithms::frame::LocalWorldAligned, robots::Ur5e, spatial::Motion};
+/// use dynamics_core::{glam::Vec3, model::{OnBody, Robot}};
+/// const TIP: OnBody<{ Ur5e::MODEL.body("wrist_3") }> = OnBody;
+/// let mut tip = TipMotion::try_new(TipMotionConfig {
+///     tick: 1e-3_f32, lower: [-6.2; 6], upper: [6.2; 6],
+///     limits: [MotionLimits { velocity: 3.0, acceleration: 10.0 }; 6],
+///     damping: 0.05, length: 0.3, posture: [0.0; 6], posture_gain: 0.0,
+/// }, &[0.0, -1.2, 1.5, 0.3, 0.7, 0.0])?;
+/// let height = |tip: &TipMotion<f32, 6>| Engine::<Ur5e>::poses_of(&tip.at(0).q, TIP)[0].pos.z;
+/// let (before, up) = (height(&tip), Motion::new(Vec3::ZERO, Vec3::Z * 0.1)); // m/s
+/// for _ in 0..1000 {
+///     let jacobian = Engine::<Ur5e>::jacobian(&tip.state().q, TIP, LocalWorldAligned);
+///     assert_eq!(tip.step(&jacobian, &up), TipStatus::Follows);
+/// }
+/// assert!((height(&tip) - before - 0.1).abs() < 2e-3); // m
+/// # Ok::<(), motion_control::ConfigError>(())
+/// ```
+#[doc(alias = "inverse kinematics")]
+#[doc(alias = "servo")]
+#[doc(alias = "jog")]
+#[doc(alias = "teleoperation")]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TipMotion<R, const V: usize> {
+    config: TipMotionConfig<R, V>,
+    tick_inv: R,
+    per_length: R,
+    state: State<R, V, V>,
+    /// What rounding has left of the positions.
+    rest: [R; V],
+    /// Which joints are held at their limits.
+    held: [bool; V],
+    /// p + Jᵀ x of the last tick.
+    wanted: [R; V],
+}
+
+impl<R: Real, const V: usize> TipMotion<R, V> {
+    /// The reference that rests at q, rad or m.
+    ///
+    /// # Errors
+    /// [`TipMotionConfig::check`] has the ranges; [`ConfigParameter::JointRange`] names a q that is
+    /// not finite.
+    pub fn try_new(config: TipMotionConfig<R, V>, q: &[R; V]) -> Result<Self, ConfigError> {
+        config.check()?;
+        ConfigParameter::JointRange.require(all_finite(q))?;
+        let (tick_inv, per_length) = (R::ONE / config.tick, R::ONE / config.length);
+        let (state, rest, wanted) = (State::at(*q), [R::ZERO; V], [R::ZERO; V]);
+        Ok(Self { config, tick_inv, per_length, state, rest, held: [false; V], wanted })
+    }
+
+    /// The state of the reference in this tick: where the next [`Self::step`] needs the Jacobian.
+    #[inline(always)]
+    pub fn state(&self) -> &State<R, V, V> {
+        &self.state
+    }
+
+    /// Begins again from a state, that of the arm, after a fault or another motion. A state that is
+    /// not finite is not taken, and the answer is false.
+    ///
+    /// ```
+    /// # use motion_control::{MotionLimits, TipMotion, TipMotionConfig};
+    /// use dynamics_core::state::State;
+    /// # let mut tip = TipMotion::try_new(TipMotionConfig {
+    /// #     tick: 1e-3_f32, lower: [-1.0], upper: [1.0],
+    /// #     limits: [MotionLimits { velocity: 3.0, acceleration: 10.0 }],
+    /// #     damping: 0.05, length: 0.3, posture: [0.0], posture_gain: 0.0,
+    /// # }, &[0.0])?;
+    /// assert!(tip.restart(&State { q: [0.5], qd: [0.1], qdd: [0.0] }));
+    /// assert!(!tip.restart(&State::at([f32::NAN])));
+    /// assert_eq!(tip.state().q, [0.5]);
+    /// # Ok::<(), motion_control::ConfigError>(())
+    /// ```
+    #[must_use = "a state that is not finite is not taken"]
+    pub fn restart(&mut self, state: &State<R, V, V>) -> bool {
+        let finite = state.is_finite();
+        if finite {
+            (self.state, self.rest, self.held) = (*state, [R::ZERO; V], [false; V]);
+        }
+        finite
+    }
+
+    /// Advances the reference by a tick, in which the tip moves by `twist`, rad/s and m/s;
+    /// `jacobian` is that of the tip at [`Self::state`], in the frame of the twist.
+    ///
+    /// # Cost
+    /// `docs/costs.md` in the repository: one factorisation of 6 × 6, whatever the joints do; some
+    /// 50 cycles more for each joint that brakes before an end.
+    ///
+    /// # Errors
+    /// [`TipStatus::NotFinite`]: the joints brake within their limits.
+    #[inline]
+    pub fn step(&mut self, jacobian: &[Motion<R>; V], twist: &Motion<R>) -> TipStatus {
+        let (posture, mut free) = (self.posture_speeds(), [true; V]);
+        let (mut speeds, mut rest) = (posture, *twist);
+        for j in 0..V {
+            if self.held[j] {
+                speeds[j] = self.viable(j, self.wanted[j]);
+                free[j] = speeds[j] == self.wanted[j];
+            }
+            rest -= jacobian[j] * speeds[j];
+        }
+        let columns = jacobian.map(|column| scaled(column, self.per_length));
+        let (square, b) =
+            (self.config.damping * self.config.damping, scaled(rest, self.per_length));
+        let x = damped_motion::<R, V, 3>(&columns, &free, square, &b);
+        for j in 0..V {
+            speeds[j] = posture[j] + dot(&columns[j], &x);
+        }
+        if !all_finite(&speeds) {
+            self.advance(&[R::ZERO; V]);
+            return TipStatus::NotFinite;
+        }
+        let mut status = TipStatus::Follows;
+        let mut share = R::ONE;
+        for j in 0..V {
+            let (speed, most) = (speeds[j].abs(), self.config.limits[j].velocity);
+            if free[j] & (speed * share > most) {
+                (share, status) = (most / speed, TipStatus::Slowed { joint: j });
+            }
+        }
+        for j in 0..V {
+            let most = self.config.limits[j].velocity;
+            let speed = if free[j] { speeds[j] * share } else { speeds[j] };
+            self.wanted[j] = speed.clamped(-most, most);
+            speeds[j] = self.viable(j, self.wanted[j]);
+            self.held[j] = speeds[j] != self.wanted[j];
+            if self.held[j] {
+                status = TipStatus::Limited { joint: j };
+            }
+        }
+        self.advance(&speeds);
+        status
+    }
+
+    /// p: a quarter of the greatest speed at most, since it is subject to the tip's motion.
+    #[inline(always)]
+    fn posture_speeds(&self) -> [R; V] {
+        let (config, quarter) = (&self.config, R::from_f64(0.25));
+        core::array::from_fn(|j| {
+            let most = quarter * config.limits[j].velocity;
+            (config.posture_gain * (config.posture[j] - self.state.q[j])).clamped(-most, most)
+        })
+    }
+
+    /// The speed of joint j, or the greatest one in its direction by (2).
+    #[inline(always)]
+    fn viable(&self, j: usize, speed: R) -> R {
+        let (config, half) = (&self.config, R::from_f64(0.5));
+        let (up, a) = (speed >= R::ZERO, config.limits[j].acceleration);
+        let (q, end, side) = match up {
+            true => (self.state.q[j], config.upper[j], R::ONE),
+            false => (self.state.q[j], config.lower[j], -R::ONE),
+        };
+        let margin = R::from_f64(ROUNDINGS) * R::EPSILON * q.abs();
+        let ahead = half * config.tick * self.state.qd[j] + self.rest[j];
+        let e = ((end - q) - ahead) * side - margin;
+        let (u, s) = (speed * side, a * config.tick);
+        if u * (half * u + s) <= a * e {
+            return speed;
+        }
+        let e = e.clamped(R::ZERO, R::from_f64(FAR));
+        if e <= margin {
+            return R::ZERO;
+        }
+        let square = s * s + (a + a) * e;
+        side * (square * square.rsqrt() - s).clamped(R::ZERO, u)
+    }
+
+    /// Advances all joints towards these speeds, together and within their limits.
+    #[inline(always)]
+    fn advance(&mut self, speeds: &[R; V]) {
+        let mut share = R::ONE;
+        for (j, speed) in speeds.iter().enumerate() {
+            let change = (*speed - self.state.qd[j]).abs();
+            let step = self.config.limits[j].acceleration * self.config.tick;
+            if change * share > step {
+                share = step / change;
+            }
+        }
+        for (j, speed) in speeds.iter().enumerate() {
+            let (old, limits) = (self.state.qd[j], self.config.limits[j]);
+            let step = limits.acceleration * self.config.tick;
+            let new = self.viable(j, old + share * (*speed - old));
+            let new =
+                new.clamped(-limits.velocity, limits.velocity).clamped(old - step, old + step);
+            let way = R::from_f64(0.5) * self.config.tick * (old + new) + self.rest[j];
+            let q = self.state.q[j] + way;
+            self.rest[j] = way - (q - self.state.q[j]);
+            let qdd = (new - old) * self.tick_inv;
+            self.state.qdd[j] = qdd.clamped(-limits.acceleration, limits.acceleration);
+            (self.state.q[j], self.state.qd[j]) = (q, new);
+        }
+    }
+}
+
+impl<R: Real, const V: usize> Reference<R, V> for TipMotion<R, V> {
+    #[inline(always)]
+    fn at(&self, _: u32) -> State<R, V, V> {
+        self.state
+    }
+
+    fn ticks(&self) -> u32 {
+        0
+    }
+}
+
+/// A pose that a tip moves to, as a twist for [`TipMotion::step`].
+///
+/// ```
+/// use motion_control::TipGoal;
+/// use dynamics_core::{algorithms::frame::Pose, glam::DVec3};
+/// let pose = Pose { pos: DVec3::X, ..Pose::<f64>::IDENTITY };
+/// let goal = TipGoal { pose, gain: 4.0, linear: 0.25, angular: 1.0 };
+/// assert_eq!(goal.twist(&Pose::IDENTITY).lin, DVec3::X * 0.25); // 4/s · 1 m, limited to 0.25 m/s
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TipGoal<R: Real> {
+    /// The pose in the base's frame.
+    pub pose: Pose<R>,
+    /// Speed per distance, 1/s: less than a quarter of 1/s per rad/s² over rad/s of the joints.
+    pub gain: R,
+    /// The greatest linear speed, m/s.
+    pub linear: R,
+    /// The greatest angular speed, rad/s.
+    pub angular: R,
+}
+
+impl<R: Real> TipGoal<R> {
+    /// The twist of a tip at `pose` towards the goal, rad/s and m/s, in the base's axes: straight
+    /// on and about one axis, both at once.
+    ///
+    /// # Cost
+    /// Some 100 flops; the same instructions for all data but for the slower of two branches.
+    #[inline]
+    #[must_use]
+    pub fn twist(&self, pose: &Pose<R>) -> Motion<R> {
+        let twist = pose_error(pose, &self.pose) * self.gain;
+        let mut share = R::ONE;
+        for (part, most) in [(twist.ang, self.angular), (twist.lin, self.linear)] {
+            let square = part.dot(part);
+            if square * share * share > most * most {
+                share = most * square.rsqrt();
+            }
+        }
+        twist * share
+    }
+}

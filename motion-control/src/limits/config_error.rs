@@ -114,18 +114,10 @@ pub enum ConfigParameter {
     ThermalTorque,
     /// A thermal time constant, a share of resistance or a temperature of a motor.
     ThermalMotor,
-    /// The damping of a tip's motion near singular postures.
-    TipDamping,
-    /// The length at which a displacement of a tip counts as much as a rotation.
-    TipLength,
-    /// The posture of an arm whose tip is moved, or its gain.
-    Posture,
-    /// The range of a joint, or a position that is not finite.
+    /// The damping, the length, the posture or its gain of a tip's motion.
+    TipMotion,
+    /// The range of a joint, its position in it, or its greatest speed or acceleration.
     JointRange,
-    /// The greatest speed or acceleration of a joint.
-    JointSpeed,
-    /// The tolerance or the iterations of a pose solver.
-    PoseTolerance,
 }
 
 impl ConfigParameter {
@@ -232,17 +224,11 @@ impl fmt::Display for ConfigError {
             ConfigParameter::ThermalMotor => {
                 "a thermal time, share or temperature of a motor is outside its range"
             }
-            ConfigParameter::TipDamping => "the damping of the tip is not a positive number",
-            ConfigParameter::TipLength => "the length of the tip is not a positive number",
-            ConfigParameter::Posture => {
-                "the posture or its gain is not finite, or the gain negative"
+            ConfigParameter::TipMotion => {
+                "a damping or length is not a positive number, or a posture or its gain not finite"
             }
-            ConfigParameter::JointRange => "a range of a joint is empty, or a position not finite",
-            ConfigParameter::JointSpeed => {
-                "a greatest speed or acceleration of a joint is not a positive number"
-            }
-            ConfigParameter::PoseTolerance => {
-                "a tolerance of the pose is not a positive number, or there are no iterations"
+            ConfigParameter::JointRange => {
+                "a range of a joint is empty, a position not finite, or a limit not positive"
             }
         })
     }

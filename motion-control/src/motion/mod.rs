@@ -18,5 +18,5 @@ pub use controller::config::MotionControllerConfig;
 pub use controller::tick::{ObservedTick, ReferencedTick};
 pub use controller::{CurrentTick, MeasurementAge, MotionController, PreviousTick, ResetError};
 pub use hold::hold;
-pub use pose_solver::{PoseSolution, PoseSolver, PoseSolverConfig, PoseSolverError};
+pub use pose_solver::{PoseSolution, PoseSolver, PoseSolverError};
 pub use tip_motion::{TipGoal, TipMotion, TipMotionConfig, TipStatus};

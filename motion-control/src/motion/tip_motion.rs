@@ -39,6 +39,8 @@ mod tests;
 
 /// Roundings of a position that the ends of a range are kept away from.
 const ROUNDINGS: f64 = 4.0;
+/// The least λ².
+const LEAST: f64 = 1e-3;
 /// The distance from which on the end of a range is no limit, rad or m.
 const FAR: f64 = 1e6;
 
@@ -64,26 +66,6 @@ pub struct TipMotionConfig<R, const V: usize> {
     pub posture_gain: R,
 }
 
-impl<R: Real, const V: usize> TipMotionConfig<R, V> {
-    /// Checks every number.
-    ///
-    /// # Errors
-    /// [`ConfigError::OutOfRange`] names a number that is beyond its range.
-    pub fn check(&self) -> Result<(), ConfigError> {
-        ConfigParameter::Tick.positive(self.tick)?;
-        ConfigParameter::TipDamping.positive(self.damping)?;
-        ConfigParameter::TipLength.positive(self.length)?;
-        let posture = all_finite(&self.posture) & self.posture_gain.is_finite();
-        ConfigParameter::Posture.require(posture & (self.posture_gain >= R::ZERO))?;
-        for (j, limits) in self.limits.iter().enumerate() {
-            ConfigParameter::JointRange.require(self.lower[j] <= self.upper[j])?;
-            ConfigParameter::JointSpeed.require(limits.velocity > R::ZERO)?;
-            ConfigParameter::JointSpeed.positive(limits.acceleration)?;
-        }
-        Ok(())
-    }
-}
-
 /// How a tip moves in a tick of a [`TipMotion`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -91,17 +73,11 @@ impl<R: Real, const V: usize> TipMotionConfig<R, V> {
 pub enum TipStatus {
     /// As the twist says, up to damping and while the joints accelerate.
     Follows,
-    /// Along the twist, but slower: the joint is at its greatest speed.
-    Slowed {
-        /// The joint.
-        joint: usize,
-    },
-    /// As near to the twist as the other joints can: the joint is at, or brakes before, the end of
-    /// its range.
-    Limited {
-        /// The joint with the largest number of those that are.
-        joint: usize,
-    },
+    /// Along the twist, but slower: the joint of this number is at its greatest speed.
+    Slowed(usize),
+    /// As near to the twist as the other joints can: the joint of this number, and those before it
+    /// maybe, is at the end of its range or brakes before it.
+    Limited(usize),
     /// It comes to rest: a number of the twist or of the Jacobian is not finite.
     NotFinite,
 }
@@ -148,29 +124,29 @@ pub enum TipStatus {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TipMotion<R, const V: usize> {
     config: TipMotionConfig<R, V>,
-    tick_inv: R,
-    per_length: R,
     state: State<R, V, V>,
     /// What rounding has left of the positions.
     rest: [R; V],
-    /// Which joints are held at their limits.
-    held: [bool; V],
-    /// p + Jᵀ x of the last tick.
-    wanted: [R; V],
+    /// The d of joints that are held at a limit.
+    held: [Option<R>; V],
 }
 
 impl<R: Real, const V: usize> TipMotion<R, V> {
     /// The reference that rests at q, rad or m.
     ///
     /// # Errors
-    /// [`TipMotionConfig::check`] has the ranges; [`ConfigParameter::JointRange`] names a q that is
-    /// not finite.
+    /// [`ConfigError::OutOfRange`] names a number that is beyond its range.
     pub fn try_new(config: TipMotionConfig<R, V>, q: &[R; V]) -> Result<Self, ConfigError> {
-        config.check()?;
-        ConfigParameter::JointRange.require(all_finite(q))?;
-        let (tick_inv, per_length) = (R::ONE / config.tick, R::ONE / config.length);
-        let (state, rest, wanted) = (State::at(*q), [R::ZERO; V], [R::ZERO; V]);
-        Ok(Self { config, tick_inv, per_length, state, rest, held: [false; V], wanted })
+        let [tip, range] = [ConfigParameter::TipMotion, ConfigParameter::JointRange];
+        [config.tick, config.damping, config.length].iter().try_for_each(|x| tip.positive(*x))?;
+        let (gain, posture) = (config.posture_gain, all_finite(&config.posture));
+        tip.require(posture & gain.is_finite() & (gain >= R::ZERO))?;
+        for (j, limits) in config.limits.iter().enumerate() {
+            let some = (config.lower[j] <= config.upper[j]) & (limits.velocity > R::ZERO);
+            range.require(some & q[j].is_finite())?;
+            range.positive(limits.acceleration)?;
+        }
+        Ok(Self { config, state: State::at(*q), rest: [R::ZERO; V], held: [None; V] })
     }
 
     /// The state of the reference in this tick: where the next [`Self::step`] needs the Jacobian.
@@ -199,7 +175,7 @@ impl<R: Real, const V: usize> TipMotion<R, V> {
     pub fn restart(&mut self, state: &State<R, V, V>) -> bool {
         let finite = state.is_finite();
         if finite {
-            (self.state, self.rest, self.held) = (*state, [R::ZERO; V], [false; V]);
+            (self.state, self.rest, self.held) = (*state, [R::ZERO; V], [None; V]);
         }
         finite
     }
@@ -215,105 +191,92 @@ impl<R: Real, const V: usize> TipMotion<R, V> {
     /// [`TipStatus::NotFinite`]: the joints brake within their limits.
     #[inline]
     pub fn step(&mut self, jacobian: &[Motion<R>; V], twist: &Motion<R>) -> TipStatus {
-        let (posture, mut free) = (self.posture_speeds(), [true; V]);
-        let (mut speeds, mut rest) = (posture, *twist);
-        for j in 0..V {
-            if self.held[j] {
-                speeds[j] = self.viable(j, self.wanted[j]);
-                free[j] = speeds[j] == self.wanted[j];
+        let config = &self.config;
+        let per_length = R::ONE / config.length;
+        let (columns, v) = (jacobian.map(|c| scaled(c, per_length)), scaled(*twist, per_length));
+        let posture: [R; V] = core::array::from_fn(|j| {
+            let most = R::from_f64(0.25) * config.limits[j].velocity;
+            (config.posture_gain * (config.posture[j] - self.state.q[j])).clamped(-most, most)
+        });
+        let mut joints: [_; V] = core::array::from_fn(|j| (columns[j], posture[j]));
+        let mut rest = *twist;
+        for (j, held) in self.held.iter().enumerate() {
+            if let Some(wanted) = *held {
+                rest -= jacobian[j] * self.viable(j, wanted);
+                joints[j] = ([R::ZERO; 6], R::ZERO);
             }
-            rest -= jacobian[j] * speeds[j];
         }
-        let columns = jacobian.map(|column| scaled(column, self.per_length));
-        let (square, b) =
-            (self.config.damping * self.config.damping, scaled(rest, self.per_length));
-        let x = damped_motion::<R, V, 3>(&columns, &free, square, &b);
-        for j in 0..V {
-            speeds[j] = posture[j] + dot(&columns[j], &x);
-        }
+        let square = dot(&v, &v) + R::MIN_POSITIVE;
+        let square = config.damping * square * square.rsqrt() + R::from_f64(LEAST);
+        let x = damped_motion(&joints, square, &scaled(rest, per_length));
+        let mut speeds: [R; V] = core::array::from_fn(|j| posture[j] + dot(&columns[j], &x));
         if !all_finite(&speeds) {
             self.advance(&[R::ZERO; V]);
             return TipStatus::NotFinite;
         }
-        let mut status = TipStatus::Follows;
-        let mut share = R::ONE;
-        for j in 0..V {
-            let (speed, most) = (speeds[j].abs(), self.config.limits[j].velocity);
-            if free[j] & (speed * share > most) {
-                (share, status) = (most / speed, TipStatus::Slowed { joint: j });
+        let (mut share, mut status) = (R::ONE, TipStatus::Follows);
+        for (joint, d) in speeds.iter().enumerate() {
+            let most = config.limits[joint].velocity;
+            if self.held[joint].is_none() & (d.abs() * share > most) {
+                (share, status) = (most / d.abs(), TipStatus::Slowed(joint));
             }
         }
-        for j in 0..V {
-            let most = self.config.limits[j].velocity;
-            let speed = if free[j] { speeds[j] * share } else { speeds[j] };
-            self.wanted[j] = speed.clamped(-most, most);
-            speeds[j] = self.viable(j, self.wanted[j]);
-            self.held[j] = speeds[j] != self.wanted[j];
-            if self.held[j] {
-                status = TipStatus::Limited { joint: j };
+        for (joint, speed) in speeds.iter_mut().enumerate() {
+            let most = self.config.limits[joint].velocity;
+            let wanted = (*speed * share).clamped(-most, most);
+            *speed = self.viable(joint, wanted);
+            self.held[joint] = (*speed != wanted).then_some(wanted);
+            if self.held[joint].is_some() {
+                status = TipStatus::Limited(joint);
             }
         }
         self.advance(&speeds);
         status
     }
 
-    /// p: a quarter of the greatest speed at most, since it is subject to the tip's motion.
-    #[inline(always)]
-    fn posture_speeds(&self) -> [R; V] {
-        let (config, quarter) = (&self.config, R::from_f64(0.25));
-        core::array::from_fn(|j| {
-            let most = quarter * config.limits[j].velocity;
-            (config.posture_gain * (config.posture[j] - self.state.q[j])).clamped(-most, most)
-        })
-    }
-
     /// The speed of joint j, or the greatest one in its direction by (2).
     #[inline(always)]
     fn viable(&self, j: usize, speed: R) -> R {
-        let (config, half) = (&self.config, R::from_f64(0.5));
-        let (up, a) = (speed >= R::ZERO, config.limits[j].acceleration);
-        let (q, end, side) = match up {
-            true => (self.state.q[j], config.upper[j], R::ONE),
-            false => (self.state.q[j], config.lower[j], -R::ONE),
+        let Self { config, state, .. } = self;
+        let (side, end) = match speed >= R::ZERO {
+            true => (R::ONE, config.upper[j]),
+            false => (-R::ONE, config.lower[j]),
         };
-        let margin = R::from_f64(ROUNDINGS) * R::EPSILON * q.abs();
-        let ahead = half * config.tick * self.state.qd[j] + self.rest[j];
-        let e = ((end - q) - ahead) * side - margin;
-        let (u, s) = (speed * side, a * config.tick);
+        let (half, h, a) = (R::from_f64(0.5), config.tick, config.limits[j].acceleration);
+        let margin = R::from_f64(ROUNDINGS) * R::EPSILON * state.q[j].abs();
+        let ahead = half * h * state.qd[j] + self.rest[j];
+        let e = ((end - state.q[j]) - ahead) * side - margin;
+        let (u, s) = (speed * side, a * h);
         if u * (half * u + s) <= a * e {
             return speed;
         }
-        let e = e.clamped(R::ZERO, R::from_f64(FAR));
-        if e <= margin {
-            return R::ZERO;
+        if e > margin {
+            let square = s * s + (a + a) * e.clamped(R::ZERO, R::from_f64(FAR));
+            side * (square * square.rsqrt() - s).clamped(R::ZERO, u)
+        } else {
+            R::ZERO
         }
-        let square = s * s + (a + a) * e;
-        side * (square * square.rsqrt() - s).clamped(R::ZERO, u)
     }
 
     /// Advances all joints towards these speeds, together and within their limits.
     #[inline(always)]
     fn advance(&mut self, speeds: &[R; V]) {
+        let (h, half) = (self.config.tick, R::from_f64(0.5));
         let mut share = R::ONE;
         for (j, speed) in speeds.iter().enumerate() {
             let change = (*speed - self.state.qd[j]).abs();
-            let step = self.config.limits[j].acceleration * self.config.tick;
-            if change * share > step {
-                share = step / change;
-            }
+            let step = self.config.limits[j].acceleration * h;
+            share = if change * share > step { step / change } else { share };
         }
         for (j, speed) in speeds.iter().enumerate() {
-            let (old, limits) = (self.state.qd[j], self.config.limits[j]);
-            let step = limits.acceleration * self.config.tick;
-            let new = self.viable(j, old + share * (*speed - old));
-            let new =
-                new.clamped(-limits.velocity, limits.velocity).clamped(old - step, old + step);
-            let way = R::from_f64(0.5) * self.config.tick * (old + new) + self.rest[j];
-            let q = self.state.q[j] + way;
-            self.rest[j] = way - (q - self.state.q[j]);
-            let qdd = (new - old) * self.tick_inv;
-            self.state.qdd[j] = qdd.clamped(-limits.acceleration, limits.acceleration);
-            (self.state.q[j], self.state.qd[j]) = (q, new);
+            let MotionLimits { velocity, acceleration: a } = self.config.limits[j];
+            let (q, old) = (self.state.q[j], self.state.qd[j]);
+            let new = self.viable(j, old + share * (*speed - old)).clamped(-velocity, velocity);
+            let new = new.clamped(old - a * h, old + a * h);
+            let way = half * h * (old + new) + self.rest[j];
+            (self.state.q[j], self.state.qd[j]) = (q + way, new);
+            self.rest[j] = way - (self.state.q[j] - q);
+            self.state.qdd[j] = ((new - old) / h).clamped(-a, a);
         }
     }
 }

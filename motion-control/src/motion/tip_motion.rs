@@ -55,7 +55,9 @@ pub struct TipMotionConfig<R, const V: usize> {
     pub upper: [R; V],
     /// The greatest speed, which may be infinite, and the greatest acceleration of each joint.
     pub limits: [MotionLimits<R>; V],
-    /// λ, rad: the joints move at most 1/λ times as fast as (ω, v/ℓ); 0.05 suits arms.
+    /// T, s, of the damping λ² = T |(ω, v/ℓ)| + 10⁻³: in a direction of the singular value σ the tip
+    /// moves by the share σ²/(σ² + λ²). The tip comes to the end of its reach in a time of about T;
+    /// 0.01 s suits arms.
     pub damping: R,
     /// ℓ, the length at which a displacement counts as much as a rotation, m: a third of the reach.
     pub length: R,
@@ -106,7 +108,7 @@ pub enum TipStatus {
 /// let mut tip = TipMotion::try_new(TipMotionConfig {
 ///     tick: 1e-3_f32, lower: [-6.2; 6], upper: [6.2; 6],
 ///     limits: [MotionLimits { velocity: 3.0, acceleration: 10.0 }; 6],
-///     damping: 0.05, length: 0.3, posture: [0.0; 6], posture_gain: 0.0,
+///     damping: 0.01, length: 0.3, posture: [0.0; 6], posture_gain: 0.0,
 /// }, &[0.0, -1.2, 1.5, 0.3, 0.7, 0.0])?;
 /// let height = |tip: &TipMotion<f32, 6>| Engine::<Ur5e>::poses_of(&tip.at(0).q, TIP)[0].pos.z;
 /// let (before, up) = (height(&tip), Motion::new(Vec3::ZERO, Vec3::Z * 0.1)); // m/s
@@ -164,7 +166,7 @@ impl<R: Real, const V: usize> TipMotion<R, V> {
     /// # let mut tip = TipMotion::try_new(TipMotionConfig {
     /// #     tick: 1e-3_f32, lower: [-1.0], upper: [1.0],
     /// #     limits: [MotionLimits { velocity: 3.0, acceleration: 10.0 }],
-    /// #     damping: 0.05, length: 0.3, posture: [0.0], posture_gain: 0.0,
+    /// #     damping: 0.01, length: 0.3, posture: [0.0], posture_gain: 0.0,
     /// # }, &[0.0])?;
     /// assert!(tip.restart(&State { q: [0.5], qd: [0.1], qdd: [0.0] }));
     /// assert!(!tip.restart(&State::at([f32::NAN])));

@@ -179,14 +179,15 @@ fn a_ur5e_goes_through_its_singular_postures() {
             assert!(share > 0.5, "{axis} at {speed}: {share}");
         }
     }
-    // The elbow: the arm comes to rest at the end of its reach, and back from there.
+    // The elbow: the arm comes to the end of its reach without a bounce, and the tip goes on as
+    // its other joints can.
     let out = Motion::new(Vec3::ZERO, Vec3::NEG_X * 0.25);
     let (share, fastest) = through([0.0, -0.4, 0.8, -0.4, -1.57, 0.0], &out, 4000);
-    assert!(share.abs() < 0.02 && fastest < 3.0, "{share} {fastest}");
-    // The shoulder: the wrist's centre over the first axis.
-    let (_, fastest) =
-        through([0.0, -1.2, 2.2, -1.0, -1.57, 0.0], &Motion::new(Vec3::ZERO, Vec3::X * 0.25), 3000);
-    assert!(fastest < 3.15, "{fastest}");
+    assert!(share > 0.0 && share < 0.25 && fastest < 2.8, "{share} {fastest}");
+    // The shoulder: the wrist's centre passes the first axis.
+    let across = Motion::new(Vec3::ZERO, Vec3::X * 0.25);
+    let (share, _) = through([0.0, -1.2, 2.2, -1.0, -1.57, 0.0], &across, 5000);
+    assert!(share > 0.7, "{share}");
 }
 
 #[test]
@@ -212,15 +213,15 @@ fn a_goal_is_reached_straight_on() {
 #[test]
 fn a_redundant_arm_goes_on_along_the_twist_while_a_joint_is_at_its_end() {
     let mut config = config::<Panda, 7>(9.0, 0.0);
-    let start = [0.0, -0.6, 0.2, -2.2, 0.1, 1.6, 0.7];
-    config.upper[3] = start[3] + 0.05;
+    let start = [0.0, -0.2, 0.4, -1.9, 0.3, 1.9, 0.7];
+    config.upper[0] = start[0] + 0.02;
     let mut motion = TipMotion::try_new(config, &start).unwrap();
-    let twist = Motion::new(Vec3::ZERO, Vec3::X * 0.1);
+    let twist = Motion::new(Vec3::ZERO, Vec3::Y * 0.1);
     let (mut limited, mut wrong) = (0, 0.0_f32);
     for tick in 0..1500 {
         let (_, jacobian) = tip::<Panda, 7, 6>(&motion.state().q);
         let status = motion.step(&jacobian, &twist);
-        limited += u32::from(matches!(status, TipStatus::Limited(_)));
+        limited += u32::from(status == TipStatus::Limited(0));
         if tick > 300 {
             let off = velocity(&jacobian, &motion.state().qd) - twist;
             wrong = wrong.max(off.lin.length()).max(0.3 * off.ang.length());

@@ -14,31 +14,38 @@
 use crate::estimate::tip_wrench::add_rows;
 use dynamics_core::algorithms::shifted_solution;
 use dynamics_core::scalar::{Real, Vector};
-use dynamics_core::spatial::Motion;
+use dynamics_core::spatial::{Force, Motion};
 
-/// A motion as (ω, v/ℓ), where `per_length` is 1/ℓ.
-#[inline(always)]
-pub(super) fn scaled<R: Real>(motion: Motion<R>, per_length: R) -> [R; 6] {
-    let ([a, b, c], [x, y, z]) = (motion.ang.array(), (motion.lin * per_length).array());
-    [a, b, c, x, y, z]
-}
-
-/// a·b.
-#[inline(always)]
-pub(super) fn dot<R: Real>(a: &[R; 6], b: &[R; 6]) -> R {
-    a.iter().zip(b).fold(R::ZERO, |sum, (a, b)| sum + *a * *b)
-}
-
-/// x of the joints (c_j, p_j), where `square` is λ².
+/// x as a force, of which J_jᵀ x are the motions without p; `p` of joints that are not `free` does
+/// not count, `square` is λ², and `per_length` 1/ℓ.
 #[inline(always)]
 pub(super) fn damped_motion<R: Real, const V: usize>(
-    joints: &[([R; 6], R); V],
-    square: R,
-    v: &[R; 6],
-) -> [R; 6] {
-    let (mut a, mut b) = ([[R::ZERO; 6]; 6], [R::ZERO; 6]);
+    jacobian: &[Motion<R>; V],
+    (p, free): (&[R; V], &[bool; V]),
+    (square, per_length): (R, R),
+    v: Motion<R>,
+) -> Force<R> {
+    let scaled = |motion: Motion<R>| {
+        let ([a, b, c], [x, y, z]) = (motion.ang.array(), (motion.lin * per_length).array());
+        [a, b, c, x, y, z]
+    };
+    let mut joints = [([R::ZERO; 6], R::ZERO); V];
+    for j in 0..V {
+        if free[j] {
+            joints[j] = (scaled(jacobian[j]), p[j]);
+        }
+    }
+    let (mut a, mut b, v) = ([[R::ZERO; 6]; 6], [R::ZERO; 6], scaled(v));
     // In two parts, since the sums of the whole matrix are more than the M4F has registers.
-    add_rows::<R, V, 0, 2>(joints, &mut a, &mut b);
-    add_rows::<R, V, 2, 6>(joints, &mut a, &mut b);
-    shifted_solution(&a, square, &core::array::from_fn(|i| v[i] - b[i]))
+    add_rows::<R, V, 0, 2>(&joints, &mut a, &mut b);
+    add_rows::<R, V, 2, 6>(&joints, &mut a, &mut b);
+    let [a, b, c, x, y, z] = shifted_solution(&a, square, &core::array::from_fn(|i| v[i] - b[i]));
+    Force::new(R::Vec3::new(a, b, c), R::Vec3::new(x, y, z) * per_length)
+}
+
+/// The square of (ω, v/ℓ).
+#[inline(always)]
+pub(super) fn square<R: Real>(motion: Motion<R>, per_length: R) -> R {
+    let lin = motion.lin * per_length;
+    motion.ang.dot(motion.ang) + lin.dot(lin)
 }

@@ -16,12 +16,11 @@
 //! sequences" (2018): the fractions of n/φ, n/φ², … with φ^(V+1) = φ + 1, which fill the ranges of
 //! V joints evenly after any number of starts.
 
-use super::damped_motion::{damped_motion, dot, scaled};
+use super::damped_motion::{damped_motion, square};
 use crate::law::pose_error;
 use dynamics_core::algorithms::frame::Pose;
-use dynamics_core::scalar::Real;
+use dynamics_core::scalar::{Real, Vector};
 use dynamics_core::spatial::Motion;
-use dynamics_core::state::all_finite;
 
 #[cfg(test)]
 mod tests;
@@ -106,35 +105,32 @@ impl<R: Real, const V: usize> PoseSolver<R, V> {
         loop {
             let (pose, jacobian) = kinematics(&q);
             let error = pose_error(&pose, goal);
-            let e = scaled(error, per_length);
-            let columns = jacobian.map(|column| scaled(column, per_length));
-            let joints: [_; V] = core::array::from_fn(|j| {
-                (if free[j] { columns[j] } else { [R::ZERO; 6] }, R::ZERO)
-            });
-            let square = dot(&e, &e);
-            let x = damped_motion(&joints, share * square + omega, &e);
-            if !all_finite(&x) {
+            let now = square(error, per_length);
+            let damping = (share * now + omega, per_length);
+            let x = damped_motion(&jacobian, (&[R::ZERO; V], &free), damping, error);
+            let steps = jacobian.map(|column| column.dot(x).clamped(-most, most));
+            if !(now + x.ang.dot(x.ang) + x.lin.dot(x.lin)).is_finite() {
                 return Err(PoseSolverError::NotFinite);
             }
             best.iterations += 1;
-            if square < least {
-                (best.q, best.error, least) = (q, error, square);
+            if now < least {
+                (best.q, best.error, least) = (q, error, now);
             }
-            if square <= tolerance {
+            if now <= tolerance {
                 return Ok(best);
             }
             if best.iterations >= self.iterations {
                 return Err(PoseSolverError::NotReached(best));
             }
-            stalls += u32::from(square > stall * last);
-            last = square;
+            stalls += u32::from(now > stall * last);
+            last = now;
             if stalls == STALLS {
                 starts += 1;
                 (q, free, last, stalls) = (self.seed(starts), [true; V], far, 0);
                 continue;
             }
             for j in 0..V {
-                let wanted = q[j] + dot(&columns[j], &x).clamped(-most, most);
+                let wanted = q[j] + steps[j];
                 let limited = wanted.clamped(self.lower[j], self.upper[j]);
                 // A joint that leaves an end does so in the next iteration.
                 q[j] = if free[j] { limited } else { q[j] };

@@ -25,7 +25,8 @@
 //! (2015); Hintermüller, Ito & Kunisch, "The primal-dual active set strategy as a semismooth Newton
 //! method" (2002).
 
-use super::damped_motion::{damped_motion, dot, scaled};
+use super::damped_motion::{damped_motion, square};
+use crate::entry;
 use crate::law::pose_error;
 use crate::limits::{ConfigError, ConfigParameter, MotionLimits};
 use crate::reference::Reference;
@@ -194,76 +195,90 @@ impl<R: Real, const V: usize> TipMotion<R, V> {
     #[inline]
     pub fn step(&mut self, jacobian: &[Motion<R>; V], twist: &Motion<R>) -> TipStatus {
         let config = &self.config;
-        let per_length = R::ONE / config.length;
-        let (columns, v) = (jacobian.map(|c| scaled(c, per_length)), scaled(*twist, per_length));
-        let posture: [R; V] = core::array::from_fn(|j| {
-            let most = R::from_f64(0.25) * config.limits[j].velocity;
-            (config.posture_gain * (config.posture[j] - self.state.q[j])).clamped(-most, most)
-        });
-        let mut joints: [_; V] = core::array::from_fn(|j| (columns[j], posture[j]));
-        let mut rest = *twist;
-        for (j, held) in self.held.iter().enumerate() {
-            if let Some(wanted) = *held {
-                rest -= jacobian[j] * self.viable(j, wanted);
-                joints[j] = ([R::ZERO; 6], R::ZERO);
+        let (per_length, half) = (R::ONE / config.length, R::from_f64(0.5));
+        let (mut posture, mut near, mut free, mut rest) =
+            ([R::ZERO; V], [false; V], [true; V], *twist);
+        for j in 0..V {
+            let MotionLimits { velocity, acceleration: a } = config.limits[j];
+            let (q, quarter) = (self.state.q[j], R::from_f64(0.25) * velocity);
+            let wanted = config.posture_gain * (config.posture[j] - q);
+            posture[j] = wanted.clamped(-quarter, quarter);
+            // Farther away than any speed needs to stop, which saves (2).
+            let gap = (config.upper[j] - q)
+                .clamped(config.lower[j] - config.upper[j], q - config.lower[j]);
+            near[j] = velocity * (half * velocity + a * (config.tick + config.tick)) >= a * gap;
+            if let Some(wanted) = self.held[j] {
+                rest -= jacobian[j] * self.viable(near[j], j, wanted);
+                free[j] = false;
             }
         }
-        let square = dot(&v, &v) + R::MIN_POSITIVE;
-        let square = config.damping * square * square.rsqrt() + R::from_f64(LEAST);
-        let x = damped_motion(&joints, square, &scaled(rest, per_length));
-        let mut speeds: [R; V] = core::array::from_fn(|j| posture[j] + dot(&columns[j], &x));
+        let whole = square(*twist, per_length) + R::MIN_POSITIVE;
+        let damping = config.damping * root(whole) + R::from_f64(LEAST);
+        let x = damped_motion(jacobian, (&posture, &free), (damping, per_length), rest);
+        let mut speeds: [R; V] = core::array::from_fn(|j| posture[j] + jacobian[j].dot(x));
         if !all_finite(&speeds) {
-            self.advance(&[R::ZERO; V]);
+            self.advance(&near, &[R::ZERO; V]);
             return TipStatus::NotFinite;
         }
+        let (mut whole, mut sum) = (whole, R::MIN_POSITIVE);
+        for j in 0..V {
+            let d = if free[j] { speeds[j] } else { R::ZERO };
+            (whole, sum) = (whole + posture[j] * posture[j], sum + d * d);
+        }
+        let sigma = root(whole) * sum.rsqrt();
         let (mut share, mut status) = (R::ONE, TipStatus::Follows);
         for (joint, d) in speeds.iter().enumerate() {
-            let most = config.limits[joint].velocity;
-            if self.held[joint].is_none() & (d.abs() * share > most) {
-                (share, status) = (most / d.abs(), TipStatus::Slowed(joint));
+            let MotionLimits { velocity, acceleration } = config.limits[joint];
+            let most = (velocity * velocity).clamped(R::ZERO, acceleration * sigma);
+            if free[joint] & (*d * *d * share > most) {
+                (share, status) = (most / (*d * *d), TipStatus::Slowed(joint));
             }
         }
+        let share = root(share);
         for (joint, speed) in speeds.iter_mut().enumerate() {
             let most = self.config.limits[joint].velocity;
             let wanted = (*speed * share).clamped(-most, most);
-            *speed = self.viable(joint, wanted);
+            *speed = self.viable(near[joint], joint, wanted);
             self.held[joint] = (*speed != wanted).then_some(wanted);
             if self.held[joint].is_some() {
                 status = TipStatus::Limited(joint);
             }
         }
-        self.advance(&speeds);
+        self.advance(&near, &speeds);
         status
     }
 
     /// The speed of joint j, or the greatest one in its direction by (2).
     #[inline(always)]
-    fn viable(&self, j: usize, speed: R) -> R {
+    fn viable(&self, near: bool, j: usize, speed: R) -> R {
+        if near { self.braked(j, speed) } else { speed }
+    }
+
+    #[inline(never)]
+    fn braked(&self, j: usize, speed: R) -> R {
         let Self { config, state, .. } = self;
-        let (side, end) = match speed >= R::ZERO {
-            true => (R::ONE, config.upper[j]),
-            false => (-R::ONE, config.lower[j]),
-        };
-        let (half, h, a) = (R::from_f64(0.5), config.tick, config.limits[j].acceleration);
-        let margin = R::from_f64(ROUNDINGS) * R::EPSILON * state.q[j].abs();
-        let ahead = half * h * state.qd[j] + self.rest[j];
-        let e = ((end - state.q[j]) - ahead) * side - margin;
-        let (u, s) = (speed * side, a * h);
+        let (up, half, h) = (speed >= R::ZERO, R::from_f64(0.5), config.tick);
+        let end = entry(if up { &config.upper } else { &config.lower }, j);
+        let (q, qd, a) = (
+            entry(&state.q, j),
+            entry(&state.qd, j),
+            config.limits.get(j).map_or(R::ONE, |l| l.acceleration),
+        );
+        let margin = R::from_f64(ROUNDINGS) * R::EPSILON * q.abs();
+        let way = (end - q) - (half * h * qd + entry(&self.rest, j));
+        let (u, e, s) = (speed.abs(), if up { way } else { -way } - margin, a * h);
         if u * (half * u + s) <= a * e {
             return speed;
         }
-        if e > margin {
-            let square = s * s + (a + a) * e.clamped(R::ZERO, R::from_f64(FAR));
-            side * (square * square.rsqrt() - s).clamped(R::ZERO, u)
-        } else {
-            R::ZERO
-        }
+        let square = s * s + (a + a) * e.clamped(R::ZERO, R::from_f64(FAR));
+        let most = if e > margin { (root(square) - s).clamped(R::ZERO, u) } else { R::ZERO };
+        if up { most } else { -most }
     }
 
     /// Advances all joints towards these speeds, together and within their limits.
     #[inline(always)]
-    fn advance(&mut self, speeds: &[R; V]) {
-        let (h, half) = (self.config.tick, R::from_f64(0.5));
+    fn advance(&mut self, near: &[bool; V], speeds: &[R; V]) {
+        let (h, half, per_tick) = (self.config.tick, R::from_f64(0.5), R::ONE / self.config.tick);
         let mut share = R::ONE;
         for (j, speed) in speeds.iter().enumerate() {
             let change = (*speed - self.state.qd[j]).abs();
@@ -273,14 +288,20 @@ impl<R: Real, const V: usize> TipMotion<R, V> {
         for (j, speed) in speeds.iter().enumerate() {
             let MotionLimits { velocity, acceleration: a } = self.config.limits[j];
             let (q, old) = (self.state.q[j], self.state.qd[j]);
-            let new = self.viable(j, old + share * (*speed - old)).clamped(-velocity, velocity);
-            let new = new.clamped(old - a * h, old + a * h);
+            let new = self.viable(near[j], j, old + share * (*speed - old));
+            let new = new.clamped(-velocity, velocity).clamped(old - a * h, old + a * h);
             let way = half * h * (old + new) + self.rest[j];
             (self.state.q[j], self.state.qd[j]) = (q + way, new);
             self.rest[j] = way - (self.state.q[j] - q);
-            self.state.qdd[j] = ((new - old) / h).clamped(-a, a);
+            self.state.qdd[j] = ((new - old) * per_tick).clamped(-a, a);
         }
     }
+}
+
+/// √x of a positive normal number.
+#[inline(always)]
+fn root<R: Real>(x: R) -> R {
+    x * x.rsqrt()
 }
 
 impl<R: Real, const V: usize> Reference<R, V> for TipMotion<R, V> {

@@ -19,7 +19,11 @@
 //! u (u/2 + s) ≤ a e      u ≤ √(s² + 2 a e) − s                              (2)
 //! ```
 //!
-//! which the speed u − s of the next tick then fulfils too. Nakamura & Hanafusa, "Inverse kinematic
+//! which the speed u − s of the next tick then fulfils too.
+//!
+//! A joint that moves the tip by the singular value σ = |v|/|d| comes to the singular posture ahead
+//! when σ has fallen to zero, and should have stopped there: all speeds are scaled so that none is
+//! greater than √(a σ). Nakamura & Hanafusa, "Inverse kinematic
 //! solutions with singularity robustness for robot manipulator control" (1986); Flacco, De Luca &
 //! Khatib, "Control of redundant robots under hard joint constraints: saturation in the null space"
 //! (2015); Hintermüller, Ito & Kunisch, "The primal-dual active set strategy as a semismooth Newton
@@ -76,7 +80,8 @@ pub struct TipMotionConfig<R, const V: usize> {
 pub enum TipStatus {
     /// As the twist says, up to damping and while the joints accelerate.
     Follows,
-    /// Along the twist, but slower: the joint of this number is at its greatest speed.
+    /// Along the twist, but slower: the joint of this number is at its greatest speed, or at that
+    /// from which it can stop at a singular posture ahead.
     Slowed(usize),
     /// As near to the twist as the other joints can: the joint of this number, and those before it
     /// maybe, is at the end of its range or brakes before it.
@@ -98,7 +103,8 @@ pub enum TipStatus {
 ///   together, so that the tip keeps its direction.
 /// - A joint at the end of its range stays there, and the others move the tip as near to the twist
 ///   as they can; an arm of more than six joints goes on along the twist.
-/// - Near a singular posture, motions along directions that the tip loses fade out smoothly.
+/// - Near a singular posture the arm slows down, and motions along directions that the tip loses
+///   fade out.
 /// - The tip comes first: the posture uses what freedom is left.
 ///
 /// ```
@@ -187,8 +193,8 @@ impl<R: Real, const V: usize> TipMotion<R, V> {
     /// `jacobian` is that of the tip at [`Self::state`], in the frame of the twist.
     ///
     /// # Cost
-    /// `docs/costs.md` in the repository: one factorisation of 6 × 6, whatever the joints do; some
-    /// 50 cycles more for each joint that brakes before an end.
+    /// `docs/costs.md` in the repository: one factorisation of 6 × 6, whatever the joints do; more for
+    /// each joint that is near an end or held there.
     ///
     /// # Errors
     /// [`TipStatus::NotFinite`]: the joints brake within their limits.
@@ -328,7 +334,8 @@ impl<R: Real, const V: usize> Reference<R, V> for TipMotion<R, V> {
 pub struct TipGoal<R: Real> {
     /// The pose in the base's frame.
     pub pose: Pose<R>,
-    /// Speed per distance, 1/s: less than a quarter of 1/s per rad/s² over rad/s of the joints.
+    /// Speed per distance, 1/s: the joints decelerate by as many times their speed, so that 4 suits
+    /// 2 rad/s and 10 rad/s².
     pub gain: R,
     /// The greatest linear speed, m/s.
     pub linear: R,

@@ -33,6 +33,8 @@
 //! | [`FrozenEncoder`], [`ReferenceStep`], [`Saturation`] | faults that take several ticks to show | the last ticks |
 //! | [`ThermalLimit`] | torques that no winding overheats by, and how long one can be held | temperatures |
 //! | [`TickCounter`], [`Watchdog`] | missed ticks, overruns, and what feeds a watchdog | a count |
+//! | [`TipMotion`], [`TipGoal`] | a tip that follows a joystick or goes to a pose, within limits of the joints | the reference |
+//! | [`PoseSolver`] | positions of the joints for a pose of the tip | none |
 //! | [`Approach`] | the way from any pose to the start of a motion | none |
 //! | [`Circles`], [`OnCircles`] | which joints are points on a circle: the short way, at any number of turns | none |
 //! | [`BackOff`] | the return of an arm that is beyond its bounds | how far it has come back |
@@ -119,8 +121,8 @@ pub use limits::{
 pub use motion::{
     Approach, ApproachError, BackOff, BackOffConfig, ContactPhase, ContactReaction,
     ContactReactionConfig, ContactResponse, CurrentTick, MeasurementAge, MotionController,
-    MotionControllerConfig, ObservedTick, OnCircles, PreviousTick, ReferencedTick, ResetError,
-    hold,
+    MotionControllerConfig, ObservedTick, OnCircles, PoseSolution, PoseSolver, PoseSolverError,
+    PreviousTick, ReferencedTick, ResetError, TipGoal, TipMotion, TipMotionConfig, TipStatus, hold,
 };
 pub use reference::{
     GeometricPath, GoalError, JerkLimits, JointFriction, MovingGoal, PathLimits, PathPoint,

@@ -138,7 +138,7 @@ impl<R: Real, const V: usize> TipWrench<R, V> {
 
 /// The rows of Σ c cᵀ from the diagonal on, and of Σ c τ.
 #[inline(always)]
-fn add_rows<R: Real, const V: usize, const FROM: usize, const TO: usize>(
+pub(crate) fn add_rows<R: Real, const V: usize, const FROM: usize, const TO: usize>(
     scaled: &[([R; 6], R); V],
     a: &mut [[R; 6]; 6],
     b: &mut [R; 6],

@@ -118,6 +118,10 @@ pub enum ConfigParameter {
     ThermalTorque,
     /// A thermal time constant, a share of resistance or a temperature of a motor.
     ThermalMotor,
+    /// The damping, the length, the posture or its gain of a tip's motion.
+    TipMotion,
+    /// The range of a joint, its position in it, or its greatest speed or acceleration.
+    JointRange,
 }
 
 impl ConfigParameter {
@@ -227,6 +231,12 @@ impl fmt::Display for ConfigError {
             }
             ConfigParameter::ThermalMotor => {
                 "a thermal time, share or temperature of a motor is outside its range"
+            }
+            ConfigParameter::TipMotion => {
+                "a damping or length is not a positive number, or a posture or its gain not finite"
+            }
+            ConfigParameter::JointRange => {
+                "a range of a joint is empty, a position not finite, or a limit not positive"
             }
         })
     }

@@ -1,0 +1,365 @@
+//! A tip that is moved by twists: damped differential inverse kinematics within the joints' limits.
+//!
+//! In each tick the joint speeds solve (1), where d are the speeds of least squares, p those
+//! towards a posture, and clamp limits a joint to speeds from which it can still stop before the
+//! end of its range:
+//!
+//! ```text
+//! q̇ = clamp(d)      d = p + Jᵀ x      J clamp(p + Jᵀ x) + λ² x = v          (1)
+//! ```
+//!
+//! This is one step of Newton's method in each tick, from the set of clamped joints of the tick
+//! before: these joints are held at their limits, and x is solved for the others. x are multipliers
+//! of the task, so that a held joint becomes free when its d leads away from the end.
+//!
+//! With the step s = a h of the speed in a tick h, a speed u towards an end at the distance e,
+//! measured from where the joint is in the middle of the tick, can be stopped in whole ticks if
+//!
+//! ```text
+//! u (u/2 + s) ≤ a e      u ≤ √(s² + 2 a e) − s                              (2)
+//! ```
+//!
+//! which the speed u − s of the next tick then fulfils too.
+//!
+//! A joint that moves the tip by the singular value σ = |v|/|d| comes to the singular posture ahead
+//! when σ has fallen to zero, and should have stopped there: all speeds are scaled so that none is
+//! greater than √(a σ). Nakamura & Hanafusa, "Inverse kinematic
+//! solutions with singularity robustness for robot manipulator control" (1986); Flacco, De Luca &
+//! Khatib, "Control of redundant robots under hard joint constraints: saturation in the null space"
+//! (2015); Hintermüller, Ito & Kunisch, "The primal-dual active set strategy as a semismooth Newton
+//! method" (2002).
+
+use super::damped_motion::{damped_motion, square};
+use crate::entry;
+use crate::law::pose_error;
+use crate::limits::{ConfigError, ConfigParameter, MotionLimits};
+use crate::reference::Reference;
+use dynamics_core::algorithms::frame::Pose;
+use dynamics_core::scalar::{Real, Vector};
+use dynamics_core::spatial::Motion;
+use dynamics_core::state::{State, all_finite};
+
+#[cfg(test)]
+mod tests;
+
+/// Roundings of a position that the ends of a range are kept away from.
+const ROUNDINGS: f64 = 4.0;
+/// The least λ².
+const LEAST: f64 = 1e-3;
+/// The distance from which on the end of a range is no limit, rad or m.
+const FAR: f64 = 1e6;
+
+/// The limits of a [`TipMotion`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TipMotionConfig<R, const V: usize> {
+    /// The length of a tick, s.
+    pub tick: R,
+    /// The least position of each joint, rad or m; −∞ for none.
+    pub lower: [R; V],
+    /// The greatest position of each joint, rad or m; ∞ for none.
+    pub upper: [R; V],
+    /// The greatest speed, which may be infinite, and the greatest acceleration of each joint.
+    pub limits: [MotionLimits<R>; V],
+    /// T, s, of the damping λ² = T |(ω, v/ℓ)| + 10⁻³: in a direction of the singular value σ the tip
+    /// moves by the share σ²/(σ² + λ²). The tip comes to the end of its reach in a time of about T;
+    /// 0.01 s suits arms.
+    pub damping: R,
+    /// ℓ, the length at which a displacement counts as much as a rotation, m: a third of the reach.
+    pub length: R,
+    /// The posture towards which the joints move as far as the tip's motion leaves them free, rad
+    /// or m; only arms of more than six joints have such a freedom.
+    pub posture: [R; V],
+    /// Speed towards the posture per distance, 1/s; 0 for no posture.
+    pub posture_gain: R,
+}
+
+/// How a tip moves in a tick of a [`TipMotion`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
+pub enum TipStatus {
+    /// As the twist says, up to damping and while the joints accelerate.
+    Follows,
+    /// Along the twist, but slower: the joint of this number is at its greatest speed, or at that
+    /// from which it can stop at a singular posture ahead.
+    Slowed(usize),
+    /// As near to the twist as the other joints can: the joint of this number, and those before it
+    /// maybe, is at the end of its range or brakes before it.
+    Limited(usize),
+    /// It comes to rest: a number of the twist or of the Jacobian is not finite.
+    NotFinite,
+}
+
+/// The reference of an arm whose tip is moved by a twist that is new in each tick: a joystick, or
+/// [`TipGoal`].
+///
+/// [`Self::step`] takes the Jacobian of the tip at the reference [`Self::state`] and advances it;
+/// as a [`Reference`] it has this state in every tick. No joint ever exceeds its range, speed or
+/// acceleration, and each can always stop before the end of its range. A reference that begins
+/// beyond one of them, see [`Self::restart`], comes back at the greatest acceleration; beyond the
+/// end of a range it stops, and moves inwards only.
+///
+/// - A joint at its greatest speed slows the whole arm, and joints that have to accelerate do so
+///   together, so that the tip keeps its direction.
+/// - A joint at the end of its range stays there, and the others move the tip as near to the twist
+///   as they can; an arm of more than six joints goes on along the twist.
+/// - Near a singular posture the arm slows down, and motions along directions that the tip loses
+///   fade out.
+/// - The tip comes first: the posture uses what freedom is left.
+///
+/// ```
+/// use motion_control::{MotionLimits, Reference, TipMotion, TipMotionConfig, TipStatus};
+/// use dynamics_core::{Engine, algorithms::frame::LocalWorldAligned, robots::Ur5e, spatial::Motion};
+/// use dynamics_core::{glam::Vec3, model::{OnBody, Robot}};
+/// const TIP: OnBody<{ Ur5e::MODEL.body("wrist_3") }> = OnBody;
+/// let mut tip = TipMotion::try_new(TipMotionConfig {
+///     tick: 1e-3_f32, lower: [-6.2; 6], upper: [6.2; 6],
+///     limits: [MotionLimits { velocity: 3.0, acceleration: 10.0 }; 6],
+///     damping: 0.01, length: 0.3, posture: [0.0; 6], posture_gain: 0.0,
+/// }, &[0.0, -1.2, 1.5, 0.3, 0.7, 0.0])?;
+/// let height = |tip: &TipMotion<f32, 6>| Engine::<Ur5e>::poses_of(&tip.at(0).q, TIP)[0].pos.z;
+/// let (before, up) = (height(&tip), Motion::new(Vec3::ZERO, Vec3::Z * 0.1)); // m/s
+/// for _ in 0..1000 {
+///     let jacobian = Engine::<Ur5e>::jacobian(&tip.state().q, TIP, LocalWorldAligned);
+///     assert_eq!(tip.step(&jacobian, &up), TipStatus::Follows);
+/// }
+/// assert!((height(&tip) - before - 0.1).abs() < 2e-3); // m
+/// # Ok::<(), motion_control::ConfigError>(())
+/// ```
+#[doc(alias = "inverse kinematics")]
+#[doc(alias = "servo")]
+#[doc(alias = "jog")]
+#[doc(alias = "teleoperation")]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TipMotion<R, const V: usize> {
+    config: TipMotionConfig<R, V>,
+    state: State<R, V, V>,
+    /// What rounding has left of the positions.
+    rest: [R; V],
+    /// The d of joints that are held at a limit.
+    held: [Option<R>; V],
+}
+
+impl<R: Real, const V: usize> TipMotion<R, V> {
+    /// The reference that rests at q, rad or m.
+    ///
+    /// # Errors
+    /// [`ConfigError::OutOfRange`] names a number that is beyond its range.
+    pub fn try_new(config: TipMotionConfig<R, V>, q: &[R; V]) -> Result<Self, ConfigError> {
+        let [tip, range] = [ConfigParameter::TipMotion, ConfigParameter::JointRange];
+        [config.tick, config.damping, config.length].iter().try_for_each(|x| tip.positive(*x))?;
+        let (gain, posture) = (config.posture_gain, all_finite(&config.posture));
+        tip.require(posture & gain.is_finite() & (gain >= R::ZERO))?;
+        for (j, limits) in config.limits.iter().enumerate() {
+            let some = (config.lower[j] <= config.upper[j]) & (limits.velocity > R::ZERO);
+            range.require(some & q[j].is_finite())?;
+            range.positive(limits.acceleration)?;
+        }
+        Ok(Self { config, state: State::at(*q), rest: [R::ZERO; V], held: [None; V] })
+    }
+
+    /// The state of the reference in this tick: where the next [`Self::step`] needs the Jacobian.
+    #[inline(always)]
+    pub fn state(&self) -> &State<R, V, V> {
+        &self.state
+    }
+
+    /// Begins again from a state, that of the arm, after a fault or another motion. A state that is
+    /// not finite is not taken, and the answer is false.
+    ///
+    /// ```
+    /// # use motion_control::{MotionLimits, TipMotion, TipMotionConfig};
+    /// use dynamics_core::state::State;
+    /// # let mut tip = TipMotion::try_new(TipMotionConfig {
+    /// #     tick: 1e-3_f32, lower: [-1.0], upper: [1.0],
+    /// #     limits: [MotionLimits { velocity: 3.0, acceleration: 10.0 }],
+    /// #     damping: 0.01, length: 0.3, posture: [0.0], posture_gain: 0.0,
+    /// # }, &[0.0])?;
+    /// assert!(tip.restart(&State { q: [0.5], qd: [0.1], qdd: [0.0] }));
+    /// assert!(!tip.restart(&State::at([f32::NAN])));
+    /// assert_eq!(tip.state().q, [0.5]);
+    /// # Ok::<(), motion_control::ConfigError>(())
+    /// ```
+    #[must_use = "a state that is not finite is not taken"]
+    pub fn restart(&mut self, state: &State<R, V, V>) -> bool {
+        let finite = state.is_finite();
+        if finite {
+            (self.state, self.rest, self.held) = (*state, [R::ZERO; V], [None; V]);
+        }
+        finite
+    }
+
+    /// Advances the reference by a tick, in which the tip moves by `twist`, rad/s and m/s;
+    /// `jacobian` is that of the tip at [`Self::state`], in the frame of the twist.
+    ///
+    /// # Cost
+    /// `docs/costs.md` in the repository: one factorisation of 6 × 6, whatever the joints do; more for
+    /// each joint that is near an end or held there.
+    ///
+    /// # Errors
+    /// [`TipStatus::NotFinite`]: the joints brake within their limits.
+    #[inline]
+    pub fn step(&mut self, jacobian: &[Motion<R>; V], twist: &Motion<R>) -> TipStatus {
+        let config = &self.config;
+        let (per_length, half) = (R::ONE / config.length, R::from_f64(0.5));
+        let (mut posture, mut near, mut free, mut rest) =
+            ([R::ZERO; V], [false; V], [true; V], *twist);
+        for j in 0..V {
+            let MotionLimits { velocity, acceleration: a } = config.limits[j];
+            let (q, quarter) = (self.state.q[j], R::from_f64(0.25) * velocity);
+            let wanted = config.posture_gain * (config.posture[j] - q);
+            posture[j] = wanted.clamped(-quarter, quarter);
+            // Farther away than any speed needs to stop, which saves (2).
+            let gap = (config.upper[j] - q)
+                .clamped(config.lower[j] - config.upper[j], q - config.lower[j]);
+            near[j] = velocity * (half * velocity + a * (config.tick + config.tick)) >= a * gap;
+            if let Some(wanted) = self.held[j] {
+                rest -= jacobian[j] * self.viable(near[j], j, wanted);
+                free[j] = false;
+            }
+        }
+        let whole = square(*twist, per_length) + R::MIN_POSITIVE;
+        let damping = config.damping * root(whole) + R::from_f64(LEAST);
+        let x = damped_motion(jacobian, (&posture, &free), (damping, per_length), rest);
+        let mut speeds: [R; V] = core::array::from_fn(|j| posture[j] + jacobian[j].dot(x));
+        if !all_finite(&speeds) {
+            self.advance(&near, &[R::ZERO; V]);
+            return TipStatus::NotFinite;
+        }
+        let (mut whole, mut sum) = (whole, R::MIN_POSITIVE);
+        for j in 0..V {
+            let d = if free[j] { speeds[j] } else { R::ZERO };
+            (whole, sum) = (whole + posture[j] * posture[j], sum + d * d);
+        }
+        let sigma = root(whole) * sum.rsqrt();
+        let (mut share, mut status) = (R::ONE, TipStatus::Follows);
+        for (joint, d) in speeds.iter().enumerate() {
+            let MotionLimits { velocity, acceleration } = config.limits[joint];
+            let most = (velocity * velocity).clamped(R::ZERO, acceleration * sigma);
+            if free[joint] & (*d * *d * share > most) {
+                (share, status) = (most / (*d * *d), TipStatus::Slowed(joint));
+            }
+        }
+        let share = root(share);
+        for (joint, speed) in speeds.iter_mut().enumerate() {
+            let most = self.config.limits[joint].velocity;
+            let wanted = (*speed * share).clamped(-most, most);
+            *speed = self.viable(near[joint], joint, wanted);
+            self.held[joint] = (*speed != wanted).then_some(wanted);
+            if self.held[joint].is_some() {
+                status = TipStatus::Limited(joint);
+            }
+        }
+        self.advance(&near, &speeds);
+        status
+    }
+
+    /// The speed of joint j, or the greatest one in its direction by (2).
+    #[inline(always)]
+    fn viable(&self, near: bool, j: usize, speed: R) -> R {
+        if near { self.braked(j, speed) } else { speed }
+    }
+
+    #[inline(never)]
+    fn braked(&self, j: usize, speed: R) -> R {
+        let Self { config, state, .. } = self;
+        let (up, half, h) = (speed >= R::ZERO, R::from_f64(0.5), config.tick);
+        let end = entry(if up { &config.upper } else { &config.lower }, j);
+        let (q, qd, a) = (
+            entry(&state.q, j),
+            entry(&state.qd, j),
+            config.limits.get(j).map_or(R::ONE, |l| l.acceleration),
+        );
+        let margin = R::from_f64(ROUNDINGS) * R::EPSILON * q.abs();
+        let way = (end - q) - (half * h * qd + entry(&self.rest, j));
+        let (u, e, s) = (speed.abs(), if up { way } else { -way } - margin, a * h);
+        if u * (half * u + s) <= a * e {
+            return speed;
+        }
+        let square = s * s + (a + a) * e.clamped(R::ZERO, R::from_f64(FAR));
+        let most = if e > margin { (root(square) - s).clamped(R::ZERO, u) } else { R::ZERO };
+        if up { most } else { -most }
+    }
+
+    /// Advances all joints towards these speeds, together and within their limits.
+    #[inline(always)]
+    fn advance(&mut self, near: &[bool; V], speeds: &[R; V]) {
+        let (h, half, per_tick) = (self.config.tick, R::from_f64(0.5), R::ONE / self.config.tick);
+        let mut share = R::ONE;
+        for (j, speed) in speeds.iter().enumerate() {
+            let change = (*speed - self.state.qd[j]).abs();
+            let step = self.config.limits[j].acceleration * h;
+            share = if change * share > step { step / change } else { share };
+        }
+        for (j, speed) in speeds.iter().enumerate() {
+            let MotionLimits { velocity, acceleration: a } = self.config.limits[j];
+            let (q, old) = (self.state.q[j], self.state.qd[j]);
+            let new = self.viable(near[j], j, old + share * (*speed - old));
+            let new = new.clamped(-velocity, velocity).clamped(old - a * h, old + a * h);
+            let way = half * h * (old + new) + self.rest[j];
+            (self.state.q[j], self.state.qd[j]) = (q + way, new);
+            self.rest[j] = way - (self.state.q[j] - q);
+            self.state.qdd[j] = ((new - old) * per_tick).clamped(-a, a);
+        }
+    }
+}
+
+/// √x of a positive normal number.
+#[inline(always)]
+fn root<R: Real>(x: R) -> R {
+    x * x.rsqrt()
+}
+
+impl<R: Real, const V: usize> Reference<R, V> for TipMotion<R, V> {
+    #[inline(always)]
+    fn at(&self, _: u32) -> State<R, V, V> {
+        self.state
+    }
+
+    fn ticks(&self) -> u32 {
+        0
+    }
+}
+
+/// A pose that a tip moves to, as a twist for [`TipMotion::step`].
+///
+/// ```
+/// use motion_control::TipGoal;
+/// use dynamics_core::{algorithms::frame::Pose, glam::DVec3};
+/// let pose = Pose { pos: DVec3::X, ..Pose::<f64>::IDENTITY };
+/// let goal = TipGoal { pose, gain: 4.0, linear: 0.25, angular: 1.0 };
+/// assert_eq!(goal.twist(&Pose::IDENTITY).lin, DVec3::X * 0.25); // 4/s · 1 m, limited to 0.25 m/s
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TipGoal<R: Real> {
+    /// The pose in the base's frame.
+    pub pose: Pose<R>,
+    /// Speed per distance, 1/s: the joints decelerate by as many times their speed, so that 4 suits
+    /// 2 rad/s and 10 rad/s².
+    pub gain: R,
+    /// The greatest linear speed, m/s.
+    pub linear: R,
+    /// The greatest angular speed, rad/s.
+    pub angular: R,
+}
+
+impl<R: Real> TipGoal<R> {
+    /// The twist of a tip at `pose` towards the goal, rad/s and m/s, in the base's axes: straight
+    /// on and about one axis, both at once.
+    ///
+    /// # Cost
+    /// Some 100 flops; the same instructions for all data but for the slower of two branches.
+    #[inline]
+    #[must_use]
+    pub fn twist(&self, pose: &Pose<R>) -> Motion<R> {
+        let twist = pose_error(pose, &self.pose) * self.gain;
+        let mut share = R::ONE;
+        for (part, most) in [(twist.ang, self.angular), (twist.lin, self.linear)] {
+            let square = part.dot(part);
+            if square * share * share > most * most {
+                share = most * square.rsqrt();
+            }
+        }
+        twist * share
+    }
+}

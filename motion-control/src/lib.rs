@@ -6,6 +6,7 @@
 //! | [`MotionController`] | a control loop without its law and devices: all of the following items with memory | the state of a loop |
 //! | [`Trajectory`] | quintics through way-points, checked against speed and acceleration limits | none |
 //! | [`RestToRest`] | from stop to stop with four derivatives, for compliant joints | none |
+//! | [`MovingGoal`] | a goal that may change at any tick, with limits of velocity, acceleration and jerk | the motion |
 //! | [`Reference`] | the reference of a controller: a trajectory, or a user's own motion | |
 //! | [`Observer`] | velocity from positions | estimate |
 //! | [`ContactDetector`] | external torques beyond thresholds that follow the stated errors of the model | as the observer, thresholds |

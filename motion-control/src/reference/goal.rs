@@ -48,7 +48,7 @@ pub struct JerkLimits<R> {
 /// // On the way the goal moves back; the joint turns with all of its limits kept.
 /// let before = goal.at(400);
 /// goal.set(400, &[0.2])?;
-/// assert_eq!(goal.at(400), before);
+/// assert_eq!(goal.at(400).q, before.q);
 /// let end = goal.at(goal.ticks());
 /// assert_eq!((end.q, end.qd, end.qdd), ([0.2], [0.0], [0.0]));
 /// # Ok::<(), Box<dyn core::error::Error>>(())

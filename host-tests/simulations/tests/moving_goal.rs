@@ -3,9 +3,14 @@
 use std::fs::File;
 use std::io::{BufWriter, Write};
 
+use dynamics_core::Core;
+use dynamics_core::effects::{Armature, RIGID_BODY};
+use dynamics_core::robots::Ur5e;
 use dynamics_core::state::State;
 use host_tests::recordings;
-use motion_control::{JerkLimits, MovingGoal, Reference};
+use motion_control::{
+    JerkLimits, JointFriction, MotionLimits, MovingGoal, PathLimits, Reference, TimedPath,
+};
 use serde::Deserialize;
 
 use crate::common::Rng;
@@ -168,4 +173,35 @@ fn a_hundred_thousand_goals_exceed_no_limit() {
     }
     assert!(seen.apart < 2e-6, "{seen:?}");
     assert!(seen.joints > 300_000 && seen.early < seen.joints / 1000, "{seen:?}");
+}
+
+/// The same way within limits of torque takes longer, and its torques are within them.
+#[test]
+fn the_way_of_a_goal_has_a_time_within_limits_of_torque() {
+    let limits = [JerkLimits { velocity: 3.0, acceleration: 20.0, jerk: 400.0 }; 6];
+    let start = [0.0, -1.57, 1.57, -1.57, -1.57, 0.0];
+    let mut goal = MovingGoal::try_new(&start, limits, 1e-3).unwrap();
+    goal.set(0, &[1.5, -0.8, 1.2, -1.2, -1.57, 0.3]).unwrap();
+    let effects = (RIGID_BODY, Armature([0.9, 0.9, 0.9, 0.25, 0.25, 0.25]));
+    let torques = |state: &State<f64, 6, 6>| Core::<Ur5e>::rnea(state, &effects);
+    let torque = [60.0, 100.0, 60.0, 15.0, 15.0, 15.0];
+    let most = |motion: &dyn Fn(u32) -> State<f64, 6, 6>, ticks: u32| {
+        let shares = (0..=ticks).map(|tick| {
+            let tau = torques(&motion(tick));
+            (0..6).map(|j| tau[j].abs() / torque[j]).fold(0.0, f64::max)
+        });
+        shares.fold(0.0, f64::max)
+    };
+    let path = PathLimits {
+        torque,
+        motion: [MotionLimits { velocity: 3.0, acceleration: 20.0 }; 6],
+        friction: [JointFriction::NONE; 6],
+    };
+    let timed = TimedPath::<_, _, 801>::new(&goal, 1e-3, &path, torques).unwrap();
+    let fast = most(&|tick| goal.at(tick), Reference::<f64, 6>::ticks(&goal));
+    let slow = most(&|tick| timed.at(tick), Reference::<f64, 6>::ticks(&timed));
+    // Between the points of the grid the limits are exceeded by what the coefficients curve.
+    assert!(fast > 1.15 && slow < 1.01, "{fast} {slow}");
+    assert!(timed.seconds() < 2.0 * goal.seconds(), "{} {}", timed.seconds(), goal.seconds());
+    assert_eq!(timed.at(u32::MAX).q, goal.at(u32::MAX).q);
 }

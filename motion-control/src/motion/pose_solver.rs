@@ -9,12 +9,11 @@
 //! is the sum over the joints that are not at an end of their range, or whose Jᵀ x of the iteration
 //! before leads away from it. The damping by the error itself, Sugihara, "Solvability-unconcerned
 //! inverse kinematics by the Levenberg-Marquardt method" (2011), makes an iteration converge from
-//! far and at singular postures without a search along its direction. A start is given up when two
-//! iterations in a row leave more than 7/10 of |e|².
+//! far and at singular postures without a search along its direction. A start is given up after
+//! three iterations that leave more than 7/10 of |e|².
 //!
-//! Starts are points of the sequence of Roberts, "The unreasonable effectiveness of quasirandom
-//! sequences" (2018): the fractions of n/φ, n/φ², … with φ^(V+1) = φ + 1, which fill the ranges of
-//! V joints evenly after any number of starts.
+//! Start n has the fractions n g, n g m, n g m², … of the ranges, a sequence of Korobov (1959) with
+//! the golden ratio g and the multiplier m of a congruential generator, in integers.
 
 use super::damped_motion::{damped_motion, square};
 use crate::law::pose_error;

@@ -184,10 +184,11 @@ fn a_ur5e_goes_through_its_singular_postures() {
     let out = Motion::new(Vec3::ZERO, Vec3::NEG_X * 0.25);
     let (share, fastest) = through([0.0, -0.4, 0.8, -0.4, -1.57, 0.0], &out, 4000);
     assert!(share > 0.0 && share < 0.25 && fastest < 2.8, "{share} {fastest}");
-    // The shoulder: the wrist's centre passes the first axis.
+    // The shoulder: the wrist's centre comes to the cylinder around the first axis that it cannot
+    // enter, where a little aside decides which way the arm turns.
     let across = Motion::new(Vec3::ZERO, Vec3::X * 0.25);
-    let (share, _) = through([0.0, -1.2, 2.2, -1.0, -1.57, 0.0], &across, 4000);
-    assert!(share > 0.7, "{share}");
+    let (_, fastest) = through([0.0, -1.2, 2.2, -1.0, -1.57, 0.0], &across, 5000);
+    assert!(0.5 < fastest && fastest < 3.15, "{fastest}");
 }
 
 #[test]

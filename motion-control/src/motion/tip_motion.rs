@@ -138,6 +138,8 @@ pub struct TipMotion<R, const V: usize> {
     rest: [R; V],
     /// The d of joints that are held at a limit.
     held: [Option<R>; V],
+    /// The distances from an end from which on no speed is limited by (2).
+    far: [R; V],
 }
 
 impl<R: Real, const V: usize> TipMotion<R, V> {
@@ -145,7 +147,7 @@ impl<R: Real, const V: usize> TipMotion<R, V> {
     ///
     /// # Errors
     /// [`ConfigError::OutOfRange`] names a number that is beyond its range.
-    pub fn try_new(config: TipMotionConfig<R, V>, q: &[R; V]) -> Result<Self, ConfigError> {
+    pub fn try_new(mut config: TipMotionConfig<R, V>, q: &[R; V]) -> Result<Self, ConfigError> {
         let [tip, range] = [ConfigParameter::TipMotion, ConfigParameter::JointRange];
         [config.tick, config.damping, config.length].iter().try_for_each(|x| tip.positive(*x))?;
         let (gain, posture) = (config.posture_gain, all_finite(&config.posture));
@@ -155,7 +157,14 @@ impl<R: Real, const V: usize> TipMotion<R, V> {
             range.require(some & q[j].is_finite())?;
             range.positive(limits.acceleration)?;
         }
-        Ok(Self { config, state: State::at(*q), rest: [R::ZERO; V], held: [None; V] })
+        // Of the greatest speeds, what rounding may add to them.
+        let less = R::ONE - R::from_f64(ROUNDINGS) * R::EPSILON;
+        config.limits.iter_mut().for_each(|limits| limits.velocity *= less);
+        let far = config.limits.map(|MotionLimits { velocity, acceleration: a }| {
+            velocity * (velocity / (a + a) + config.tick + config.tick)
+        });
+        let (state, rest, held) = (State::at(*q), [R::ZERO; V], [None; V]);
+        Ok(Self { config, state, rest, held, far })
     }
 
     /// The state of the reference in this tick: where the next [`Self::step`] needs the Jacobian.
@@ -200,21 +209,20 @@ impl<R: Real, const V: usize> TipMotion<R, V> {
     /// [`TipStatus::NotFinite`]: the joints brake within their limits.
     #[inline]
     pub fn step(&mut self, jacobian: &[Motion<R>; V], twist: &Motion<R>) -> TipStatus {
-        let config = &self.config;
-        let (per_length, half) = (R::ONE / config.length, R::from_f64(0.5));
-        let (mut posture, mut near, mut free, mut rest) =
-            ([R::ZERO; V], [false; V], [true; V], *twist);
+        let (config, per_length) = (&self.config, R::ONE / self.config.length);
+        let (mut posture, mut near, mut free) = ([R::ZERO; V], [false; V], [true; V]);
+        let mut rest = *twist;
         for j in 0..V {
-            let MotionLimits { velocity, acceleration: a } = config.limits[j];
-            let (q, quarter) = (self.state.q[j], R::from_f64(0.25) * velocity);
-            let wanted = config.posture_gain * (config.posture[j] - q);
-            posture[j] = wanted.clamped(-quarter, quarter);
-            // Farther away than any speed needs to stop, which saves (2).
-            let gap = (config.upper[j] - q)
-                .clamped(config.lower[j] - config.upper[j], q - config.lower[j]);
-            near[j] = velocity * (half * velocity + a * (config.tick + config.tick)) >= a * gap;
+            let q = self.state.q[j];
+            if config.posture_gain > R::ZERO {
+                let quarter = R::from_f64(0.25) * config.limits[j].velocity;
+                let wanted = config.posture_gain * (config.posture[j] - q);
+                posture[j] = wanted.clamped(-quarter, quarter);
+            }
+            let (above, below) = (config.upper[j] - q, q - config.lower[j]);
+            near[j] = (above < self.far[j]) | (below < self.far[j]);
             if let Some(wanted) = self.held[j] {
-                rest -= jacobian[j] * self.viable(near[j], j, wanted);
+                rest -= jacobian[j] * self.viable(j, wanted);
                 free[j] = false;
             }
         }
@@ -235,19 +243,22 @@ impl<R: Real, const V: usize> TipMotion<R, V> {
         let (mut share, mut status) = (R::ONE, TipStatus::Follows);
         for (joint, d) in speeds.iter().enumerate() {
             let MotionLimits { velocity, acceleration } = config.limits[joint];
-            let most = (velocity * velocity).clamped(R::ZERO, acceleration * sigma);
+            let (square, most) = (velocity * velocity, acceleration * sigma);
+            let most = if square < most { square } else { most };
             if free[joint] & (*d * *d * share > most) {
                 (share, status) = (most / (*d * *d), TipStatus::Slowed(joint));
             }
         }
         let share = root(share);
         for (joint, speed) in speeds.iter_mut().enumerate() {
-            let most = self.config.limits[joint].velocity;
-            let wanted = (*speed * share).clamped(-most, most);
-            *speed = self.viable(near[joint], joint, wanted);
-            self.held[joint] = (*speed != wanted).then_some(wanted);
-            if self.held[joint].is_some() {
-                status = TipStatus::Limited(joint);
+            (*speed, self.held[joint]) = (*speed * share, None);
+            if near[joint] {
+                let most = self.config.limits[joint].velocity;
+                let wanted = speed.clamped(-most, most);
+                *speed = self.viable(joint, wanted);
+                if *speed != wanted {
+                    (self.held[joint], status) = (Some(wanted), TipStatus::Limited(joint));
+                }
             }
         }
         self.advance(&near, &speeds);
@@ -255,13 +266,8 @@ impl<R: Real, const V: usize> TipMotion<R, V> {
     }
 
     /// The speed of joint j, or the greatest one in its direction by (2).
-    #[inline(always)]
-    fn viable(&self, near: bool, j: usize, speed: R) -> R {
-        if near { self.braked(j, speed) } else { speed }
-    }
-
     #[inline(never)]
-    fn braked(&self, j: usize, speed: R) -> R {
+    fn viable(&self, j: usize, speed: R) -> R {
         let Self { config, state, .. } = self;
         let (up, half, h) = (speed >= R::ZERO, R::from_f64(0.5), config.tick);
         let end = entry(if up { &config.upper } else { &config.lower }, j);
@@ -294,8 +300,11 @@ impl<R: Real, const V: usize> TipMotion<R, V> {
         for (j, speed) in speeds.iter().enumerate() {
             let MotionLimits { velocity, acceleration: a } = self.config.limits[j];
             let (q, old) = (self.state.q[j], self.state.qd[j]);
-            let new = self.viable(near[j], j, old + share * (*speed - old));
-            let new = new.clamped(-velocity, velocity).clamped(old - a * h, old + a * h);
+            let mut new = old + share * (*speed - old);
+            if near[j] {
+                new = self.viable(j, new).clamped(-velocity, velocity);
+                new = new.clamped(old - a * h, old + a * h);
+            }
             let way = half * h * (old + new) + self.rest[j];
             (self.state.q[j], self.state.qd[j]) = (q + way, new);
             self.rest[j] = way - (self.state.q[j] - q);

@@ -36,10 +36,10 @@ fn run() -> ! {
         upper: [2.9; 7],
         length: 0.3,
         tolerance: 0.0,
-        iterations: 170,
+        iterations: 130,
     };
     let run = solve;
-    Row::of::<Panda, 7, 7>("pose_solver", "engine", "170_iterations", true).measure(
+    Row::of::<Panda, 7, 7>("pose_solver", "engine", "130_iterations", true).measure(
         run as *const () as usize,
         &asks::<Panda, 7, 7, STATES>(),
         |ask| run(&solver, ask),

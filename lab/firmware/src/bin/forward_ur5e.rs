@@ -9,14 +9,22 @@ use costs::{Ask, STATES, asks};
 use dynamics_core::Engine;
 use dynamics_core::algorithms::frame::LocalWorldAligned;
 use dynamics_core::model::OnBody;
+use dynamics_core::spatial::Motion;
 use motion_control::{ConfigError, MotionLimits, TipGoal, TipMotion, TipMotionConfig, TipStatus};
 use robots::Ur5e;
 
 const TIP: usize = 5;
 
-/// All of a tick of the tip's motion: pose, Jacobian, the twist towards a goal, and the step.
+/// All of a tick of the tip's motion by a joystick: Jacobian and step.
 #[inline(never)]
-fn tip_motion(tip: &mut TipMotion<f32, 6>, goal: &TipGoal<f32>) -> TipStatus {
+fn by_twist(tip: &mut TipMotion<f32, 6>, goal: &TipGoal<f32>) -> TipStatus {
+    let columns = Engine::<Ur5e>::jacobian(&tip.state().q, OnBody::<TIP>, LocalWorldAligned);
+    tip.step(&columns, &Motion::new(goal.pose.pos, goal.pose.rot.x_axis))
+}
+
+/// All of a tick towards a pose: pose, Jacobian, the twist, and the step.
+#[inline(never)]
+fn to_goal(tip: &mut TipMotion<f32, 6>, goal: &TipGoal<f32>) -> TipStatus {
     let trig = Engine::<Ur5e>::joint_trig(&tip.state().q);
     let [pose] = Engine::<Ur5e>::poses_of(&trig, OnBody::<TIP>);
     let columns = Engine::<Ur5e>::jacobian(&trig, OnBody::<TIP>, LocalWorldAligned);
@@ -30,7 +38,10 @@ fn tips(asks: &[Ask<6>; STATES]) -> Result<(), ConfigError> {
         TipGoal { pose, gain: 4.0, linear: 0.5, angular: 1.0 }
     });
     let start = [0.0, -1.2, 1.5, 0.3, 0.7, 0.0];
-    for (inputs, range) in [("full", 6.2), ("limited", 0.002)] {
+    type Tick = fn(&mut TipMotion<f32, 6>, &TipGoal<f32>) -> TipStatus;
+    for (inputs, range, run) in
+        [("twist", 6.2, by_twist as Tick), ("goal", 6.2, to_goal), ("limited", 0.002, to_goal)]
+    {
         let mut tip = TipMotion::try_new(
             TipMotionConfig {
                 tick: 1e-3,
@@ -40,16 +51,15 @@ fn tips(asks: &[Ask<6>; STATES]) -> Result<(), ConfigError> {
                 damping: 0.01,
                 length: 0.3,
                 posture: start,
-                posture_gain: 1.0,
+                posture_gain: 0.0,
             },
             &start,
         )?;
         for _ in 0..100 {
-            tip_motion(&mut tip, &goals[0]);
+            run(&mut tip, &goals[0]);
         }
-        let run = tip_motion;
         Row::of::<Ur5e, 6, 6>("tip_motion", "engine", inputs, true).measure(
-            run as *const () as usize,
+            run as usize,
             &goals,
             |goal| run(&mut tip, goal),
         );

@@ -274,7 +274,7 @@ impl<R: Real, const V: usize> ThermalLimit<R, V> {
     pub fn state(&self) -> ThermalState<R, V> {
         let mut winding = self.joints.map(|joint| joint.winding.sum);
         for ((w, joint), &energy) in winding.iter_mut().zip(&self.joints).zip(&self.energy) {
-            *w += joint.heat * energy;
+            *w += joint.heated(energy);
         }
         ThermalState { winding, housing: self.joints.map(|joint| joint.housing.sum) }
     }
@@ -383,10 +383,16 @@ struct Joint<R> {
 }
 
 impl<R: Real> Joint<R> {
+    /// g of this Σ τ².
+    #[inline(always)]
+    fn heated(&self, energy: R) -> R {
+        self.heat * R::either(energy <= self.most, energy, self.most)
+    }
+
     /// A block with this Σ τ², by (1).
     #[inline(always)]
     fn step(&mut self, energy: R) {
-        let g = self.heat * R::either(energy <= self.most, energy, self.most);
+        let g = self.heated(energy);
         let (w, c) = (self.winding.sum, self.housing.sum);
         let inflow = self.d * (w - c + g);
         self.winding.add(g - self.kappa * (w - c - inflow));

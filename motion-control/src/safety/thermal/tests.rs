@@ -268,6 +268,7 @@ fn temperatures_outlast_a_restart_and_follow_a_hotter_drive() {
     assert!((hot.celsius(1) - 140.0).abs() < 0.2);
     // A torque that is none is not forgotten, nor does it last.
     hot.update(&[f32::NAN; 2]);
+    assert!(hot.state().winding[1].is_finite());
     (0..32).for_each(|_| hot.update(&[0.0; 2]));
     assert!(hot.state().winding[0] > 0.2 && hot.torque()[0].is_finite());
 }

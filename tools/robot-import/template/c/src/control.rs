@@ -3,7 +3,7 @@
 use dynamics_core::Core;
 use motion_control::{
     Command, CurrentTick, Estimate, Fault, Gains, Mode, MotionController, MotionControllerConfig,
-    MotionLimits, Reference, ResetError, SafetyLimits, SupervisorConfig, Trajectory,
+    MotionLimits, Reference, ResetError, SafetyLimits, SupervisorConfig, ThermalLimit, Trajectory,
     TrajectoryError, WayPoint, feedback,
 };
 use dynamics_core::model::model;
@@ -83,6 +83,8 @@ pub mod field {
     pub const VELOCITY: i32 = 15;
     pub const TICKS: i32 = 16;
     pub const COUNT: i32 = 17;
+    pub const THERMAL_TORQUE: i32 = 18;
+    pub const THERMAL_MOTOR: i32 = 19;
 }
 
 /// A status with what it is about.
@@ -92,7 +94,7 @@ impl Where {
     /// The place of an error that has none.
     pub const NOWHERE: Self = Self::of(field::NONE, None, None);
 
-    const fn of(field: i32, joint: Option<usize>, point: Option<usize>) -> Self {
+    pub(crate) const fn of(field: i32, joint: Option<usize>, point: Option<usize>) -> Self {
         const fn number(index: Option<usize>) -> i32 {
             match index {
                 Some(index) => index as i32,
@@ -212,18 +214,22 @@ impl Config {
         Ok(())
     }
 
-    /// The configuration of the library's controller.
-    pub fn motion_controller(&self) -> MotionControllerConfig<f32, N> {
-        let limits = SafetyLimits {
+    /// The limits of the controller's gate.
+    pub fn limits(&self) -> SafetyLimits<f32, N> {
+        SafetyLimits {
             torque: self.torque,
             rate: self.rate,
             speed: self.speed,
             lower: self.lower,
             upper: self.upper,
-        };
+        }
+    }
+
+    /// The configuration of the library's controller.
+    pub fn motion_controller(&self) -> MotionControllerConfig<f32, N> {
         MotionControllerConfig {
             supervisor: SupervisorConfig {
-                limits,
+                limits: self.limits(),
                 tick: self.tick,
                 resolution: self.resolution,
                 ride_through_ticks: self.ride_through_ticks,
@@ -327,6 +333,11 @@ impl Control {
     /// Replaces the tool of the feed-forward.
     pub fn set_tool(&mut self, tool: Option<Tool>) {
         self.tool = tool;
+    }
+
+    /// Gives the limits of torque of a thermal model to the gate.
+    pub(crate) fn limit_torques(&mut self, thermal: &ThermalLimit<f32, N>) {
+        self.controller.limit_torques(thermal);
     }
 
     fn is_stopped(&self) -> bool {

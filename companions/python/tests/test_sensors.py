@@ -10,7 +10,7 @@ from trees import states
 
 def cross(h):
     """The matrix of h ×."""
-    return np.cross(np.eye(3), h).T
+    return np.cross(h, np.eye(3)).T
 
 
 def test_a_load_is_that_of_numpys_least_squares():
@@ -79,9 +79,11 @@ def test_temperatures_are_those_of_the_equations():
     assert motors.holds_for(1, 2.9) == np.inf and motors.holds_for(1, 9.1) == 0.0
     limits = motors.update(np.tile([4.0, -7.0], (5000, 1)))
     expected = np.array([warm(joint, torque, 5.0) for joint, torque in enumerate((4.0, 7.0))]).T
-    assert np.allclose(motors.saved, expected, rtol=0.01, atol=0.001) and limits.shape == (5000, 2)
+    # Never below, and a block of ticks above.
+    assert (motors.saved >= expected).all() and np.allclose(motors.saved, expected, rtol=0.02, atol=0.001)
     celsius = 25.0 + expected[0] * [100.0, 75.0]
-    assert np.allclose(motors.celsius, celsius, rtol=0.01) and (np.diff(limits, axis=0) <= 0.0).all()
+    assert np.allclose(motors.celsius, celsius, rtol=0.02)
+    assert limits.shape == (5000, 2) and (np.diff(limits, axis=0) <= 0.0).all()
     again = rd.ThermalLimit(**SHEET, saved=motors.saved)
     assert np.allclose(again.saved[0], motors.saved[0], rtol=0.02) and again.saved[1] == motors.saved[1]
     assert (np.array(rd.ThermalLimit(**SHEET, saved=motors.saved, off=60.0).saved[0]) < again.saved[0]).all()

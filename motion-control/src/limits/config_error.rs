@@ -111,9 +111,15 @@ pub enum ConfigParameter {
     /// The greatest innovation of an estimator, in standard deviations.
     InnovationLimit,
     /// The continuous or peak torque of a motor, against each other and the limits of the gate.
-    ThermalTorque,
+    ThermalTorque {
+        /// The joint, from 0.
+        joint: usize,
+    },
     /// A thermal time constant, a share of resistance or a temperature of a motor.
-    ThermalMotor,
+    ThermalMotor {
+        /// The joint, from 0.
+        joint: usize,
+    },
 }
 
 impl ConfigParameter {
@@ -213,11 +219,11 @@ impl fmt::Display for ConfigError {
             ConfigParameter::InnovationLimit => {
                 "the limit of innovations is not between 3 and 1000"
             }
-            ConfigParameter::ThermalTorque => {
+            ConfigParameter::ThermalTorque { .. } => {
                 "a continuous torque is not a positive number, or is above the peak, or the peak \
                  above the limit of torque, or the rate of the torque too low"
             }
-            ConfigParameter::ThermalMotor => {
+            ConfigParameter::ThermalMotor { .. } => {
                 "a thermal time, share or temperature of a motor is outside its range"
             }
         })

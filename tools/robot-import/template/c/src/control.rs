@@ -3,7 +3,7 @@
 use dynamics_core::Core;
 use motion_control::{
     Command, CurrentTick, Estimate, Fault, Gains, Mode, MotionController, MotionControllerConfig,
-    MotionLimits, Reference, ResetError, SafetyLimits, SupervisorConfig, ThermalLimit, Trajectory,
+    MotionLimits, Reference, ResetError, SafetyLimits, SupervisorConfig, Trajectory,
     TrajectoryError, WayPoint, feedback,
 };
 use dynamics_core::model::model;
@@ -214,22 +214,18 @@ impl Config {
         Ok(())
     }
 
-    /// The limits of the controller's gate.
-    pub fn limits(&self) -> SafetyLimits<f32, N> {
-        SafetyLimits {
+    /// The configuration of the library's controller.
+    pub fn motion_controller(&self) -> MotionControllerConfig<f32, N> {
+        let limits = SafetyLimits {
             torque: self.torque,
             rate: self.rate,
             speed: self.speed,
             lower: self.lower,
             upper: self.upper,
-        }
-    }
-
-    /// The configuration of the library's controller.
-    pub fn motion_controller(&self) -> MotionControllerConfig<f32, N> {
+        };
         MotionControllerConfig {
             supervisor: SupervisorConfig {
-                limits: self.limits(),
+                limits,
                 tick: self.tick,
                 resolution: self.resolution,
                 ride_through_ticks: self.ride_through_ticks,
@@ -282,7 +278,7 @@ const STEP: f32 = 1e-3;
 
 /// A controller with its reference.
 pub struct Control {
-    controller: MotionController<f32, N, CurrentTick>,
+    pub(crate) controller: MotionController<f32, N, CurrentTick>,
     source: Source,
     gains: Gains<f32, N>,
     config: Limits,
@@ -333,11 +329,6 @@ impl Control {
     /// Replaces the tool of the feed-forward.
     pub fn set_tool(&mut self, tool: Option<Tool>) {
         self.tool = tool;
-    }
-
-    /// Gives the limits of torque of a thermal model to the gate.
-    pub(crate) fn limit_torques(&mut self, thermal: &ThermalLimit<f32, N>) {
-        self.controller.limit_torques(thermal);
     }
 
     fn is_stopped(&self) -> bool {

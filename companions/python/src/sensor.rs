@@ -3,7 +3,7 @@
 use dynamics_core::glam::DVec3;
 use dynamics_core::spatial::Force;
 use motion_control::{SensorLoad, SensorLoadFit};
-use numpy::{PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
+use numpy::{IntoPyArray, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 
 use crate::arrays::{array, dtype, leading};
@@ -85,14 +85,9 @@ impl PySensorLoad {
         dtype(&given)?;
         let gravity = array::<f64>(&given[0])?;
         let rows = leading(&given, [gravity.shape()].into_iter())?;
-        let shown = PyArrayDyn::<f64>::zeros(py, [rows, &[6]].concat(), false);
-        let mut shown_now = shown.readwrite();
-        let ((gravity, _), (rows, _)) =
-            (gravity.as_slice()?.as_chunks(), shown_now.as_slice_mut()?.as_chunks_mut());
-        for (row, &gravity) in rows.iter_mut().zip(gravity) {
-            *row = six(&self.0.at_rest(DVec3::from_array(gravity)));
-        }
-        drop(shown_now);
-        Ok(shown.into_any())
+        let each = gravity.as_slice()?.as_chunks().0.iter();
+        let shown: Vec<f64> =
+            each.flat_map(|&gravity| six(&self.0.at_rest(DVec3::from_array(gravity)))).collect();
+        Ok(shown.into_pyarray(py).reshape([rows, &[6]].concat())?.into_any())
     }
 }

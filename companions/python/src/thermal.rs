@@ -1,10 +1,10 @@
 //! Limits of torque by the motors' temperatures as Python sees them.
 
+use motion_control::ConfigParameter::{ThermalMotor, ThermalTorque};
 use motion_control::{
-    ConfigError, ConfigParameter, SafetyLimits, ThermalConfig, ThermalLimit, ThermalState,
-    ThermalStatus,
+    ConfigError, SafetyLimits, ThermalConfig, ThermalLimit, ThermalState, ThermalStatus,
 };
-use numpy::{PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
+use numpy::{IntoPyArray, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 
 use crate::arrays::{array, dtype, leading};
@@ -30,7 +30,7 @@ pub struct PyThermalLimit {
     joints: usize,
 }
 
-/// A motor that the library refuses, or none.
+/// A motor that the library refuses.
 fn refused(py: Python<'_>, joint: Option<usize>, text: &str) -> PyErr {
     let place = joint.map_or(String::new(), |joint| format!("joint {joint}: "));
     Exception::new(py, "MotorError", place + text).with("joint", joint).build()
@@ -76,13 +76,13 @@ impl PyThermalLimit {
             let text = format!("lists of numbers for 1 to {MOST} joints, all of one length");
             return Err(refused(py, None, &text));
         }
-        let of = |place: &dyn Fn(usize) -> usize| {
-            let [continuous, peak, winding_time, housing_time, share, hottest] =
-                lists.map(|list| std::array::from_fn(|i| list[place(i)]));
-            let most = [f64::INFINITY; MOST];
-            let gate =
-                SafetyLimits { torque: most, rate: most, speed: most, lower: most, upper: most };
-            let motors = ThermalConfig {
+        // The places beyond the joints have cold motors like the last one.
+        let [continuous, peak, winding_time, housing_time, share, hottest] =
+            lists.map(|list| std::array::from_fn(|i| list[i.min(joints - 1)]));
+        let most = [f64::INFINITY; MOST];
+        let gate = SafetyLimits { torque: most, rate: most, speed: most, lower: most, upper: most };
+        let limit = ThermalLimit::try_new(
+            ThermalConfig {
                 tick,
                 continuous,
                 peak,
@@ -91,24 +91,22 @@ impl PyThermalLimit {
                 share,
                 hottest,
                 ambient,
+            },
+            &gate,
+        );
+        let limit = limit.map_err(|error| {
+            let joint = match error {
+                ConfigError::OutOfRange {
+                    parameter: ThermalTorque { joint } | ThermalMotor { joint },
+                } => Some(joint),
+                _ => None,
             };
-            ThermalLimit::try_new(motors, &gate)
-        };
-        // Motors that are all like that of a joint, since the library's errors do not name it.
-        for joint in 0..joints {
-            of(&|_| joint).map_err(|error| {
-                let tick = ConfigError::OutOfRange { parameter: ConfigParameter::Tick };
-                refused(py, (error != tick).then_some(joint), &error.to_string())
-            })?;
-        }
-        // The places beyond the joints have cold motors.
-        let limit = of(&|i| i.min(joints - 1));
-        let limit = limit.map_err(|error| refused(py, None, &error.to_string()))?;
-        let [winding, housing] =
-            saved.map_or([Vec::new(), Vec::new()], |(w, c)| [w, c]).map(|list| {
-                let worst = |i| if i < joints { f64::NAN } else { 0.0 };
-                std::array::from_fn(|i| list.get(i).copied().unwrap_or(worst(i)))
-            });
+            refused(py, joint, &error.to_string())
+        })?;
+        let (winding, housing) =
+            saved.unwrap_or_else(|| [(); 2].map(|()| vec![f64::NAN; joints]).into());
+        let [winding, housing] = [winding, housing]
+            .map(|list| std::array::from_fn(|i| list.get(i).copied().unwrap_or(0.0)));
         Ok(Self { limit: limit.resumed(&ThermalState { winding, housing }, off), joints })
     }
 
@@ -119,17 +117,14 @@ impl PyThermalLimit {
         dtype(&given)?;
         let torque = array::<f64>(&given[0])?;
         leading(&given, [torque.shape()].into_iter())?;
-        let limits = PyArrayDyn::<f64>::zeros(py, torque.shape(), false);
-        let mut written = limits.readwrite();
-        let rows = written.as_slice_mut()?.chunks_exact_mut(self.joints);
-        for (limit, torque) in rows.zip(torque.as_slice()?.chunks_exact(self.joints)) {
+        let mut limits = Vec::new();
+        for torque in torque.as_slice()?.chunks_exact(self.joints) {
             let mut all = [0.0; MOST];
             all[..self.joints].copy_from_slice(torque);
             self.limit.update(&all);
-            limit.copy_from_slice(&self.limit.torque()[..self.joints]);
+            limits.extend(self.own(self.limit.torque()));
         }
-        drop(written);
-        Ok(limits.into_any())
+        Ok(limits.into_pyarray(py).reshape(torque.shape())?.into_any())
     }
 
     /// A winding's temperature that its drive has measured, °C: it may raise that of the model.

@@ -1,4 +1,4 @@
-//! A motor that lifts with all that its temperature allows, and what is known of it after a restart.
+//! A motor that lifts with all that its temperature allows, and what a restart knows of it.
 //!
 //! `cargo run -p motion-control --example thermal_limit`
 

@@ -57,26 +57,11 @@ pub fn of(robot: &str) -> Vec<Cost> {
     rows.filter_map(|line| cost(&cells(line))).collect()
 }
 
-/// A row: function, sin/cos, instructions, cycles, those from two flash memories, µs, flops, share of
-/// the floor, code, stack.
+/// A row: function, sin/cos, instructions, cycles, those of two chips, µs, flops, share of the
+/// floor, code, stack.
 fn cost(cells: &[&str]) -> Option<Cost> {
-    let &[
-        name,
-        trigonometry,
-        _,
-        _,
-        instructions,
-        _,
-        _,
-        cycles,
-        _,
-        _,
-        microseconds,
-        _,
-        _,
-        code,
-        stack,
-    ] = cells
+    let &[name, trigonometry, _, _, instructions, _, _, cycles, .., time, _, _, code, stack] =
+        cells
     else {
         return None;
     };
@@ -88,7 +73,7 @@ fn cost(cells: &[&str]) -> Option<Cost> {
         trigonometry: trigonometry == "inside",
         instructions: whole(instructions)?,
         cycles: whole(cycles)?,
-        microseconds: microseconds.parse().ok()?,
+        microseconds: time.parse().ok()?,
         code: whole(code)?,
         stack: whole(stack)?,
     })

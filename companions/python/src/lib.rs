@@ -15,6 +15,8 @@ mod loops;
 mod methods;
 mod request;
 mod robot;
+mod sensor;
+mod thermal;
 
 use pyo3::prelude::*;
 
@@ -39,6 +41,8 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<costs::Cost>()?;
     module.add_class::<loops::PyLoopJoint>()?;
     module.add_class::<loops::PyLoops>()?;
+    module.add_class::<sensor::PySensorLoad>()?;
+    module.add_class::<thermal::PyThermalLimit>()?;
     module.add_function(wrap_pyfunction!(robots, module)?)?;
     module.add_function(wrap_pyfunction!(threads, module)?)?;
     linkages::register(module)?;

@@ -61,6 +61,7 @@ def by_roots(robot, q, tau):
 
 ALGORITHMS = {
     "ltdl": lambda robot, q, v, a, tau: factored(robot, q, tau),
+    "rnea_and_wrenches": lambda robot, q, v, a, tau: joined(*robot.rnea_and_wrenches(q, v, a)),
     "cholesky": lambda robot, q, v, a, tau: by_roots(robot, q, tau),
     "spatial_operator": lambda robot, q, v, a, tau: joined(*robot.spatial_operator_ltdl(q), robot.spatial_operator_inverse(q)),
     "crba_jacobian": lambda robot, q, v, a, tau: joined(*robot.crba_jacobian(q, robot.bodies[-1])),

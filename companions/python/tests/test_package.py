@@ -46,6 +46,7 @@ WITHOUT = {
     "algorithms.shifted_solution": "hidden in the library: numpy.linalg.solve",
     "algorithms.jacobian_rows": "`jacobian` has rows",
     "algorithms.task_jacobian": "directions @ `jacobian`",
+    "algorithms.motor_torque": "`rnea` of all effects at once: it saves a pass of firmware",
     "algorithms.regressor_row_of_bodies": "`regressor_row` with zeros for the bodies left out: it saves cycles of firmware",
     "clusters.aba": "`forward_dynamics` of the wheel has its accelerations; its passes are compiled for clusters of a type",
     "clusters.rnea_with_status": "`rnea`, with G and the singular of `motion`",

@@ -55,6 +55,18 @@ def test_inverse_dynamics_is_pinocchios(pair):
     near(robot.gravity(q), theirs(pin.computeGeneralizedGravity, q))
 
 
+def test_wrenches_in_joints_are_pinocchios(pair):
+    robot, peer, (q, v, a, _) = pair
+    torques, wrenches = robot.rnea_and_wrenches(q, v, a)
+    near(torques, robot.rnea(q, v, a))
+    names = ["root_joint", *robot.joints[1:]] if peer.free else robot.joints
+    joints = [peer.model.getJointId(name) for name in names]
+    for x, y, z, found in zip(q, v, a, wrenches):
+        pin.rnea(peer.model, peer.data, peer.q(robot, x), peer.v(robot, y), peer.v(robot, z))
+        forces = [peer.data.f[joint] for joint in joints]
+        near(found, np.array([np.concatenate([force.angular, force.linear]) for force in forces]))
+
+
 def test_inertia_matrix_is_pinocchios(pair):
     robot, peer, (q, *_) = pair
     for x, m in zip(q, robot.crba(q)):

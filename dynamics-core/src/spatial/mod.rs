@@ -38,6 +38,7 @@ pub struct Motion<R: Real> {
 }
 
 /// A spatial force vector in F⁶: couple about the frame's origin (N·m) and force (N).
+#[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Force<R: Real> {
     /// Couple n about the origin, N·m.

@@ -35,6 +35,7 @@ const TURNED: f64 = 1e-3;
 /// assert!((hanging.lin.z + 1.2 * 9.81).abs() < 1e-12 && hanging.lin.x == 3.0);
 /// ```
 #[doc(alias = "payload compensation")]
+#[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SensorLoad<R: Real> {
     /// The mass m beyond the sensor, kg.

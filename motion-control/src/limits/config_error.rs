@@ -87,7 +87,10 @@ pub enum ConfigParameter {
     /// The dead band, the damping or the greatest torque of a joint whose inertia is shaped.
     ShapedJoint,
     /// A limit of velocity, acceleration or jerk.
-    JerkLimit,
+    JerkLimit {
+        /// The joint, from 0.
+        joint: usize,
+    },
     /// A position at which a reference is at rest.
     RestPosition,
     /// The spacing of the way-points of a path.
@@ -115,13 +118,22 @@ pub enum ConfigParameter {
     /// The greatest innovation of an estimator, in standard deviations.
     InnovationLimit,
     /// The continuous or peak torque of a motor, against each other and the limits of the gate.
-    ThermalTorque,
+    ThermalTorque {
+        /// The joint, from 0.
+        joint: usize,
+    },
     /// A thermal time constant, a share of resistance or a temperature of a motor.
-    ThermalMotor,
+    ThermalMotor {
+        /// The joint, from 0.
+        joint: usize,
+    },
     /// The damping, the length, the posture or its gain of a tip's motion.
     TipMotion,
     /// The range of a joint, its position in it, or its greatest speed or acceleration.
-    JointRange,
+    JointRange {
+        /// The joint, from 0.
+        joint: usize,
+    },
 }
 
 impl ConfigParameter {
@@ -201,7 +213,7 @@ impl fmt::Display for ConfigError {
             ConfigParameter::ShapedJoint => {
                 "a number of a joint whose inertia is shaped is negative or not finite"
             }
-            ConfigParameter::JerkLimit => {
+            ConfigParameter::JerkLimit { .. } => {
                 "a limit of velocity, acceleration or jerk is not within 1e-9 and 1e9"
             }
             ConfigParameter::RestPosition => "a position of rest is not finite",
@@ -225,17 +237,17 @@ impl fmt::Display for ConfigError {
             ConfigParameter::InnovationLimit => {
                 "the limit of innovations is not between 3 and 1000"
             }
-            ConfigParameter::ThermalTorque => {
+            ConfigParameter::ThermalTorque { .. } => {
                 "a continuous torque is not a positive number, or is above the peak, or the peak \
                  above the limit of torque, or the rate of the torque too low"
             }
-            ConfigParameter::ThermalMotor => {
+            ConfigParameter::ThermalMotor { .. } => {
                 "a thermal time, share or temperature of a motor is outside its range"
             }
             ConfigParameter::TipMotion => {
                 "a damping or length is not a positive number, or a posture or its gain not finite"
             }
-            ConfigParameter::JointRange => {
+            ConfigParameter::JointRange { .. } => {
                 "a range of a joint is empty, a position not finite, or a limit not positive"
             }
         })

@@ -148,11 +148,12 @@ impl<R: Real, const V: usize> TipMotion<R, V> {
     /// # Errors
     /// [`ConfigError::OutOfRange`] names a number that is beyond its range.
     pub fn try_new(mut config: TipMotionConfig<R, V>, q: &[R; V]) -> Result<Self, ConfigError> {
-        let [tip, range] = [ConfigParameter::TipMotion, ConfigParameter::JointRange];
+        let tip = ConfigParameter::TipMotion;
         [config.tick, config.damping, config.length].iter().try_for_each(|x| tip.positive(*x))?;
         let (gain, posture) = (config.posture_gain, all_finite(&config.posture));
         tip.require(posture & gain.is_finite() & (gain >= R::ZERO))?;
         for (j, limits) in config.limits.iter().enumerate() {
+            let range = ConfigParameter::JointRange { joint: j };
             let some = (config.lower[j] <= config.upper[j]) & (limits.velocity > R::ZERO);
             range.require(some & q[j].is_finite())?;
             range.positive(limits.acceleration)?;

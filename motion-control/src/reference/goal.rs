@@ -149,10 +149,10 @@ impl<R: Real, const V: usize> MovingGoal<R, V> {
     pub fn try_new(q: &[R; V], limits: [JerkLimits<R>; V], tick: R) -> Result<Self, ConfigError> {
         ConfigParameter::Tick.positive(tick)?;
         ConfigParameter::RestPosition.require(all_finite(q))?;
-        for JerkLimits { velocity, acceleration, jerk } in limits {
+        for (joint, JerkLimits { velocity, acceleration, jerk }) in limits.into_iter().enumerate() {
             for limit in [velocity, acceleration, jerk] {
                 let is_usual = (limit >= R::from_f64(1e-9)) & (limit <= R::from_f64(1e9));
-                ConfigParameter::JerkLimit.require(is_usual)?;
+                ConfigParameter::JerkLimit { joint }.require(is_usual)?;
             }
         }
         let less = |x| x * R::from_f64(1.0 - MARGIN);

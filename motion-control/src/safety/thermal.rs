@@ -56,6 +56,7 @@ const BLOCK: usize = 32;
 ///
 /// Data sheets state the continuous torque at the greatest temperature of the winding, whose
 /// resistance then is greatest; a colder winding is heated less than the model says.
+#[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ThermalConfig<R, const V: usize> {
@@ -85,7 +86,7 @@ impl<R: Real, const V: usize> ThermalConfig<R, V> {
     /// of the rise that it may have.
     ///
     /// # Errors
-    /// [`ConfigError::OutOfRange`] names the number.
+    /// [`ConfigError::OutOfRange`] names the number and the joint.
     pub fn check(&self) -> Result<(), ConfigError> {
         ConfigParameter::Tick.positive(self.tick)?;
         (0..V).try_for_each(|i| self.joint(i).1)
@@ -117,8 +118,8 @@ impl<R: Real, const V: usize> ThermalConfig<R, V> {
         let torques = (continuous > R::ZERO) & (peak >= continuous) & peak.is_finite();
         let shares = (rho > R::ZERO) & (rho <= R::ONE) & (span > R::ZERO) & span.is_finite();
         let times = long(a) & long(epsilon) & (d <= eighth) & slow;
-        let checked = (ConfigParameter::ThermalTorque.require(torques))
-            .and(ConfigParameter::ThermalMotor.require(shares & times));
+        let checked = (ConfigParameter::ThermalTorque { joint: i }.require(torques))
+            .and(ConfigParameter::ThermalMotor { joint: i }.require(shares & times));
         let inflow = d * (R::ONE + kappa);
         let hottest = inflow / (sigma + inflow);
         let cooled = kappa * (R::ONE - hottest * (R::ONE + sigma));
@@ -140,6 +141,7 @@ fn ticks<R: Real, const V: usize>() -> R {
 
 /// The temperatures of the motors, as shares of the greatest rise over the ambient, to be saved
 /// before the supply is switched off: see [`ThermalLimit::resumed`].
+#[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ThermalState<R, const V: usize> {
@@ -232,10 +234,11 @@ impl<R: Real, const V: usize> ThermalLimit<R, V> {
     ) -> Result<Self, ConfigError> {
         config.check()?;
         let joints: [_; V] = core::array::from_fn(|i| config.joint(i).0);
-        for (joint, (rate, torque)) in joints.iter().zip(limits.rate.iter().zip(&limits.torque)) {
+        let gate = limits.rate.iter().zip(&limits.torque);
+        for (i, (joint, (rate, torque))) in joints.iter().zip(gate).enumerate() {
             let heat = joint.heat * ticks::<R, V>() * joint.peak * joint.peak;
             let holds = (joint.slope * (heat + heat) <= *rate) & (joint.peak <= *torque);
-            ConfigParameter::ThermalTorque.require(holds)?;
+            ConfigParameter::ThermalTorque { joint: i }.require(holds)?;
         }
         let zero = [R::ZERO; V];
         Ok(Self { config, joints, energy: zero, limit: zero, at: 0 }.begun())
@@ -274,7 +277,7 @@ impl<R: Real, const V: usize> ThermalLimit<R, V> {
     pub fn state(&self) -> ThermalState<R, V> {
         let mut winding = self.joints.map(|joint| joint.winding.sum);
         for ((w, joint), &energy) in winding.iter_mut().zip(&self.joints).zip(&self.energy) {
-            *w += joint.heat * energy;
+            *w += joint.heated(energy);
         }
         ThermalState { winding, housing: self.joints.map(|joint| joint.housing.sum) }
     }
@@ -383,10 +386,16 @@ struct Joint<R> {
 }
 
 impl<R: Real> Joint<R> {
+    /// g of this Σ τ².
+    #[inline(always)]
+    fn heated(&self, energy: R) -> R {
+        self.heat * R::either(energy <= self.most, energy, self.most)
+    }
+
     /// A block with this Σ τ², by (1).
     #[inline(always)]
     fn step(&mut self, energy: R) {
-        let g = self.heat * R::either(energy <= self.most, energy, self.most);
+        let g = self.heated(energy);
         let (w, c) = (self.winding.sum, self.housing.sum);
         let inflow = self.d * (w - c + g);
         self.winding.add(g - self.kappa * (w - c - inflow));

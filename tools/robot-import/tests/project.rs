@@ -223,7 +223,7 @@ fn c_project(name: &str, robot: RobotFile, expected: &str) {
     assert_eq!(Trial::after(&device, "inverse dynamics of the probe:"), expected);
     assert_eq!(device.lines().last(), Some("good"), "{device}");
     let costs: Vec<_> = device.lines().filter(|line| line.contains(": status 0, ")).collect();
-    assert_eq!(costs.len(), 12, "{device}");
+    assert_eq!(costs.len(), 14, "{device}");
     eprintln!("{}", costs.join("\n"));
     let check = trial.run("make", &[&out, "check"]);
     assert_eq!(check.lines().last(), Some("no panic"));
@@ -422,6 +422,12 @@ fn two_robots_in_c() {
     let device = left.run("qemu-system-arm", &line.split_whitespace().collect::<Vec<_>>());
     for text in [&host, &device] {
         assert_eq!(text.lines().last(), Some("good"), "{text}");
+    }
+    // What the program does not call is not in it.
+    let symbols = left.run("arm-none-eabi-nm", &["device/two_robots"]);
+    assert!(symbols.contains("left_arm_gravity"), "{symbols}");
+    for unused in ["thermal", "sensor", "wrench", "kinematics"] {
+        assert!(!symbols.contains(unused), "{symbols}");
     }
     // The guide's code compiles with the header.
     let page = include_str!("../../../docs/guide/src/c.md");

@@ -16,6 +16,7 @@ use dynamics_core::model::{Robot, Static};
 use dynamics_core::robots::{
     A1, A1Free, A1Leg, G1, G1Free, Gen3, Iiwa14, Panda, So101, Ur5e, XArm7, Z1,
 };
+use dynamics_core::spatial::Force;
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
 
@@ -78,6 +79,12 @@ fn algorithm<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>(
             out.extend(algorithms::solve(robot, &factors, tau));
             let inverse = algorithms::inverse(robot, &factors);
             square::<V>(&mut out, |i, j| inverse.get(i, j));
+        }
+        "rnea_and_wrenches" => {
+            let found = algorithms::rnea_and_wrenches(robot, state, &RIGID_BODY);
+            out.extend(found.tau);
+            let six = |f: &Force<f32>| [f.ang.to_array(), f.lin.to_array()];
+            out.extend(found.wrenches.iter().flat_map(six).flatten());
         }
         "cholesky" => {
             let factor = algorithms::cholesky(robot, &m()).ok()?;

@@ -97,6 +97,7 @@ macro_rules! which {
 
 which! {
     Rnea { given: usize },
+    RneaAndWrenches,
     RneaTwoVelocities,
     Crba,
     CrbaJacobian { body: usize },

@@ -19,6 +19,7 @@ __all__ = [
     "LoopOpen",
     "ModeError",
     "ModelError",
+    "MotorError",
     "MultiDofJoint",
     "NoAttitude",
     "NoEngine",
@@ -26,6 +27,7 @@ __all__ = [
     "NotPositiveDefinite",
     "NotRecorded",
     "RobotDynamicsError",
+    "SensorLoadError",
     "ShapeError",
     "UnderActuated",
     "UnknownBody",
@@ -204,6 +206,19 @@ class ModeError(RobotDynamicsError, ValueError):
     mode: int | None
     """The mode's number: among those of the link, in a state among all."""
     state: int | None
+
+
+class SensorLoadError(RobotDynamicsError, ValueError):
+    """Poses at rest from which no load of a sensor follows."""
+
+    poses: int
+
+
+class MotorError(RobotDynamicsError, ValueError):
+    """A motor whose numbers a thermal limit refuses."""
+
+    joint: int | None
+    """The number of its joint; none where all are concerned."""
 
 
 class NotRecorded(RobotDynamicsError, LookupError):

@@ -101,6 +101,12 @@ impl Robot {
 methods! {
     Robot, robot => (v, nq, bodies) = (robot.counts.v, robot.counts.q, robot.counts.bodies);
 
+    /// Inverse dynamics with the wrenches in joints: the torques (…, nv), N·m or N, and the wrench
+    /// that the parent exerts on each body through its joint, (…, bodies, 6), couple and force,
+    /// N·m and N, in the body's own frame; q (…, nq), q̇ and q̈ (…, nv). That of a body beyond a
+    /// force sensor is what the sensor shows, but for its offset.
+    rnea_and_wrenches(q: q, qd: v, qdd: v; under effects) = several(RneaAndWrenches): [v], [bodies, 6];
+
     /// M q̈_r + C(q, q̇) q̇_r + g and the other effects, (…, nv): q (…, nq), q̇, q̈_r and q̇_r (…,
     /// nv).
     rnea_two_velocities(q: q, qd: v, qdd: v, qd_r: v; under effects) = one(RneaTwoVelocities): [v];

@@ -73,7 +73,7 @@ fn limits_that_are_none_are_refused() {
         ]
     }) {
         for limits in limits {
-            let parameter = ConfigParameter::JerkLimit;
+            let parameter = ConfigParameter::JerkLimit { joint: 0 };
             let error = MovingGoal::try_new(&[0.0], [limits], 1e-3).unwrap_err();
             assert_eq!(error, ConfigError::OutOfRange { parameter });
         }

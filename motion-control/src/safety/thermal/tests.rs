@@ -252,6 +252,7 @@ fn temperatures_outlast_a_restart_and_follow_a_hotter_drive() {
     assert!((hot.celsius(1) - 140.0).abs() < 0.2);
     // A torque that is none is not forgotten, nor does it last.
     hot.update(&[f32::NAN; 2]);
+    assert!(hot.state().winding[1].is_finite());
     (0..32).for_each(|_| hot.update(&[0.0; 2]));
     assert!(hot.state().winding[0] > 0.2 && hot.torque()[0].is_finite());
 }
@@ -273,20 +274,20 @@ fn the_gate_has_the_limits_and_the_numbers_of_a_motor_are_checked() {
         change(&mut config);
         refused(ThermalLimit::try_new(config, &limits(8.0)))
     };
-    use ConfigParameter::{ThermalMotor, ThermalTorque, Tick};
+    use ConfigParameter::Tick;
+    let joint = 0;
+    let (motor, torque) =
+        (ConfigParameter::ThermalMotor { joint }, ConfigParameter::ThermalTorque { joint });
     assert_eq!(refused(|_| ()), None);
     assert_eq!(refused(|config| config.tick = f64::NAN), Some(Tick));
-    assert_eq!(refused(|config| config.continuous = [0.0]), Some(ThermalTorque));
-    assert_eq!(refused(|config| config.peak = [1.9]), Some(ThermalTorque));
-    assert_eq!(refused(|config| config.peak = [8.1]), Some(ThermalTorque));
-    assert_eq!(refused(|config| config.share = [0.0]), Some(ThermalMotor));
-    assert_eq!(refused(|config| config.share = [f64::NAN]), Some(ThermalMotor));
-    assert_eq!(refused(|config| config.winding_time = [0.06]), Some(ThermalMotor));
-    assert_eq!(refused(|config| config.housing_time = [f64::INFINITY]), Some(ThermalMotor));
-    assert_eq!(refused(|config| config.hottest = [25.0]), Some(ThermalMotor));
+    assert_eq!(refused(|config| config.continuous = [0.0]), Some(torque));
+    assert_eq!(refused(|config| config.peak = [1.9]), Some(torque));
+    assert_eq!(refused(|config| config.peak = [8.1]), Some(torque));
+    assert_eq!(refused(|config| config.share = [0.0]), Some(motor));
+    assert_eq!(refused(|config| config.share = [f64::NAN]), Some(motor));
+    assert_eq!(refused(|config| config.winding_time = [0.06]), Some(motor));
+    assert_eq!(refused(|config| config.housing_time = [f64::INFINITY]), Some(motor));
+    assert_eq!(refused(|config| config.hottest = [25.0]), Some(motor));
     let slow = SafetyLimits { rate: [1e-3], ..limits(8.0) };
-    assert_eq!(
-        super::tests::refused(ThermalLimit::try_new(motors([2.0]), &slow)),
-        Some(ThermalTorque)
-    );
+    assert_eq!(super::tests::refused(ThermalLimit::try_new(motors([2.0]), &slow)), Some(torque));
 }

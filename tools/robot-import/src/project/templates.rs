@@ -71,6 +71,8 @@ pub(super) const C: &[File] = files!["c":
     "src/control.rs",
     "src/advice.rs" ".liquid",
     "src/controller.rs" ".liquid",
+    "src/wrench.rs" ".liquid",
+    "src/thermal.rs" ".liquid",
     "src/memory.rs",
     "include/{{crate_name}}.h" ".liquid",
     "example/main.c" ".liquid",
@@ -82,6 +84,8 @@ pub(super) const C: &[File] = files!["c":
     "tests/c/main.rs" ".liquid",
     "tests/c/controller.rs" ".liquid",
     "tests/c/fuzz.rs" ".liquid",
+    "tests/c/thermal.rs" ".liquid",
+    "tests/c/wrench.rs" ".liquid",
 ];
 
 /// The files that all projects for boards have, some of them from the simulated project.

@@ -250,6 +250,17 @@ algorithm! {
 }
 
 algorithm! {
+    /// τ of q, q̇ and q̈, and the wrenches in the joints of all bodies.
+    RneaAndWrenches, all_slow, |this, robot, counts, scene, row| {
+        let found = algorithms::rnea_and_wrenches(robot, &state(row, counts, 3), scene);
+        put(row, 0, 0, &found.tau[..counts.v]);
+        for (i, f) in found.wrenches[..counts.bodies].iter().enumerate() {
+            put(row, 1, 6 * i, &six::<R>(f.ang, f.lin));
+        }
+    }
+}
+
+algorithm! {
     /// M q̈_r + C q̇_r + g + F of q, q̇, q̈_r and q̇_r.
     RneaTwoVelocities, rigid, |this, robot, counts, scene, row| {
         let (state, qd_r) = (state(row, counts, 3), filled(row, 3, counts.v));

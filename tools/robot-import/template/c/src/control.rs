@@ -83,6 +83,8 @@ pub mod field {
     pub const VELOCITY: i32 = 15;
     pub const TICKS: i32 = 16;
     pub const COUNT: i32 = 17;
+    pub const THERMAL_TORQUE: i32 = 18;
+    pub const THERMAL_MOTOR: i32 = 19;
 }
 
 /// A status with what it is about.
@@ -92,7 +94,7 @@ impl Where {
     /// The place of an error that has none.
     pub const NOWHERE: Self = Self::of(field::NONE, None, None);
 
-    const fn of(field: i32, joint: Option<usize>, point: Option<usize>) -> Self {
+    pub(crate) const fn of(field: i32, joint: Option<usize>, point: Option<usize>) -> Self {
         const fn number(index: Option<usize>) -> i32 {
             match index {
                 Some(index) => index as i32,
@@ -276,7 +278,7 @@ const STEP: f32 = 1e-3;
 
 /// A controller with its reference.
 pub struct Control {
-    controller: MotionController<f32, N, CurrentTick>,
+    pub(crate) controller: MotionController<f32, N, CurrentTick>,
     source: Source,
     gains: Gains<f32, N>,
     config: Limits,

@@ -24,7 +24,7 @@ pub const MOMENTS: i32 = -9;
 pub const TOOL: i32 = -10;
 /// A matrix is no rotation.
 pub const ROTATION: i32 = -11;
-/// The memory is too small, not aligned, or holds no controller of this library.
+/// The memory is too small, not aligned, or holds nothing that a function of this library has put there.
 pub const MEMORY: i32 = -12;
 /// A number of the configuration is not usable.
 pub const CONFIG: i32 = -13;
@@ -42,6 +42,10 @@ pub const OUT_OF_BOUNDS: i32 = -18;
 pub const TOO_FAR: i32 = -19;
 /// There is no such fault, or no such joint.
 pub const NO_FAULT: i32 = -20;
+/// A sensor's load does not follow from so few poses.
+pub const FEW_POSES: i32 = -21;
+/// Gravity changes along one line of the sensor's frame, or hardly.
+pub const ONE_DIRECTION: i32 = -22;
 
 /// The status of a computation as C receives it.
 #[inline(always)]

@@ -44,12 +44,12 @@ fn what_is_no_limit_is_refused() {
     assert_eq!(refuse(|c| c.length = -0.3), tip);
     assert_eq!(refuse(|c| c.posture[1] = f32::INFINITY), tip);
     assert_eq!(refuse(|c| c.posture_gain = -1.0), tip);
-    let range = ConfigParameter::JointRange;
-    assert_eq!(refuse(|c| c.lower[1] = 1.1), range);
-    assert_eq!(refuse(|c| c.upper[0] = f32::NAN), range);
-    assert_eq!(refuse(|c| c.limits[1].velocity = 0.0), range);
-    assert_eq!(refuse(|c| c.limits[0].acceleration = f32::INFINITY), range);
-    assert_eq!(refused(TipMotion::try_new(CONFIG, &[f32::NAN, 0.0])), Some(range));
+    let range = |joint| ConfigParameter::JointRange { joint };
+    assert_eq!(refuse(|c| c.lower[1] = 1.1), range(1));
+    assert_eq!(refuse(|c| c.upper[0] = f32::NAN), range(0));
+    assert_eq!(refuse(|c| c.limits[1].velocity = 0.0), range(1));
+    assert_eq!(refuse(|c| c.limits[0].acceleration = f32::INFINITY), range(0));
+    assert_eq!(refused(TipMotion::try_new(CONFIG, &[f32::NAN, 0.0])), Some(range(0)));
     assert!(!at(CONFIG, [0.5; 2], [0.0; 2]).restart(&State::at([0.0, f32::NAN])));
 }
 

@@ -16,8 +16,8 @@
 //! its count gives the angle within one turn only.
 //!
 //! The encoders and the H-bridges implement the traits of a joint, the servos that of all encoders.
-//! The controllers on CAN are both at once, on a bus that they share ([`CanJoints`]). Three
-//! half-bridges take a voltage and the servos a duty: they are no drives of torque.
+//! The controllers on CAN are both at once, on a bus that they share ([`CanJoints`]). The servos take
+//! a duty: they are no drives of torque.
 //!
 //! | part | bus | measures or commands | module |
 //! |---|---|---|---|
@@ -25,7 +25,6 @@
 //! | AS5600 | I²C | absolute angle, 12 bits, and whether its magnet is well placed | [`as5600`] |
 //! | incremental encoder with index | A, B and Z, or a timer | angle from the index, once it was passed | [`incremental`] |
 //! | H-bridge | PWM, GPIO | torque, as sign and magnitude or in locked antiphase | [`h_bridge`] |
-//! | three half-bridges | PWM | voltage along d and q of a three-phase motor | [`three_phase`] |
 //! | moteus | CAN FD | torque; position, velocity, torque, mode and fault | [`moteus`] |
 //! | ODrive | CAN | torque; position, velocity, torque, state and errors | [`odrive`] |
 //! | Damiao DM-J | CAN, CAN FD | torque, spring and damper; position, velocity, torque, temperatures, faults, scales | [`mit::damiao`] |
@@ -91,7 +90,6 @@ pub mod odrive;
 mod pd_drives;
 #[cfg(test)]
 mod starts;
-pub mod three_phase;
 
 pub use can_joints::{CanJoint, CanJoints, Outbox, PdCanJoint, Report};
 pub use control_loop::{ControlLoop, Law, Phase, Probe, Telemetry};

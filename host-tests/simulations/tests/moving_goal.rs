@@ -197,11 +197,12 @@ fn the_way_of_a_goal_has_a_time_within_limits_of_torque() {
         motion: [MotionLimits { velocity: 3.0, acceleration: 20.0 }; 6],
         friction: [JointFriction::NONE; 6],
     };
-    let timed = TimedPath::<_, _, 801>::new(&goal, 1e-3, &path, torques).unwrap();
+    let timed = TimedPath::<_, _, 201>::new(&goal, 1e-3, &path, torques).unwrap();
     let fast = most(&|tick| goal.at(tick), Reference::<f64, 6>::ticks(&goal));
     let slow = most(&|tick| timed.at(tick), Reference::<f64, 6>::ticks(&timed));
-    // Between the points of the grid the limits are exceeded by what the coefficients curve.
-    assert!(fast > 1.15 && slow < 1.01, "{fast} {slow}");
+    // Between the points of the grid the limits are exceeded by what the coefficients curve, which is
+    // most at the ends, where q′ vanishes.
+    assert!(fast > 1.15 && slow < 1.02, "{fast} {slow}");
     assert!(timed.seconds() < 2.0 * goal.seconds(), "{} {}", timed.seconds(), goal.seconds());
     assert_eq!(timed.at(u32::MAX).q, goal.at(u32::MAX).q);
 }

@@ -313,7 +313,7 @@ impl<R: Real, const V: usize> Reference<R, V> for MovingGoal<R, V> {
 }
 
 /// The way from where the goal was set, for a [`TimedPath`](crate::TimedPath), which limits the
-/// torques as well: for a goal that was set at rest.
+/// torques as well, up to some 2 % at its ends: for a goal that was set at rest.
 impl<R: Real, const V: usize> GeometricPath<R, V> for MovingGoal<R, V> {
     fn point(&self, s: R) -> PathPoint<R, V> {
         let State { q, qd, qdd } = self.state(s * self.seconds);

@@ -30,7 +30,7 @@ pub const LIMITS: MotionLimits<f32> = MotionLimits { velocity: 2.0, acceleration
 
 /// Readings of the stick: the ticks in which it comes there at even speed, 0 for at once, and its
 /// axes. Turns about the base's axes come first, full deflection is 127.
-const STICK: [(u32, [i8; 6]); 22] = [
+static STICK: [(u32, [i8; 6]); 22] = [
     (300, [0, 0, 0, 0, 0, 0]),
     (400, [0, 0, 0, 0, 70, -60]), // A slow curve.
     (500, [0, 0, 0, 60, -90, 0]),
@@ -58,27 +58,26 @@ const STICK: [(u32, [i8; 6]); 22] = [
 const REST: [i8; 6] = [4, -3, 2, -2, 3, -4];
 /// The readings about zero that are none, so that the arm rests when the stick is let go.
 const DEAD_BAND: i32 = 10;
-/// The speeds of the tip at full deflection, rad/s and m/s.
-const FULL: (f32, f32) = (1.2, 0.3);
+/// The speeds of the tip per step of the stick beyond it: 1.2 rad/s and 0.3 m/s at full deflection.
+const PER_STEP: [f32; 2] = [1.2 / (127 - DEAD_BAND) as f32, 0.3 / (127 - DEAD_BAND) as f32];
 
 /// The twist that the stick asks for in a tick, rad/s and m/s.
 pub fn stick(tick: u32) -> Motion<f32> {
     let (mut from, mut passed) = ([0; 6], tick);
     let mut axes = [0.0; 6];
-    for (ticks, to) in STICK {
+    for &(ticks, to) in &STICK {
         if passed < ticks {
             for (axis, value) in axes.iter_mut().enumerate() {
                 let [from, to, rest] = [from[axis], to[axis], REST[axis]].map(i32::from);
                 let reading = from + (to - from) * passed as i32 / ticks as i32 + rest;
-                let beyond = reading - reading.clamp(-DEAD_BAND, DEAD_BAND);
-                *value = beyond as f32 / (127 - DEAD_BAND) as f32;
+                *value = (reading - reading.clamp(-DEAD_BAND, DEAD_BAND)) as f32;
             }
             break;
         }
         (from, passed) = (to, passed - ticks);
     }
     let [rx, ry, rz, x, y, z] = axes;
-    Motion::new(Vec3::new(rx, ry, rz) * FULL.0, Vec3::new(x, y, z) * FULL.1)
+    Motion::new(Vec3::new(rx, ry, rz) * PER_STEP[0], Vec3::new(x, y, z) * PER_STEP[1])
 }
 
 /// The tip's motion in the tick that was asked for last.

@@ -16,9 +16,9 @@ use dynamics_core::state::State;
 use glam::Vec3;
 use motion_control::{MotionLimits, Reference, TipMotion, TipMotionConfig, TrajectoryError};
 
-use super::ur5e::{EFFECTS, Effects, GravityOnly};
+use super::ur5e::{EFFECTS, Effects, GravityOnly, PickAndPlace};
 use crate::plant::Plant;
-use crate::scene::{Noise, PlantModel, Run, Scene, TICK, rigid};
+use crate::scene::{Noise, PlantModel, Run, Scene, TICK};
 use crate::trajectories::HOME;
 
 pub const TIP: OnBody<{ Ur5e::MODEL.body("wrist_3") }> = OnBody;
@@ -28,31 +28,23 @@ pub const RANGE: [f32; 6] = [2.5, 2.8, 2.8, 2.8, 2.2, 1.2];
 /// The greatest speed and acceleration of each joint.
 pub const LIMITS: MotionLimits<f32> = MotionLimits { velocity: 2.0, acceleration: 10.0 };
 
-/// Readings of the stick: the ticks in which it comes there at even speed, 0 for at once, and its
-/// axes. Turns about the base's axes come first, full deflection is 127.
-static STICK: [(u32, [i8; 6]); 22] = [
-    (300, [0, 0, 0, 0, 0, 0]),
-    (400, [0, 0, 0, 0, 70, -60]), // A slow curve.
-    (500, [0, 0, 0, 60, -90, 0]),
-    (300, [0, 0, 0, 0, 0, 0]),
-    (0, [0, 0, 0, 0, 120, 0]), // From one side to the other at once.
-    (400, [0, 0, 0, 0, 120, 0]),
-    (0, [0, 0, 0, 0, -120, 0]),
-    (400, [0, 0, 0, 0, -120, 0]),
-    (0, [0, 0, 120, 0, 0, 0]), // The last joint into its limit, and on.
-    (1500, [0, 0, 120, 0, 0, 0]),
-    (0, [0, 0, -100, 0, 0, 60]),
-    (700, [0, 0, -100, 0, 0, 60]),
-    (300, [0, 0, 0, 0, 0, 0]),
-    (200, [0, 0, 0, -120, 0, 0]), // To the end of the reach, and on.
-    (1700, [0, 0, 0, -120, 0, 0]),
-    (0, [0, 0, 0, 0, 0, 0]), // Let go.
-    (300, [0, 0, 0, 0, 0, 0]),
-    (300, [0, 0, 0, 110, 0, 0]),
-    (600, [0, 0, 0, 110, 0, 0]),
-    (200, [-120, 0, 0, 0, 80, 0]), // Sideways through a wrist that is straight.
-    (1900, [-120, 0, 0, 0, 80, 0]),
-    (300, [0, 0, 0, 0, 0, 0]),
+/// Readings of the stick: the ticks in which it comes there at even speed, 0 for at once, those in
+/// which it stays, and its axes. Turns about the base's axes come first, full deflection is 127.
+static STICK: [(i32, i32, [i8; 6]); 14] = [
+    (0, 300, [0, 0, 0, 0, 0, 0]),
+    (400, 0, [0, 0, 0, 0, 70, -60]), // A slow curve.
+    (500, 0, [0, 0, 0, 60, -90, 0]),
+    (300, 0, [0, 0, 0, 0, 0, 0]),
+    (0, 400, [0, 0, 0, 0, 120, 0]), // From one side to the other at once.
+    (0, 400, [0, 0, 0, 0, -120, 0]),
+    (0, 1500, [0, 0, 120, 0, 0, 0]), // The last joint into its limit, and on.
+    (0, 700, [0, 0, -100, 0, 0, 60]),
+    (300, 0, [0, 0, 0, 0, 0, 0]),
+    (200, 1700, [0, 0, 0, -120, 0, 0]), // To the end of the reach, on, and let go.
+    (0, 300, [0, 0, 0, 0, 0, 0]),
+    (300, 600, [0, 0, 0, 110, 0, 0]),
+    (200, 1900, [-120, 0, 0, 0, 80, 0]), // Sideways through a wrist that is straight.
+    (300, 0, [0, 0, 0, 0, 0, 0]),
 ];
 /// The readings when the stick is let go.
 const REST: [i8; 6] = [4, -3, 2, -2, 3, -4];
@@ -63,21 +55,23 @@ const PER_STEP: [f32; 2] = [1.2 / (127 - DEAD_BAND) as f32, 0.3 / (127 - DEAD_BA
 
 /// The twist that the stick asks for in a tick, rad/s and m/s.
 pub fn stick(tick: u32) -> Motion<f32> {
-    let (mut from, mut passed) = ([0; 6], tick);
-    let mut axes = [0.0; 6];
-    for &(ticks, to) in &STICK {
-        if passed < ticks {
-            for (axis, value) in axes.iter_mut().enumerate() {
+    let (mut from, mut passed) = ([0; 6], tick as i32);
+    for &(comes, stays, to) in &STICK {
+        if passed < comes + stays {
+            let [rx, ry, rz, x, y, z] = core::array::from_fn(|axis| {
                 let [from, to, rest] = [from[axis], to[axis], REST[axis]].map(i32::from);
-                let reading = from + (to - from) * passed as i32 / ticks as i32 + rest;
-                *value = (reading - reading.clamp(-DEAD_BAND, DEAD_BAND)) as f32;
-            }
-            break;
+                let left = if passed < comes { (from - to) * (comes - passed) / comes } else { 0 };
+                let reading = to + left + rest;
+                (reading - reading.clamp(-DEAD_BAND, DEAD_BAND)) as f32
+            });
+            return Motion::new(
+                Vec3::new(rx, ry, rz) * PER_STEP[0],
+                Vec3::new(x, y, z) * PER_STEP[1],
+            );
         }
-        (from, passed) = (to, passed - ticks);
+        (from, passed) = (to, passed - comes - stays);
     }
-    let [rx, ry, rz, x, y, z] = axes;
-    Motion::new(Vec3::new(rx, ry, rz) * PER_STEP[0], Vec3::new(x, y, z) * PER_STEP[1])
+    Motion::ZERO
 }
 
 /// The tip's motion in the tick that was asked for last.
@@ -103,7 +97,7 @@ impl Reference<f32, 6> for Jogged {
     }
 
     fn ticks(&self) -> u32 {
-        STICK.iter().map(|(ticks, _)| ticks).sum()
+        STICK.iter().map(|(comes, stays, _)| (comes + stays) as u32).sum()
     }
 }
 
@@ -152,13 +146,10 @@ impl Scene<6, 6, 6, 6> for Jog {
         (): &(),
         effects: &E,
     ) -> [f32; 6] {
-        Engine::<Ur5e>::rnea(reference, effects)
+        PickAndPlace::inverse(reference, &(), effects)
     }
 
     fn plant(noise: Option<&mut Noise>) -> Self::Plant {
-        rigid::<Self, 6, 6, 6, 6>(HOME, noise, |(.., viscous, coulomb, _), noise| {
-            noise.friction(&mut viscous.0);
-            noise.friction(&mut coulomb.torque);
-        })
+        PickAndPlace::plant(noise)
     }
 }

@@ -6,6 +6,7 @@ pub mod direct_drive;
 pub mod flexible_joint;
 pub mod flexible_link;
 pub mod gimbal_ship;
+pub mod jog;
 pub mod leg_hop;
 pub mod openarm_free_drive;
 pub mod panda_payload;

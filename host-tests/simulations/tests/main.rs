@@ -14,6 +14,7 @@ mod hand_guiding;
 mod hop;
 mod impedance;
 mod integrators;
+mod jog;
 mod momentum_observer;
 mod moving_goal;
 mod panda_payload;

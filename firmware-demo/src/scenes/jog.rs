@@ -60,7 +60,7 @@ pub fn stick(tick: u32) -> Motion<f32> {
         if passed < comes + stays {
             let [rx, ry, rz, x, y, z] = core::array::from_fn(|axis| {
                 let [from, to, rest] = [from[axis], to[axis], REST[axis]].map(i32::from);
-                let left = if passed < comes { (from - to) * (comes - passed) / comes } else { 0 };
+                let left = (from - to) * (comes - passed).max(0) / comes.max(1);
                 let reading = to + left + rest;
                 (reading - reading.clamp(-DEAD_BAND, DEAD_BAND)) as f32
             });

@@ -221,6 +221,20 @@ class MotorError(RobotDynamicsError, ValueError):
     """The number of its joint; none where all are concerned."""
 
 
+class MotionError(RobotDynamicsError, ValueError):
+    """A number of a goal, of a tip's motion or of its inverse kinematics that is refused."""
+
+    joint: int | None
+    """The number of its joint; none where all are concerned."""
+
+
+class PoseNotReached(RobotDynamicsError, ValueError):
+    """A pose that is out of reach, or nearly so."""
+
+    q: list[float]
+    """The positions of the nearest pose that was found."""
+
+
 class NotRecorded(RobotDynamicsError, LookupError):
     """No figure of this robot and algorithm is recorded."""
 

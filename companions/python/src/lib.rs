@@ -9,6 +9,7 @@ mod effects;
 mod error;
 mod failure;
 mod flexible;
+mod goal;
 mod library;
 mod linkages;
 mod loops;
@@ -41,6 +42,9 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<costs::Cost>()?;
     module.add_class::<loops::PyLoopJoint>()?;
     module.add_class::<loops::PyLoops>()?;
+    module.add_class::<goal::PyMovingGoal>()?;
+    module.add_class::<robot::tip::PyPoseSolver>()?;
+    module.add_class::<robot::tip::PyTipMotion>()?;
     module.add_class::<sensor::PySensorLoad>()?;
     module.add_class::<thermal::PyThermalLimit>()?;
     module.add_function(wrap_pyfunction!(robots, module)?)?;

@@ -10,6 +10,7 @@ mod momentum;
 pub mod pickled;
 mod regressors;
 pub mod said;
+pub mod tip;
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;

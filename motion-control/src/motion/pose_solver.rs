@@ -61,6 +61,7 @@ const BITS: f64 = 16_777_216.0;
 /// # Ok::<(), PoseSolverError<f64, 6>>(())
 /// ```
 #[doc(alias = "inverse kinematics")]
+#[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PoseSolver<R, const V: usize> {
     /// The least position of each joint, rad or m; −∞ for none.

@@ -223,7 +223,7 @@ fn c_project(name: &str, robot: RobotFile, expected: &str) {
     assert_eq!(Trial::after(&device, "inverse dynamics of the probe:"), expected);
     assert_eq!(device.lines().last(), Some("good"), "{device}");
     let costs: Vec<_> = device.lines().filter(|line| line.contains(": status 0, ")).collect();
-    assert_eq!(costs.len(), 14, "{device}");
+    assert_eq!(costs.len(), 17, "{device}");
     eprintln!("{}", costs.join("\n"));
     let check = trial.run("make", &[&out, "check"]);
     assert_eq!(check.lines().last(), Some("no panic"));
@@ -426,7 +426,7 @@ fn two_robots_in_c() {
     // What the program does not call is not in it.
     let symbols = left.run("arm-none-eabi-nm", &["device/two_robots"]);
     assert!(symbols.contains("left_arm_gravity"), "{symbols}");
-    for unused in ["thermal", "sensor", "wrench", "kinematics"] {
+    for unused in ["thermal", "sensor", "wrench", "kinematics", "_goal", "_tip_", "solve"] {
         assert!(!symbols.contains(unused), "{symbols}");
     }
     // The guide's code compiles with the header.

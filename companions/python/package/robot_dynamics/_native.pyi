@@ -12,6 +12,7 @@ _Form = Literal["core", "engine"]
 _Frame = Literal["local", "world", "local_world_aligned"]
 _Effects = Scene | Sequence[Scene]
 _Vector = Sequence[float] | npt.NDArray[Any]
+_Rotation = Sequence[_Vector] | npt.NDArray[Any]
 _Body = str | int
 _Coordinate = str | int
 
@@ -48,8 +49,10 @@ __all__ = [
     "Lugre",
     "Mode",
     "MovingBase",
+    "MovingGoal",
     "ParallelAnkle",
     "Payload",
+    "PoseSolver",
     "Robot",
     "Scene",
     "SensorLoad",
@@ -57,6 +60,7 @@ __all__ = [
     "Stewart",
     "Stribeck",
     "ThermalLimit",
+    "TipMotion",
     "Viscous",
     "WorldWrench",
     "_robot",
@@ -289,6 +293,59 @@ class Robot:
     def normalise(self, q: _Array) -> _Result: ...
     def integrate(self, q: _Array, delta: _Array) -> _Result: ...
     def difference(self, q0: _Array, q1: _Array) -> _Result: ...
+
+@final
+class MovingGoal:
+    def __new__(
+        cls, q: _Vector, tick: float, velocity: _Vector, acceleration: _Vector, jerk: _Vector
+    ) -> MovingGoal: ...
+    @property
+    def ticks(self) -> int: ...
+    @property
+    def seconds(self) -> float: ...
+    def set(self, tick: int, goal: _Vector, start: tuple[_Vector, _Vector, _Vector] | None = None) -> int: ...
+    def at(self, tick: int | Sequence[int] | _Result) -> tuple[_Result, _Result, _Result]: ...
+
+@final
+class PoseSolver:
+    def __new__(
+        cls,
+        robot: Robot,
+        body: _Body,
+        lower: _Vector | None = None,
+        upper: _Vector | None = None,
+        length: float = 0.3,
+        tolerance: float = 1e-9,
+        iterations: int = 130,
+    ) -> PoseSolver: ...
+    def solve(self, rotation: _Rotation, position: _Vector, start: _Vector | None = None) -> _Result: ...
+    def solutions(self, rotation: _Rotation, position: _Vector, starts: int = 200) -> _Result: ...
+    def seed(self, n: int) -> _Result: ...
+
+@final
+class TipMotion:
+    def __new__(
+        cls,
+        robot: Robot,
+        body: _Body,
+        q: _Vector,
+        tick: float,
+        acceleration: _Vector,
+        velocity: _Vector | None = None,
+        lower: _Vector | None = None,
+        upper: _Vector | None = None,
+        damping: float = 0.01,
+        length: float = 0.3,
+        posture: _Vector | None = None,
+        posture_gain: float = 0.0,
+    ) -> TipMotion: ...
+    @property
+    def state(self) -> tuple[_Result, _Result, _Result]: ...
+    def step(self, twist: _Vector) -> tuple[Literal["follows", "slowed", "limited", "stops"], int | None]: ...
+    def towards(
+        self, rotation: _Rotation, position: _Vector, gain: float, angular: float, linear: float
+    ) -> _Result: ...
+    def restart(self, start: tuple[_Vector, _Vector, _Vector]) -> None: ...
 
 @final
 class SensorLoad:

@@ -19,6 +19,7 @@ __all__ = [
     "LoopOpen",
     "ModeError",
     "ModelError",
+    "MotionError",
     "MotorError",
     "MultiDofJoint",
     "NoAttitude",
@@ -26,6 +27,7 @@ __all__ = [
     "NotFinite",
     "NotPositiveDefinite",
     "NotRecorded",
+    "PoseNotReached",
     "RobotDynamicsError",
     "SensorLoadError",
     "ShapeError",
@@ -219,6 +221,20 @@ class MotorError(RobotDynamicsError, ValueError):
 
     joint: int | None
     """The number of its joint; none where all are concerned."""
+
+
+class MotionError(RobotDynamicsError, ValueError):
+    """A number of a goal, of a tip's motion or of its inverse kinematics that is refused."""
+
+    joint: int | None
+    """The number of its joint; none where all are concerned."""
+
+
+class PoseNotReached(RobotDynamicsError, ValueError):
+    """A pose that is out of reach, or nearly so."""
+
+    q: list[float]
+    """The positions of the nearest pose that was found."""
 
 
 class NotRecorded(RobotDynamicsError, LookupError):

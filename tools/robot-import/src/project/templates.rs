@@ -72,7 +72,9 @@ pub(super) const C: &[File] = files!["c":
     "src/advice.rs" ".liquid",
     "src/controller.rs" ".liquid",
     "src/wrench.rs" ".liquid",
+    "src/goal.rs" ".liquid",
     "src/thermal.rs" ".liquid",
+    "src/tip.rs" ".liquid",
     "src/memory.rs",
     "include/{{crate_name}}.h" ".liquid",
     "example/main.c" ".liquid",
@@ -84,7 +86,9 @@ pub(super) const C: &[File] = files!["c":
     "tests/c/main.rs" ".liquid",
     "tests/c/controller.rs" ".liquid",
     "tests/c/fuzz.rs" ".liquid",
+    "tests/c/goal.rs" ".liquid",
     "tests/c/thermal.rs" ".liquid",
+    "tests/c/tip.rs" ".liquid",
     "tests/c/wrench.rs" ".liquid",
 ];
 

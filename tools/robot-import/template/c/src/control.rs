@@ -85,6 +85,9 @@ pub mod field {
     pub const COUNT: i32 = 17;
     pub const THERMAL_TORQUE: i32 = 18;
     pub const THERMAL_MOTOR: i32 = 19;
+    pub const JERK: i32 = 20;
+    pub const RANGE: i32 = 21;
+    pub const TIP: i32 = 22;
 }
 
 /// A status with what it is about.
@@ -364,7 +367,7 @@ impl Control {
     /// with the next reset.
     ///
     /// # Errors
-    /// `POINT`, `ANGLE` or `NOT_FINITE` with the way-point; `STATE` while the arm moves; `TOO_FAR`
+    /// `POINT`, `ANGLE` or `NOT_FINITE` with the way-point; `STATE` while the arm moves, which takes a goal instead; `TOO_FAR`
     /// if the first way-point is not where the arm stands. The reference is then as before.
     #[inline(never)]
     pub fn plan(&mut self, count: usize, points: &[WayPointC; MOST_POINTS]) -> Result<(), Rejected> {
@@ -412,6 +415,20 @@ impl Control {
         Ok(())
     }
 
+    /// The state from which the arm may be led to this goal: of its reference, or at rest where it is while it is held or
+    /// stopped.
+    ///
+    /// # Errors
+    /// `ANGLE`, `NOT_FINITE`, `POINT`.
+    pub fn departure(&self, goal: &[f32; N]) -> Result<State, Rejected> {
+        self.check_position(goal, None)?;
+        Ok(match self.controller.mode() {
+            // While the arm returns to its reference, the controller's own is elsewhere.
+            Mode::Full => self.source.at(self.controller.trajectory_tick().saturating_sub(1)),
+            _ => State::at(self.controller.estimate().q),
+        })
+    }
+
     /// Takes the reference of the next tick.
     ///
     /// # Errors
@@ -419,11 +436,7 @@ impl Control {
     /// can move in a tick. The tick then has no reference.
     pub fn follow(&mut self, reference: &State) -> Result<(), Rejected> {
         self.check_position(&reference.q, None)?;
-        for (field, values) in [(field::VELOCITY, &reference.qd), (field::ACCELERATION, &reference.qdd)] {
-            if let Some(joint) = values.iter().position(|x| !x.is_finite()) {
-                return Err((status::NOT_FINITE, Where::of(field, Some(joint), None)));
-            }
-        }
+        finite(reference)?;
         let speeds = reference.qd.iter().zip(&self.config.speed);
         for (joint, (qd, speed)) in speeds.enumerate() {
             if qd.abs() > *speed {
@@ -525,6 +538,16 @@ impl Control {
         let left = self.source.ticks().saturating_sub(self.controller.trajectory_tick());
         (*self.controller.estimate(), *self.controller.reference(), left)
     }
+}
+
+/// Accepts a state of finite numbers.
+pub(crate) fn finite(State { q, qd, qdd }: &State) -> Result<(), Rejected> {
+    for (field, values) in [(field::POSITION, q), (field::VELOCITY, qd), (field::ACCELERATION, qdd)] {
+        if let Some(joint) = values.iter().position(|x| !x.is_finite()) {
+            return Err((status::NOT_FINITE, Where::of(field, Some(joint), None)));
+        }
+    }
+    Ok(())
 }
 
 /// A way-point: `..._waypoint` of the header.

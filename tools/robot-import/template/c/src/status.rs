@@ -32,7 +32,7 @@ pub const CONFIG: i32 = -13;
 pub const POINT: i32 = -14;
 /// There is no reference yet.
 pub const NO_REFERENCE: i32 = -15;
-/// The arm moves, or it is stopped already.
+/// The arm moves, so that it takes a goal instead of way-points, or it is not stopped.
 pub const STATE: i32 = -16;
 /// There was no measurement in the last tick.
 pub const NO_MEASUREMENT: i32 = -17;
@@ -46,6 +46,12 @@ pub const NO_FAULT: i32 = -20;
 pub const FEW_POSES: i32 = -21;
 /// Gravity changes along one line of the sensor's frame, or hardly.
 pub const ONE_DIRECTION: i32 = -22;
+/// A joint is beyond its limits, or would be before its acceleration has ended.
+pub const TOO_FAST: i32 = -23;
+/// The motion to a goal takes 2³² ticks or more.
+pub const TOO_LONG: i32 = -24;
+/// No start has led to the pose.
+pub const NOT_REACHED: i32 = -25;
 
 /// The status of a computation as C receives it.
 #[inline(always)]

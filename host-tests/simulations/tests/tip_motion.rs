@@ -66,7 +66,7 @@ impl Seen {
         now: &ArmState<f32, N>,
         changes: &mut [u32; N],
     ) {
-        for j in 0..N {
+        for (j, changes) in changes.iter_mut().enumerate() {
             let (lower, upper, limits) = (config.lower[j], config.upper[j], config.limits[j]);
             let (q, qd, qdd) = (now.q[j], now.qd[j], now.qdd[j]);
             let way = 0.5 * TICK * (qd + before.qd[j]);
@@ -81,7 +81,7 @@ impl Seen {
                 && qdd.abs().min(before.qdd[j].abs()) > 0.01 * limits.acceleration;
             self.at_end += u32::from(at_end);
             self.reversals += u32::from(at_end & reversal);
-            changes[j] += u32::from(reversal);
+            *changes += u32::from(reversal);
         }
     }
 }

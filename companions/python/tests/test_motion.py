@@ -94,9 +94,9 @@ def test_a_tip_follows_a_twist_within_limits():
     assert ways == {("follows", None)}
     assert np.allclose(at(arm, 5, tip.state[0])[1], start + [0.0, 0.0, 0.1], rtol=0, atol=2e-3)
     # Out of reach a joint slows or limits it, and without a twist it comes to rest.
-    speeds = [tip.state[1] for _ in range(3000) if tip.step([0.0, 0.0, 0.0, 1.0, 0.0, 0.0])[0] != "stops"]
+    ways, speeds = zip(*((tip.step([0.0, 0.0, 0.0, 1.0, 0.0, 0.0])[0], tip.state[1]) for _ in range(3000)))
     assert np.abs(speeds).max() <= 3.2 and np.abs(np.diff(speeds, axis=0)).max() <= 0.01 + 1e-12
-    assert tip.step([0.0, 0.0, 0.0, 1.0, 0.0, 0.0])[0] in ("slowed", "limited")
+    assert "slowed" in ways
     assert {tip.step([np.nan] * 6) for _ in range(1000)} == {("stops", None)} and not tip.state[1].any()
     tip.restart((Q, [0.1] * 6, [0.0] * 6))
     assert np.array_equal(tip.state[0], Q)

@@ -133,9 +133,4 @@ impl PyMovingGoal {
     fn ticks(&self) -> u32 {
         self.goal.ticks()
     }
-    /// The duration of the motion since the goal has moved, s.
-    #[getter]
-    fn seconds(&self) -> f64 {
-        self.goal.seconds()
-    }
 }

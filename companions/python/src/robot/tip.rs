@@ -5,7 +5,7 @@ use dynamics_core::algorithms::frame::Pose;
 use dynamics_core::glam::{DMat3, DVec3};
 use dynamics_core::spatial::Motion;
 use motion_control::{
-    MotionLimits, PoseSolver, PoseSolverError, TipGoal, TipMotion, TipMotionConfig, TipStatus,
+    MotionLimits, PoseSolver, PoseSolverError, TipMotion, TipMotionConfig, TipStatus,
 };
 use numpy::{IntoPyArray, PyArrayMethods};
 use pyo3::prelude::*;
@@ -123,7 +123,7 @@ impl PyPoseSolver {
 
     /// Positions (joints), rad or m, at which the body has the rotation (3, 3) and the position
     /// (3), m, of `Robot.poses`: from `start`, else from the middle of the ranges, and then from
-    /// the `seed` of 1, 2, …
+    /// others within the ranges
     ///
     /// Raises PoseNotReached, with the nearest positions, of a pose that is out of reach or nearly
     /// so, and MotionError of numbers that are not finite.
@@ -186,11 +186,6 @@ impl PyPoseSolver {
         }
         let shape = [found.len(), self.tip.joints];
         Ok(found.concat().into_pyarray(py).reshape(shape)?.into_any())
-    }
-
-    /// Start n (joints): positions within the ranges and half a turn of zero.
-    fn seed<'py>(&self, py: Python<'py>, #[pyo3(from_py_with = wanted)] n: u32) -> Array<'py> {
-        self.solver.seed(n)[..self.tip.joints].to_vec().into_pyarray(py).into_any()
     }
 }
 
@@ -255,23 +250,6 @@ impl PyTipMotion {
             TipStatus::Limited(joint) => ("limited", Some(joint)),
             _ => ("stops", None),
         }
-    }
-
-    /// The twist (6), rad/s and m/s, towards a pose, of the rotation (3, 3) and the position (3), m:
-    /// straight on, by `gain` per distance, 1/s, and no faster than angular, rad/s, and linear, m/s.
-    fn towards<'py>(
-        &self,
-        py: Python<'py>,
-        #[pyo3(from_py_with = wanted)] rotation: [[f64; 3]; 3],
-        #[pyo3(from_py_with = wanted)] position: [f64; 3],
-        #[pyo3(from_py_with = wanted)] gain: f64,
-        #[pyo3(from_py_with = wanted)] angular: f64,
-        #[pyo3(from_py_with = wanted)] linear: f64,
-    ) -> PyResult<Array<'py>> {
-        let goal = TipGoal { pose: pose(py, rotation, position)?, gain, linear, angular };
-        let Motion { ang, lin } = goal.twist(&self.tip.kinematics(&self.motion.state().q).0);
-        let twist = [ang.to_array(), lin.to_array()].concat();
-        Ok(twist.into_pyarray(py).into_any())
     }
 
     /// Begins again from a state (q, q̇, q̈) of the arm, after a fault or another motion.

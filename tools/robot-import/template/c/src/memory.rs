@@ -6,6 +6,7 @@ use core::ptr::NonNull;
 
 use crate::control::Control;
 use crate::scene::{MOST_POINTS, N};
+use crate::status;
 
 /// The bytes that the header reserves: enough for every target.
 pub const BYTES: usize = 256 + 32 * MOST_POINTS + N * (144 + 16 * MOST_POINTS);
@@ -23,6 +24,41 @@ pub(crate) const fn library() -> u64 {
         k += 1;
     }
     hash
+}
+
+/// An object in memory of C's: the first word says whether there is one.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct Kept<T: Copy> {
+    magic: u64,
+    value: MaybeUninit<T>,
+}
+
+impl<T: Copy> Kept<T> {
+    const MAGIC: u64 = (library() ^ size_of::<Self>() as u64) | 1;
+
+    pub(crate) const fn of(value: T) -> Self {
+        const { assert!(align_of::<Self>() <= align_of::<u64>(), "the header aligns to 8 bytes") };
+        Self { magic: Self::MAGIC, value: MaybeUninit::new(value) }
+    }
+
+    /// The object that C passes, if there is one.
+    pub(crate) fn get(this: Option<&Self>) -> Result<&T, i32> {
+        let this = this.ok_or(status::NULL)?;
+        if this.magic != Self::MAGIC {
+            return Err(status::MEMORY);
+        }
+        // SAFETY: only `of` writes the word, together with a value.
+        Ok(unsafe { this.value.assume_init_ref() })
+    }
+
+    /// The same, to be changed.
+    pub(crate) fn get_mut(this: Option<&mut Self>) -> Result<&mut T, i32> {
+        Self::get(this.as_deref())?;
+        let this = this.ok_or(status::NULL)?;
+        // SAFETY: as above.
+        Ok(unsafe { this.value.assume_init_mut() })
+    }
 }
 
 /// A controller in its memory.

@@ -216,8 +216,9 @@ impl Impedance {
     #[inline(never)]
     fn at_the_start() -> Spring {
         let spring = Cell::new(CartesianImpedance::try_new(SPRING).ok());
-        let (gains, rest) = ([0.0; 7], State::at(READY));
-        let (kp, kd, q, qd) = (gains, gains, rest.q, rest.qd);
+        let rest = State::at(READY);
+        let State { q, qd, .. } = rest;
+        let (kp, kd) = (qd, qd);
         let held = Held { borne: &Load::default(), spring: &spring };
         let _ = Self::torque(&Gains { kp, kd }, &rest, &Estimate { q, qd }, &held);
         spring

@@ -172,9 +172,8 @@ impl<R: Real, const V: usize> MovingGoal<R, V> {
     /// [`MotionController::trajectory_tick`](crate::MotionController::trajectory_tick).
     ///
     /// # Cost
-    /// At most 13 evaluations of a motion for each joint, of some 110 instructions each; 17 for a
-    /// joint whose acceleration keeps its sign. Six joints take 9,000 modelled cycles in the median
-    /// and 11,700 at most of those in the table of costs.
+    /// Two to 17 evaluations of a motion for each joint, of some 150 instructions each:
+    /// `docs/costs.md` in the repository.
     ///
     /// # Errors
     /// [`GoalError`]; the motion is then as before.

@@ -26,7 +26,7 @@ fn gravity(q: &[f32; 6]) -> Vec3 {
 }
 
 fn main() -> Result<(), SensorLoadError> {
-    // What is to be found, in place of a real sensor.
+    // The load and the offset to be found, in place of a real sensor.
     let offset = Force::new(Vec3::new(0.2, -0.1, 0.0), Vec3::new(3.0, -2.0, 5.0));
     let tool = SensorLoad { mass: 1.2, first_moment: Vec3::new(0.01, 0.0, 0.1), offset };
     let shown = |arm: &State<f32, 6, 6>| of_load(&tool, arm) + tool.offset;

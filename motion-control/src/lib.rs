@@ -146,6 +146,13 @@ fn real<R: Real>(ticks: u32) -> R {
     R::select(f64::from(ticks), ticks as f32)
 }
 
+/// √x of a number that is zero or normal and not negative: without the division of the usual
+/// routine, which is a call into software.
+#[inline(always)]
+fn root<R: Real>(x: R) -> R {
+    x * x.rsqrt()
+}
+
 /// The entry of a joint's coordinate, or zero for a joint that has none.
 #[inline(always)]
 fn entry<T: Copy + Default>(values: &[T], at: usize) -> T {

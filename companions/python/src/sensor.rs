@@ -72,13 +72,13 @@ impl PySensorLoad {
     fn first_moment(&self) -> [f64; 3] {
         self.0.first_moment.into()
     }
-    /// What the sensor shows without a load, N·m and N.
+    /// The wrench that the sensor shows without a load, N·m and N.
     #[getter]
     fn offset(&self) -> [f64; 6] {
         six(&self.0.offset)
     }
 
-    /// What the sensor shows at rest (…, 6), N·m and N, of gravity in its frame (…, 3), m/s²: that
+    /// The wrench at rest (…, 6), N·m and N, of gravity in the sensor's frame (…, 3), m/s²: that
     /// of a contact is what it measures less this.
     fn at_rest<'py>(&self, py: Python<'py>, gravity: &Array<'py>) -> PyResult<Array<'py>> {
         let given = [argument("gravity", gravity, 3)];

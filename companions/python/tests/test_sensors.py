@@ -13,7 +13,7 @@ def test_a_load_is_that_of_numpys_least_squares():
     wrench = random.normal(scale=0.1, size=(12, 6)) + [0.2, -0.1, 0.05, 3.0, -2.0, 5.0]
     wrench += np.hstack([-np.cross([0.012, -0.006, 0.096], gravity), -1.2 * gravity])
     load = rd.SensorLoad.fit(gravity, wrench)
-    # Of m, h and the offset: couples g × h + n₀, forces −m g + f₀.
+    # Columns of m, h and the offset: couples g × h + n₀, forces −m g + f₀.
     blocks = [np.block([[np.zeros((3, 1)), np.cross(g, np.eye(3)).T], [-g[:, None], np.zeros((3, 3))]]) for g in gravity]
     rows = np.vstack([np.hstack([block, np.eye(6)]) for block in blocks])
     expected = np.linalg.lstsq(rows, wrench.ravel(), rcond=None)[0]

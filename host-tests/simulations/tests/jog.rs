@@ -7,7 +7,7 @@ use firmware_demo::scenes::jog::{Jog, LIMITS, RANGE, stick};
 use firmware_demo::scenes::ur5e::PickAndPlace;
 use motion_control::Reference;
 
-/// What a reference does: whether it stays within the limits of the scene; the ticks in which the
+/// The properties of a reference: whether it stays within the limits of the scene; the ticks in which the
 /// last joint is at the end of its range; the least sines of elbow and wrist, which are zero in
 /// singular postures.
 fn seen(reference: &impl Reference<f32, 6>) -> (bool, usize, [f32; 2]) {

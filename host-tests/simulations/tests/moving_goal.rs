@@ -23,7 +23,7 @@ struct Recording {
     problems: Vec<Problem>,
 }
 
-/// Of each joint the limits of velocity, acceleration and jerk, its velocity and acceleration, and
+/// The limits of velocity, acceleration and jerk of each joint, its velocity and acceleration, and
 /// the way to the goal.
 #[derive(Deserialize)]
 struct Problem {
@@ -78,7 +78,13 @@ impl Seen {
     }
 
     /// One tick of the motion: its jerk is constant, or changes once.
-    fn tick(&mut self, motion: &MovingGoal<f32, 6>, limits: &[JerkLimits<f32>; 6], tick: u32) {
+    fn tick(
+        &mut self,
+        motion: &impl Reference<f32, 6>,
+        seconds: f32,
+        limits: &[JerkLimits<f32>; 6],
+        tick: u32,
+    ) {
         let [before, after] = [tick, tick + 1].map(|tick| motion.at(tick));
         for (j, limits) in limits.iter().enumerate() {
             let of = |rate: fn(&State<f32, 6, 6>) -> &[f32; 6]| {
@@ -89,7 +95,7 @@ impl Seen {
             self.see(0, qd[1].abs() / f64::from(limits.velocity));
             self.see(1, qdd[1].abs() / f64::from(limits.acceleration));
             // Roundings of the acceleration and of the time are a jerk of their own.
-            let time = f64::from(motion.seconds()) * jerk;
+            let time = f64::from(seconds) * jerk;
             let rounding = 2.0 * f64::from(f32::EPSILON) * (f64::from(limits.acceleration) + time);
             self.see(2, ((qdd[1] - qdd[0]).abs() - rounding) / (jerk * h));
             let trapezoid = 0.5 * h * (qd[0] + qd[1]);
@@ -136,7 +142,8 @@ fn random_goals(goals: u32, mut out: impl Write) -> Seen {
             assert_eq!(motion.at(arrival), State::at(goal));
             let ticks = arrival - tick;
             for _ in 0..20 {
-                seen.tick(&motion, &limits, tick + rng.below(ticks as usize + 1) as u32);
+                let at = tick + rng.below(ticks as usize + 1) as u32;
+                seen.tick(&motion, motion.seconds(), &limits, at);
             }
             seen.goals += 1;
             let late = motion.at(tick + (0.95 * f64::from(ticks)) as u32);
@@ -173,6 +180,43 @@ fn a_hundred_thousand_goals_exceed_no_limit() {
     }
     assert!(seen.apart < 2e-6, "{seen:?}");
     assert!(seen.joints > 300_000 && seen.early < seen.joints / 1000, "{seen:?}");
+}
+
+/// A motion whose positions are off by this factor.
+struct Off<'a>(&'a MovingGoal<f32, 6>, f32);
+
+impl Reference<f32, 6> for Off<'_> {
+    fn at(&self, tick: u32) -> State<f32, 6, 6> {
+        let state = self.0.at(tick);
+        State { q: state.q.map(|q| self.1 * q), ..state }
+    }
+
+    fn ticks(&self) -> u32 {
+        Reference::<f32, 6>::ticks(self.0)
+    }
+}
+
+#[test]
+fn limits_that_are_exceeded_and_other_positions_are_seen() {
+    let limits = [JerkLimits { velocity: 1.0, acceleration: 4.0, jerk: 40.0 }; 6];
+    let mut motion = MovingGoal::try_new(&[0.0; 6], limits, TICK).unwrap();
+    let arrival = motion.set(0, &[1.5; 6]).unwrap();
+    let seen = |limits: &[JerkLimits<f32>; 6], factor| {
+        let mut seen = Seen::default();
+        let off = Off(&motion, factor);
+        (0..arrival).for_each(|tick| seen.tick(&off, motion.seconds(), limits, tick));
+        seen
+    };
+    let right = seen(&limits, 1.0);
+    assert!(right.shares.iter().all(|share| (0.999..=1.0).contains(share)), "{right:?}");
+    assert!(right.apart < 2e-6, "{right:?}");
+    let less = limits.map(|JerkLimits { velocity, acceleration, jerk }| JerkLimits {
+        velocity: 0.99 * velocity,
+        acceleration: 0.99 * acceleration,
+        jerk: 0.99 * jerk,
+    });
+    assert!(seen(&less, 1.0).shares.iter().all(|share| *share > 1.0));
+    assert!(seen(&limits, 1.01).apart > 2e-6);
 }
 
 /// The same way within limits of torque takes longer, and its torques are within them.

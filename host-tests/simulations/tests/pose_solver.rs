@@ -13,7 +13,7 @@ use glam::{DMat3, DVec3};
 use host_tests::recordings;
 use motion_control::{PoseSolver, PoseSolverError};
 
-/// Of 2 ms at 170 MHz, 340,000 modelled cycles: docs/costs.md has the cycles of all of them.
+/// The iterations that 2 ms at 170 MHz, 340,000 modelled cycles, suffice for: docs/costs.md.
 const ITERATIONS: u32 = 130;
 
 fn tip<T: Robot<N, N, N>, R: Real, const N: usize, const TIP: usize>(

@@ -44,16 +44,16 @@ fn velocity<const N: usize>(jacobian: &[Motion<f32>; N], qd: &[f32; N]) -> Motio
     columns.fold(Motion::ZERO, |sum, (column, qd)| sum + *column * *qd)
 }
 
-/// What was seen of a motion.
+/// The findings about a motion.
 #[derive(Debug, Default, PartialEq)]
 struct Seen {
-    /// Numbers beyond a limit, or not those of a motion, and the first of them.
+    /// Joints beyond a limit in a tick, or whose numbers are not those of a motion.
     beyond: u32,
     /// Ticks of joints that rest at an end of their range, and changes of the sign of an
     /// acceleration of at least a hundredth of the greatest one in them.
     at_end: u32,
     reversals: u32,
-    /// The most changes of a joint's sign in a second, away from the ends too.
+    /// The most changes of sign of a joint's acceleration in one twist, away from the ends too.
     chatter: u32,
 }
 

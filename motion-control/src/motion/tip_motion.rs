@@ -34,6 +34,7 @@ use crate::entry;
 use crate::law::pose_error;
 use crate::limits::{ConfigError, ConfigParameter, MotionLimits};
 use crate::reference::Reference;
+use crate::root;
 use dynamics_core::algorithms::frame::Pose;
 use dynamics_core::scalar::{Real, Vector};
 use dynamics_core::spatial::Motion;
@@ -134,7 +135,7 @@ pub enum TipStatus {
 pub struct TipMotion<R, const V: usize> {
     config: TipMotionConfig<R, V>,
     state: State<R, V, V>,
-    /// What rounding has left of the positions.
+    /// The parts of the positions that rounding has left.
     rest: [R; V],
     /// The d of joints that are held at a limit.
     held: [Option<R>; V],
@@ -158,7 +159,7 @@ impl<R: Real, const V: usize> TipMotion<R, V> {
             range.require(some & q[j].is_finite())?;
             range.positive(limits.acceleration)?;
         }
-        // Of the greatest speeds, what rounding may add to them.
+        // The greatest speeds leave room for their rounding.
         let less = R::ONE - R::from_f64(ROUNDINGS) * R::EPSILON;
         config.limits.iter_mut().for_each(|limits| limits.velocity *= less);
         let far = config.limits.map(|MotionLimits { velocity, acceleration: a }| {
@@ -312,12 +313,6 @@ impl<R: Real, const V: usize> TipMotion<R, V> {
             self.state.qdd[j] = ((new - old) * per_tick).clamped(-a, a);
         }
     }
-}
-
-/// √x of a positive normal number.
-#[inline(always)]
-fn root<R: Real>(x: R) -> R {
-    x * x.rsqrt()
 }
 
 impl<R: Real, const V: usize> Reference<R, V> for TipMotion<R, V> {

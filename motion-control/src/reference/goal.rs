@@ -32,8 +32,8 @@ pub struct JerkLimits<R> {
 /// The motion to a goal that may change at any tick, from any state, with limits of velocity,
 /// acceleration and jerk: the reference of a controller.
 ///
-/// Every joint arrives with the last one, within 1 % of the duration, or earlier if it cannot: a
-/// joint that has to brake as fast as it can has no slower motion. Positions between start and goal
+/// Every joint arrives with the last one, up to 2 % of the duration before it, or earlier if it
+/// cannot: a joint that has to brake as fast as it can has no slower motion. Positions between start and goal
 /// stay between them, but for what a joint needs to turn back.
 ///
 /// The limits are those of the joints. A motion whose torques have to be limited as well is, from
@@ -43,7 +43,7 @@ pub struct JerkLimits<R> {
 /// use motion_control::{JerkLimits, MovingGoal, Reference};
 /// let limits = [JerkLimits { velocity: 2.0, acceleration: 10.0, jerk: 100.0 }];
 /// let mut goal = MovingGoal::try_new(&[0.0_f32], limits, 1e-3)?;
-/// // 2 s at the speed limit less what speeding up and slowing down take: 1.5/2 + 2/10 + 10/100 s.
+/// // 1.5 rad at 2 rad/s, and the times of acceleration and jerk: 1.5/2 + 2/10 + 10/100 s.
 /// assert_eq!(goal.set(0, &[1.5])?, 1051);
 /// // On the way the goal moves back; the joint turns with all of its limits kept.
 /// let before = goal.at(400);

@@ -423,7 +423,7 @@ fn two_robots_in_c() {
     for text in [&host, &device] {
         assert_eq!(text.lines().last(), Some("good"), "{text}");
     }
-    // What the program does not call is not in it.
+    // A function that the program does not call is not in it.
     let symbols = left.run("arm-none-eabi-nm", &["device/two_robots"]);
     assert!(symbols.contains("left_arm_gravity"), "{symbols}");
     for unused in ["thermal", "sensor", "wrench", "kinematics", "_goal", "_tip_", "_pose"] {

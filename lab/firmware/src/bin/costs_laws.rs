@@ -168,8 +168,8 @@ fn moving_goal(goal: &mut MovingGoal<f32, 6>, q: &[f32; 6]) -> ArmState<f32, 6> 
     goal.at(tick)
 }
 
-/// The limits, and the motion whose change takes the most evaluations among the hundred thousand
-/// random goals of six joints.
+/// The limits, the state and the goal of a change that takes 53 evaluations, the most that a search
+/// among random changes of six joints has found.
 static LONGEST: ([[f32; 3]; 6], ArmState<f32, 6>, [f32; 6]) = (
     [
         [1.316_141_2, 0.779_997_4, 5.802_241],

@@ -31,7 +31,7 @@ fn to_goal(tip: &mut TipMotion<f32, 6>, goal: &TipGoal<f32>) -> TipStatus {
     tip.step(&columns, &goal.twist(&pose))
 }
 
-/// Of a free arm, and of one of which each joint comes to the end of its range in these ticks.
+/// The motion of a free arm, and of one whose joints all come to the ends of their ranges.
 fn tips(asks: &[Ask<6>; STATES]) -> Result<(), ConfigError> {
     let goals = asks.each_ref().map(|ask| {
         let [pose] = Engine::<Ur5e>::poses_of(&ask.trig, OnBody::<TIP>);

@@ -16,6 +16,7 @@
 //! one sign throughout: the jerk is j for a time, and then the joint comes to rest at once.
 
 use super::JerkLimits;
+use crate::root;
 use dynamics_core::scalar::{Real, positive_part};
 
 /// A time with one jerk.
@@ -177,7 +178,7 @@ impl<R: Real> Start<R> {
             if least.length > self.length {
                 return self.of_one_sign(level);
             }
-            // The square root of the length beyond rest is nearly linear in p, c = v₀ + (p² − a₀²/2)/j.
+            // The root of the length beyond rest is nearly linear in p, c = v₀ + (p² − a₀²/2)/j.
             let base = self.v - half * self.a * self.a * j_inv;
             let p = |c: R| root(positive_part(jerk * (c - base)));
             let c = |square: R| base + square * j_inv;
@@ -257,12 +258,6 @@ impl<R: Real> Start<R> {
         let [p_5, p_6, p_7] = self.change(c, R::ZERO, R::ZERO).phases;
         [p_1, p_2, p_3, p_4, p_5, p_6, p_7]
     }
-}
-
-/// √x of a number that is not negative: without the division of the usual routine, which takes four
-/// times as long.
-fn root<R: Real>(x: R) -> R {
-    x * x.rsqrt()
 }
 
 /// A place below the root of a rising function between two ends, and what the function returns

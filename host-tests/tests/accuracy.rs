@@ -18,6 +18,7 @@ use host_tests::measured::largest;
 use host_tests::recordings::{Precise, load, read};
 use host_tests::tolerances::check;
 use motion_control::{FirstOrderHold, InertiaUpdate};
+use serde_json::Value;
 
 #[derive(Default)]
 struct Names(Vec<String>);
@@ -53,6 +54,56 @@ fn each_robot_has_80_configurations_default_first() {
         // One word, as the firmware's log has it.
         assert!(names.iter().all(|name| !name.contains(' ') && name.len() <= 96));
     }
+}
+
+/// By how much the cheapest of these configurations of a robot exceeds the cheapest of all of them,
+/// for each error that may be allowed: 1, 1.1, 1.2 … N·m times a power of ten, from the default's
+/// error on.
+fn excess(recorded: &[Value], robot: &str, these: &[String], cost: &str) -> Vec<f64> {
+    let of = |point: &&Value| {
+        let [model, trig] = ["model", "trig"].map(|axis| point["configuration"][axis].as_str());
+        // The library ships neither rounded parameters nor sines of others.
+        let shipped = !model.is_some_and(|name| name.starts_with("params"))
+            && !matches!(trig, Some("libm" | "micromath"));
+        shipped && point["robot"] == robot && point["kind"] == "inverse"
+    };
+    let points: Vec<&Value> = recorded.iter().filter(of).collect();
+    let number = |point: &Value, name: &str| point[name].as_f64().unwrap_or(f64::INFINITY);
+    let is_one = |point: &Value| these.iter().any(|key| point["key"] == **key);
+    let default = points.iter().find(|point| point["key"] == "default").expect("the default");
+    let least = number(default, "error_max");
+    let decade = |ten| (10..100).map(move |digits| 0.1 * f64::from(digits) * 10_f64.powi(ten));
+    let allowed = (-8..2).flat_map(decade).filter(|allowed| *allowed >= least);
+    let excess = allowed.map(|allowed| {
+        let within = points.iter().filter(|point| number(point, "error_max") <= allowed);
+        let costs = within.map(|point| (number(point, cost), is_one(point)));
+        let cheapest = |wanted: fn(bool) -> bool| {
+            let wanted = costs.clone().filter(|(_, one)| wanted(*one));
+            wanted.map(|(cost, _)| cost).fold(f64::INFINITY, f64::min)
+        };
+        cheapest(|one| one) / cheapest(|_| true) - 1.0
+    });
+    excess.collect()
+}
+
+#[test]
+fn the_candidates_for_a_file_are_as_good_as_all() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/accuracy.json");
+    let text = std::fs::read_to_string(path).expect("the record");
+    let recorded: Vec<Value> = serde_json::from_str(&text).expect("points");
+    let mut candidates = Names::default();
+    list::candidates::<Ur5e, 6, 6>(&mut candidates);
+    let Names(mut candidates) = candidates;
+    for robot in ["ur5e", "panda", "a1_leg"] {
+        let worst = largest(excess(&recorded, robot, &candidates, "cycles"));
+        assert!(worst <= 0.03, "{robot}: the worst tick takes {worst:.3} more");
+        let mean = excess(&recorded, robot, &candidates, "cycles_mean");
+        let beyond = mean.iter().filter(|excess| **excess > 0.1).count();
+        assert!(100 * beyond <= mean.len(), "{robot}: {beyond} of {} means", mean.len());
+    }
+    // Without one of them they are not.
+    candidates.retain(|key| key != "trig=table,model=pruned3000");
+    assert!(largest(excess(&recorded, "ur5e", &candidates, "cycles")) > 0.03);
 }
 
 #[test]

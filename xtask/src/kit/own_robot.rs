@@ -14,7 +14,7 @@ use crate::kit::workspace::{self, Workspace};
 #[derive(clap::Args)]
 #[group(skip)]
 pub struct Args {
-    /// Measure the robot of this file, URDF or MJCF, alone; nothing is written
+    /// Measure the robot of this file, URDF or MJCF, alone; no page is written
     #[arg(long, value_name = "FILE")]
     file: Option<PathBuf>,
     #[command(flatten)]
@@ -22,6 +22,7 @@ pub struct Args {
 }
 
 pub struct OwnRobot {
+    pub file: PathBuf,
     pub name: String,
     /// The name of its type.
     pub type_name: String,
@@ -47,6 +48,7 @@ impl Args {
         }
         let text = |name: &str| report[name].as_str().unwrap_or_default().to_owned();
         Ok(Some(OwnRobot {
+            file: file.clone(),
             name: text("name"),
             type_name: text("type_name"),
             joints: report["sizes"][2].as_u64().unwrap_or_default(),

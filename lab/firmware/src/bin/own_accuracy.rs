@@ -1,5 +1,5 @@
-//! The cost of single changes to the default way to compute torques on the robot of a file: the bin
-//! of `cargo xtask accuracy --file`.
+//! The costs of the ways from which one is chosen for the robot of a file: the bin of
+//! `cargo xtask accuracy --file`.
 #![no_std]
 #![no_main]
 
@@ -10,6 +10,6 @@ include!(env!("OWN_ROBOT"));
 #[cortex_m_rt::entry]
 fn main() -> ! {
     let mut priced = accuracy::states::<Robot, N, N, _>();
-    fixtures::accuracy::list::single::<Robot, N, N>(&mut priced);
+    fixtures::accuracy::list::candidates::<Robot, N, N>(&mut priced);
     accuracy::done()
 }

@@ -3,6 +3,7 @@
 use std::str::FromStr;
 
 use super::names::{cycles, digits, lines, name, stated};
+use super::page::percent;
 use super::point::{Kind, Point, of_group};
 use super::robot::Robot;
 use super::{code, front};
@@ -23,6 +24,9 @@ pub enum Budget {
     /// The most accurate within this worst tick.
     Cycles(u64),
 }
+
+/// Cycles of a microsecond on a processor at 168 MHz.
+const PER_MICROSECOND: f64 = 168.0;
 
 /// Units by their names, each of which `m` makes a thousandth of.
 const UNITS: [(&str, Kind); 3] =
@@ -109,10 +113,19 @@ impl Budget {
     /// The choice in words, with the Rust to paste.
     pub fn answer(self, points: &[&Point]) -> Result<String> {
         let chosen = self.choose(points)?;
-        let mut text = described(chosen)?;
+        let default = points.iter().copied().find(|point| point.is_default());
+        let mut text = described(chosen, default)?;
         if let Some(other) = self.in_the_mean(points, chosen) {
             text += "\nIf the mean over ticks matters rather than the worst tick:\n\n";
-            text += &described(other)?;
+            text += &described(other, default)?;
+        }
+        let mut dearer = front::front(points, 0).into_iter();
+        if let (Self::Cycles(_), Some(next)) = (self, dearer.find(|p| p.cycles > chosen.cycles)) {
+            let (name, cycles, error) = (name(next), thousands(next.cycles), digits(next.error()));
+            let unit = &next.unit;
+            text += &format!(
+                "\nThe next one, {name}, takes {cycles} cycles and is off by up to {error} {unit}.\n"
+            );
         }
         Ok(text)
     }
@@ -127,18 +140,32 @@ pub fn shipped(points: &[Point], group: (&str, Kind, &str)) -> Vec<Point> {
 }
 
 /// A point's figures in words, and its code.
-fn described(point: &Point) -> Result<String> {
+fn described(point: &Point, default: Option<&Point>) -> Result<String> {
     let of = match point.kind {
         Kind::Simulation => "cycles for a simulated second",
         _ => "cycles in the worst tick",
     };
     let (robot, name, unit) = (&point.robot, name(point), &point.unit);
     let [worst, mean] = point.costs().map(cycles);
+    let time =
+        |point: &Point| format!("{:.2} µs at 168 MHz", point.cycles as f64 / PER_MICROSECOND);
+    let than = default.map_or(String::new(), |default| {
+        let share = percent(point.costs()[0] / default.costs()[0]);
+        let cycles = thousands(default.cycles);
+        format!(" ({}), {share} of the default's {cycles} ({})", time(point), time(default))
+    });
     let (error, share) = (digits(point.error()), stated(point.relative_max));
-    let (lines, code) = (lines(point), code::rust(point)?);
+    let elsewhere = [
+        (point.error_box, "in the worst of the box's states"),
+        (point.proven, "in any state, proven"),
+    ];
+    let elsewhere = elsewhere.map(|(error, what)| {
+        error.map_or(String::new(), |error| format!(", by up to {} {unit} {what}", digits(error)))
+    });
+    let (elsewhere, lines, code) = (elsewhere.concat(), lines(point), code::rust(point)?);
     Ok(format!(
-        "{robot} {name}: {worst} modelled {of}, {mean} in the mean; off by up to {error} {unit} ({share} of full scale)\n\
-         {lines}\n{code}"
+        "{robot} {name}: {worst} modelled {of}{than}, {mean} in the mean; off by up to {error} {unit} \
+         ({share} of full scale) along the way{elsewhere}\n{lines}\n{code}"
     ))
 }
 

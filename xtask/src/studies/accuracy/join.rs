@@ -56,6 +56,11 @@ impl Host {
         Ok(Self { lines: lines.lines().map(line).collect::<Result<_>>()?, proven: Vec::new() })
     }
 
+    /// The points of all lines.
+    pub fn points(&mut self) -> impl Iterator<Item = &mut Point> {
+        self.lines.iter_mut().map(|line| &mut line.point)
+    }
+
     /// The lines of a kind about a robot.
     pub fn of(&self, kind: Kind, robot: &str) -> impl Iterator<Item = &Line> {
         let of = move |line: &&Line| line.point.kind == kind && line.point.robot == robot;

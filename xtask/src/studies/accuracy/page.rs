@@ -81,11 +81,16 @@ pub fn steps<'a>(points: &[&'a Point], cost: usize) -> Vec<&'a Point> {
 /// Rows by their names, with the columns of these numbers, each with what it is called.
 fn table(rows: &[(String, &Point)], first: &str, columns: &str) -> Table {
     let default = rows.iter().find(|(_, point)| point.is_default());
-    let is_proven = rows.iter().any(|(_, point)| point.proven.is_some());
+    let any = |of: fn(&Point) -> Option<f64>| rows.iter().any(|(_, point)| of(point).is_some());
+    let is_shown = |number: usize| match number {
+        PROVEN => any(|point| point.proven),
+        IN_BOX => any(|point| point.error_box),
+        _ => true,
+    };
     let columns = columns.split("; ").filter_map(|column| {
         let (number, head) = column.split_once(' ')?;
         let number = number.parse::<usize>().ok()?;
-        (number != PROVEN || is_proven).then_some((number, head))
+        is_shown(number).then_some((number, head))
     });
     let (numbers, heads): (Vec<_>, Vec<_>) = columns.unzip();
     let mut table = Table::new(&[&[first], &heads[..]].concat());
@@ -109,6 +114,7 @@ fn table(rows: &[(String, &Point)], first: &str, columns: &str) -> Table {
             cycles(point.cycles as f64 * step),
             stated(point.drift),
             stated(point.proven),
+            stated(point.error_box),
         ];
         let row = numbers.iter().map(|number| cells[*number].clone());
         table.row(std::iter::once(name.clone()).chain(row));
@@ -127,19 +133,20 @@ fn of_robots<'a>(points: &'a [Point], shown: impl Fn(&Point) -> bool) -> Vec<(St
     shown.map(name).collect()
 }
 
-fn percent(ratio: f64) -> String {
+pub fn percent(ratio: f64) -> String {
     if ratio < 9.95 {
         return format!("{:.0} %", 100.0 * ratio);
     }
     format!("{ratio:.0} ×")
 }
 
-/// The column that is left out of a robot of which nothing is proven.
+/// Columns that are left out if no point has them.
 const PROVEN: usize = 11;
+const IN_BOX: usize = 12;
 const COSTS: &str =
     "0 insn; 1 worst tick; 3 mean; 5 max, N·m; 11 proven, N·m; 6 99 %; 7 RMS; 8 of full scale";
 const FRONTS: &str = "0 insn; 1 worst tick; 3 mean; 5 max error; 11 proven; 8 of full scale";
-const SHARES: &str = "1 worst tick; 2 of default's; 3 mean; 4 of default's; 5 max, N·m; 11 proven, N·m; 6 99 %; 7 RMS; 8 of full scale";
+const SHARES: &str = "1 worst tick; 2 of default's; 3 mean; 4 of default's; 5 max, N·m; 11 proven, N·m; 12 in the box; 6 99 %; 7 RMS; 8 of full scale";
 const BRIEF: &str = "1 worst tick, cycles; 3 mean; 5 largest error, N·m; 8 of full scale";
 const STEPS: &str = "1 cycles a second; 9 a step; 5 max, rad; 6 99 %; 7 RMS; 10 energy drift";
 const SPEEDS: &str = "5 max, N·m; 8 of full scale";

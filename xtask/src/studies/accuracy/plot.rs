@@ -38,8 +38,9 @@ pub fn pictures(points: &[Point], host: &Host, robot: Robot) -> Result<Vec<(Stri
     if robot == Robot::DoublePendulum {
         return Ok(vec![(file + ".svg", simulations(points)?)]);
     }
-    let own = of_group(points, (robot.name(), Kind::Inverse, ""));
-    Ok(vec![(file + ".svg", front(robot, &own, host)?)])
+    let [name, title, ..] = robot.names();
+    let own = of_group(points, (name, Kind::Inverse, ""));
+    Ok(vec![(file + ".svg", front([name, title], &own, host)?)])
 }
 
 /// Logarithmic axes around these points, with so much room left, right and above.
@@ -74,8 +75,7 @@ fn stair(plot: &Plot, points: impl Iterator<Item = (f64, f64)>) -> Vec<(i32, i32
 }
 
 /// The front by the worst tick, with what is proven of its points, names and yardsticks.
-pub fn front(robot: Robot, points: &[&Point], host: &Host) -> Result<String> {
-    let title = robot.names()[1];
+pub fn front([robot, title]: [&str; 2], points: &[&Point], host: &Host) -> Result<String> {
     let head = format!("{title}: the cheapest inverse dynamics of each accuracy");
     let default = points.iter().find(|point| point.is_default());
     // Points that cost more than the default are in the page's tables.
@@ -113,7 +113,7 @@ pub fn front(robot: Robot, points: &[&Point], host: &Host) -> Result<String> {
         let [x0, x1] = both[0].ends.map(|x| plot.at((x, 1.0)).0);
         let (mut dashed, mut said): (Vec<i32>, Vec<(i32, i32, i32)>) = Default::default();
         for (key, what) in MEASURES {
-            let mut yardsticks = host.of(Kind::Yardstick, robot.name());
+            let mut yardsticks = host.of(Kind::Yardstick, robot);
             let yardstick = yardsticks.find(|line| line.point.key == key);
             let Some(error) = yardstick.and_then(|line| line.point.error_max) else {
                 continue;

@@ -44,6 +44,9 @@ pub struct Point {
     pub unit: String,
     /// `error_max` as a share of full scale.
     pub relative_max: Option<f64>,
+    /// The largest |error| in random states of the joints' box of a robot from a file.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub error_box: Option<f64>,
     /// The bound that no joint's |error| exceeds in any state of the joints' box.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub proven: Option<f64>,

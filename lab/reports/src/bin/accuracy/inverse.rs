@@ -7,10 +7,11 @@ use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::model::Robot;
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
-use fixtures::accuracy::robots::Compared;
+use fixtures::accuracy::robots::{Compared, in_box};
 use fixtures::accuracy::{Inverse, Visitor};
-use host_tests::random::random_numbers;
+use host_tests::random::{random_numbers, within};
 use host_tests::recordings::{Precise, load, read};
+use proptest::test_runner::TestRng;
 use serde_json::json;
 
 use super::problem::{Problem, drawn};
@@ -28,6 +29,8 @@ const REST: u32 = 3;
 pub struct Bench<const N: usize> {
     pub kind: &'static str,
     robot: &'static str,
+    /// The robot is that of a file.
+    own: bool,
     full_scale: f64,
     /// The error of the oracle itself, N·m: smaller errors are given as this one.
     floor: f64,
@@ -44,10 +47,12 @@ impl<const N: usize> Visitor<N> for Bench<N> {
             Errors::of(answers.zip(problems.iter().map(|problem| problem.truth)))
         };
         let states = !W::MEMORY && !self.states.is_empty();
+        let largest = states.then(|| run(&self.states).max());
         let line = json!({
             "key": W::KEY.to_string(),
             "configuration": object(W::KEY.axes().iter()),
-            "anywhere": states.then(|| run(&self.states).max() / self.full_scale),
+            "anywhere": largest.map(|error| error / self.full_scale),
+            "error_box": largest.filter(|_| self.own),
         });
         let scales = [self.full_scale, self.floor];
         run(&self.way).print(self.robot, self.kind, scales, line);
@@ -60,7 +65,11 @@ pub fn print<T: Compared<B, N, W>, const B: usize, const N: usize, const W: usiz
 ) {
     let labelled = |state| Problem { state, truth: ours::<T, B, N>(&state) };
     let mut random = random_numbers();
-    let more = (0..MORE_STATES).map(|_| labelled(drawn(&mut random, [PI, 3.0, 10.0])));
+    let own = T::RECORDED.is_none();
+    let more = (0..MORE_STATES).map(|k| match own {
+        false => labelled(drawn(&mut random, [PI, 3.0, 10.0])),
+        true => labelled(in_box::<T, B, N, W>(shares(&mut random, k))),
+    });
     let mut states: Vec<_> = more.collect();
     let (mut full_scale, mut floor) = (full_scale(&states), 0.0);
     if let Some(name) = T::RECORDED {
@@ -72,11 +81,22 @@ pub fn print<T: Compared<B, N, W>, const B: usize, const N: usize, const W: usiz
     let ticks = 0..=way.ticks() + REST;
     let way = ticks.map(|tick| labelled(way.at(tick.saturating_sub(REST))));
     let way: Vec<_> = way.collect();
-    if T::RECORDED.is_some() {
-        yardsticks::print::<T, B, N>(full_scale, &way);
+    yardsticks::print::<T, B, N>(full_scale, &way);
+    if !own {
         yardsticks::print_speeds::<T, B, N>(full_scale);
     }
-    ways(&mut Bench { kind: "inverse", robot: T::MODEL.name, full_scale, floor, states, way });
+    let (kind, robot) = ("inverse", T::MODEL.name);
+    ways(&mut Bench { kind, robot, own, full_scale, floor, states, way });
+}
+
+/// Random shares of the joints' box: every other state is at a corner of speeds and accelerations,
+/// where torques are largest.
+fn shares<const N: usize>(random: &mut TestRng, number: usize) -> [[f32; N]; 3] {
+    let [q, qd, qdd] = [(); 3].map(|()| within::<N>(random, 1.0).map(|x| x as f32));
+    match number % 2 {
+        0 => [q, qd, qdd],
+        _ => [q, qd.map(f32::signum), qdd.map(f32::signum)],
+    }
 }
 
 fn ours<T: Robot<B, N, N>, const B: usize, const N: usize>(state: &State<f32, N, N>) -> [f64; N] {

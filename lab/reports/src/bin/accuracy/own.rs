@@ -1,5 +1,5 @@
-//! The errors of single changes to the default way to compute a torque, on the robot of a file.
-//! Nothing is recorded of it: errors are those from the core in f64.
+//! The errors of the ways from which one is chosen for the robot of a file. Nothing is recorded of
+//! it: errors are those from the core in f64.
 
 mod inverse;
 mod problem;
@@ -9,5 +9,5 @@ mod yardsticks;
 include!(env!("OWN_ROBOT"));
 
 fn main() {
-    inverse::print::<Robot, N, N, _>(fixtures::accuracy::list::single::<Robot, N, N>);
+    inverse::print::<Robot, N, N, _>(fixtures::accuracy::list::candidates::<Robot, N, N>);
 }

@@ -102,7 +102,7 @@ fn the_candidates_for_a_file_are_as_good_as_all() {
         assert!(100 * beyond <= mean.len(), "{robot}: {beyond} of {} means", mean.len());
     }
     // Without one of them they are not.
-    candidates.retain(|key| key != "trig=table,model=pruned3000");
+    candidates.retain(|key| key != "trig=table,model=pruned1000");
     assert!(largest(excess(&recorded, "ur5e", &candidates, "cycles")) > 0.03);
 }
 

@@ -1,5 +1,8 @@
 //! The common parts of the pictures: colours, axes, lines, rows of dots, names and legends.
 
+#[cfg(test)]
+mod collisions;
+mod names;
 mod panels;
 
 use std::ops::Range;
@@ -12,6 +15,7 @@ use plotters::style::text_anchor::{Pos, VPos};
 use crate::kit::error::{Result, check, refuse_if};
 use crate::kit::table::thousands;
 
+pub use names::Names;
 pub use panels::Panels;
 pub use plotters::style::RGBColor;
 pub use plotters::style::text_anchor::HPos;

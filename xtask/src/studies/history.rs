@@ -94,8 +94,6 @@ struct Report {
     ancestors: String,
     /// Why published and counted operations differ.
     differences: String,
-    /// The accuracies of the two eliminations, as rows of a table.
-    eliminations: String,
     rustc: String,
 }
 
@@ -114,7 +112,6 @@ pub fn measure(bench: &Bench<'_>) -> Result<Found> {
         rows: rows::run_for_time(tools, &meter, BIN, &elves[0], "")?,
         ancestors: ancestors.into(),
         differences: differences.trim_end().into(),
-        eliminations: SHARED.text(workspace, "eliminations")?.trim_end().into(),
         rustc: bench.rustc()?,
     };
     Ok(Found { rustc: Some(report.rustc.clone()), ..Found::new(report.markdown()?, &report.rows)? })
@@ -228,7 +225,6 @@ impl Report {
             torques = self.cycles(&TORQUES).markdown(),
             inertia = self.cycles(&INERTIA).markdown(),
             differences = self.differences,
-            eliminations = self.eliminations,
             rustc = self.rustc
         ))
     }

@@ -44,7 +44,7 @@ pub const STUDIES: &[Study] = &[
         form: Part(flags::measure),
     },
     Study {
-        name: "history", about: "Measure what today's algorithms replaced, and the two eliminations of forward dynamics, rewrite docs/history.md",
+        name: "history", about: "Measure what today's algorithms replaced and rewrite docs/history.md",
         files: &["docs/history.md"],
         held: Step(Target, Full, "docs/history.md has today's costs of the algorithms that today's replaced"),
         form: Whole(history::measure),

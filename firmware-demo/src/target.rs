@@ -199,18 +199,34 @@ impl defmt::Format for Words<'_> {
 #[macro_export]
 macro_rules! scene_main {
     ($module:ident::$scene:ident, $B:literal, $Q:literal, $V:literal, $N:literal) => {
-        use $crate::scene::{App, QUEUE, Record};
         use $crate::sim_io::Wires;
 
-        type Scene = App<$crate::scenes::$module::$scene, $B, $Q, $V, $N>;
-        type Queue = ::heapless::spsc::Queue<Record<$N>, QUEUE>;
-
+        #[cfg(not(feature = "telemetry"))]
         #[::cortex_m_rt::entry]
         fn main() -> ! {
+            use $crate::scene::{App, QUEUE, Record};
+
+            type Scene = App<$crate::scenes::$module::$scene, $B, $Q, $V, $N>;
+            type Queue = ::heapless::spsc::Queue<Record<$N>, QUEUE>;
             static WIRES: Wires<$N> = Wires::new();
             let queue = ::cortex_m::singleton!(: Queue = Queue::new());
             let place = |app| ::cortex_m::singleton!(: Scene = app);
             $crate::target::scene(&WIRES, queue, place)
+        }
+
+        #[cfg(feature = "telemetry")]
+        #[::cortex_m_rt::entry]
+        fn main() -> ! {
+            use $crate::target::watch::{QUEUE, Timed, watch};
+
+            type Scene = Timed<$crate::scenes::$module::$scene, $B, $Q, $V, $N>;
+            type Slots = ::telemetry::Slots<$N, QUEUE>;
+            type Queue = ::telemetry::Queue<'static, $N, QUEUE>;
+            static WIRES: Wires<$N> = Wires::new();
+            let slots = ::cortex_m::singleton!(: Slots = Slots::default());
+            let queue = ::cortex_m::singleton!(: Queue = Queue::new());
+            let place = |scene| ::cortex_m::singleton!(: Scene = scene);
+            watch(&WIRES, slots.zip(queue), place)
         }
     };
 }

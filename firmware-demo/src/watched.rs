@@ -98,7 +98,7 @@ where
         }
         let since = count.checked_rem(faults);
         if since.is_some_and(|since| since < FAULTY && count >= faults) {
-            self.wires.flag(JOINT);
+            self.wires.flag(JOINT.min(N - 1));
         }
         let environment = |ticks: f32| S::environment(&self.reference, ticks);
         let sample = self.records.sample();

@@ -171,25 +171,3 @@ fn argument(name: &[u8]) -> Option<u32> {
     let value = words.find_map(|word| word.strip_prefix(name)?.strip_prefix(b"="))?;
     core::str::from_utf8(value).ok()?.parse().ok()
 }
-
-/// The `main` of a scene that sends its telemetry, as [`scene_main`](crate::scene_main).
-#[macro_export]
-macro_rules! watch_main {
-    ($module:ident::$scene:ident, $B:literal, $Q:literal, $V:literal, $N:literal) => {
-        use $crate::sim_io::Wires;
-        use $crate::target::watch::{QUEUE, Timed, watch};
-
-        type Scene = Timed<$crate::scenes::$module::$scene, $B, $Q, $V, $N>;
-        type Slots = ::telemetry::Slots<$N, QUEUE>;
-        type Queue = ::telemetry::Queue<'static, $N, QUEUE>;
-
-        #[::cortex_m_rt::entry]
-        fn main() -> ! {
-            static WIRES: Wires<$N> = Wires::new();
-            let slots = ::cortex_m::singleton!(: Slots = Slots::default());
-            let queue = ::cortex_m::singleton!(: Queue = Queue::new());
-            let place = |scene| ::cortex_m::singleton!(: Scene = scene);
-            watch(&WIRES, slots.zip(queue), place)
-        }
-    };
-}

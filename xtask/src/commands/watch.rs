@@ -12,6 +12,7 @@ use crate::kit::callgraph::Instruction;
 use crate::kit::elf::Image;
 use crate::kit::error::{Error, Result, bail, check, refuse_if};
 use crate::kit::qemu::Run;
+use crate::kit::scene::Scene;
 use crate::kit::setup::{self, Options, Tools};
 use crate::kit::toolchain::{RELEASE, TARGET};
 use crate::kit::workspace::Workspace;
@@ -20,8 +21,10 @@ use crate::studies::budgets;
 
 /// The package that listens, and its program.
 const LISTENER: &str = "telemetry-watch";
-/// Scenes that have a bin which sends telemetry.
-const SCENES: [&str; 1] = ["ur5e"];
+/// The scene whose ticks are compared with a listener and without one.
+const SCENE: &str = "ur5e";
+/// The scene that has no interrupt for its ticks.
+const LED: &str = "openarm_free_drive";
 /// The serial port of QEMU, connected to the listener.
 const SERIAL: &str = "tcp:127.0.0.1:{port}";
 const TICKS: usize = 3000;
@@ -37,8 +40,8 @@ const KEPT: u64 = 39;
 #[derive(clap::Args)]
 pub struct Args {
     /// Run this scene in QEMU
-    #[arg(long, default_value = SCENES[0], value_parser = SCENES, conflicts_with = "port")]
-    scene: String,
+    #[arg(long, value_enum, default_value_t, value_name = "NAME", conflicts_with = "port")]
+    scene: Scene,
     /// Every this many ticks an encoder of the scene reports errors
     #[arg(long, value_name = "TICKS", conflicts_with = "port")]
     faults: Option<u32>,
@@ -86,16 +89,17 @@ pub fn run(options: Options, args: &Args) -> Result<ExitCode> {
     listener.args(args.json.then_some("--json"));
     if args.port.is_none() {
         let tools = setup::for_demo(options)?;
-        let name = format!("watch_{}", args.scene);
+        let name = args.scene.name();
+        refuse_if!(name == LED, "{LED} is led through trials one by one and sends no telemetry");
         let elf = match &args.project {
             Some(folder) => project(&workspace, &tools, folder)?,
-            None => firmware(&workspace, &tools, &name)?,
+            None => firmware(&workspace, &tools, name)?,
         };
         let numbers = [("faults", args.faults), ("ticks", args.ticks)];
         let numbers = numbers.map(|(name, number)| format!("{name}={}", number.unwrap_or(0)));
         let words = numbers.iter().map(String::as_str);
         let words: Vec<&str> = words.chain(args.excite.then_some("excite")).collect();
-        let mut run = Run::logging(&name, &elf, None);
+        let mut run = Run::logging(name, &elf, None);
         (run.serial, run.words) = (SERIAL, &words);
         listener.arg("--pace");
         tools.qemu.start_by(&mut listener, &run)?;
@@ -144,13 +148,13 @@ pub fn firmware(workspace: &Workspace, tools: &Tools, bin: &str) -> Result<PathB
 /// interrupts are masked for longer than stated.
 pub fn check(workspace: &Workspace, tools: &Tools, plugin: &Path) -> Result<String> {
     shell::capture(workspace.cargo("test").args(["--package", LISTENER]))?;
-    let name = format!("watch_{}", SCENES[0]);
-    let elf = firmware(workspace, tools, &name)?;
+    let name = SCENE;
+    let elf = firmware(workspace, tools, name)?;
     let ticks = format!("ticks={TICKS}");
-    let regions = |case: &str| workspace.output(&format!("{name}.{case}.regions"));
+    let regions = |case: &str| workspace.output(&format!("watched_{name}.{case}.regions"));
     let run = |case, serial, words: &[&str]| {
         let out = regions(case)?;
-        let mut run = Run::logging(&name, &elf, Some((plugin, &out)));
+        let mut run = Run::logging(name, &elf, Some((plugin, &out)));
         (run.serial, run.words) = (serial, words);
         tools.qemu.lines(&run)?;
         meter::read(&out)
@@ -160,7 +164,7 @@ pub fn check(workspace: &Workspace, tools: &Tools, plugin: &Path) -> Result<Stri
 
     let out = regions("heard")?;
     let words = [ticks.as_str()];
-    let mut heard = Run::logging(&name, &elf, Some((plugin, &out)));
+    let mut heard = Run::logging(name, &elf, Some((plugin, &out)));
     (heard.serial, heard.words) = (SERIAL, &words);
     let mut listener = program(workspace, LISTENER)?;
     tools.qemu.start_by(listener.arg("--json"), &heard)?;
@@ -169,7 +173,7 @@ pub fn check(workspace: &Workspace, tools: &Tools, plugin: &Path) -> Result<Stri
     masked_nowhere_else(&Image::read(&elf)?)?;
     let said = verdict(&meter::read(&out)?, &alone, &full)?;
     let cycles = longest(&alone);
-    let bar = format!("{} watched tick", SCENES[0]);
+    let bar = format!("{SCENE} watched tick");
     bars::hold(&budgets::bars(workspace)?, &bar, [("cycles", cycles as f64)])?;
     Ok(format!("{said}; with detectors and record a tick takes {cycles} cycles at most"))
 }

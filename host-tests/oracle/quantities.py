@@ -173,6 +173,15 @@ def of_state(plant, q, qd, qdd, tau, next_q, more):
     close(robot, "C + Cᵀ", coriolis + coriolis.T, rate, 1e-8)
     row["generalised_momentum"], row["coriolis_transposed"] = matrix @ qd, coriolis.T @ qd
 
+    # ∂ID/∂q along the right increments of q, and ∂ID/∂q̇.
+    both = pin.computeRNEADerivatives(series, forked, *there, along.v(qdd))[:2]
+    row["rnea_by_q"], row["rnea_by_qd"] = (np.array(by)[np.ix_(along.at, along.at)].ravel() for by in both)
+    torque = lambda q_then, v_then: order.v_back(pin.rnea(model, data, q_then, v_then, A))
+    at = lambda t: torque(pin.integrate(model, Q, t * V), (1 + t) * V)
+    slope = (8 * (at(h) - at(-h)) - (at(2 * h) - at(-2 * h))) / (12 * h)
+    along_v = (row["rnea_by_q"] + row["rnea_by_qd"]).reshape(n, n) @ qd
+    close(robot, "derivatives of ID", along_v, slope, 1e-8)
+
     row["regressor"] = regressor(plant, Q, V, A).ravel()
     close(robot, "regressor", row["regressor"].reshape(n, -1) @ parameters(robot), order.v_back(pin.rnea(model, data, Q, V, A)))
 

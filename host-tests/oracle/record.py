@@ -35,7 +35,7 @@ SEED = 2024
 STATES = 200  # random ones; the state of all zeros comes before them
 FIRST_STATES = 20  # of which M and everything else is recorded; half as many of a large robot
 LARGE = 12  # more velocity coordinates than that
-REGRESSORS = 5  # states of which the regressor, the largest quantity, is recorded; two of a large robot
+REGRESSORS = 5  # states of which the largest quantities are recorded; two of a large robot
 INPUTS = ("q", "qd", "qdd", "tau", "wrenches", "base_velocity", "base_acceleration", "step")
 GRAVITY = [0.0, 0.0, -9.81]
 RANGE = {"angle": np.pi, "length": 1.0, "qd": 3.0, "qdd": 10.0}
@@ -150,7 +150,8 @@ def record(robot):
             check(robot, model, order, plant.tip, q, qd, qdd)
             row.update(of_state(plant, q, qd, qdd, tau, drawn[k + 1][0], inputs(robot, order, rng)))
             if k >= (2 if model.nv > LARGE else REGRESSORS):
-                row.pop("regressor")
+                for large in ("regressor", "rnea_by_q", "rnea_by_qd"):
+                    row.pop(large)
         condition = max(condition, np.linalg.cond(matrix))
         for key, values in row.items():
             rows.setdefault(key, []).append([float(x) + 0.0 for x in values])  # + 0.0: no negative zero

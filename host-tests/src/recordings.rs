@@ -86,6 +86,10 @@ pub struct Recording {
     pub generalised_momentum: Vec<Vec<f64>>,
     /// Cᵀ q̇ = Ṁ q̇ − C q̇.
     pub coriolis_transposed: Vec<Vec<f64>>,
+    /// ∂ID/∂q along the right increments of q, by rows; of fewer states.
+    pub rnea_by_q: Vec<Vec<f64>>,
+    /// ∂ID/∂q̇, by rows; of fewer states.
+    pub rnea_by_qd: Vec<Vec<f64>>,
     /// Y with ID(q, q̇, q̈) = Y φ, by coordinates, bodies and ten parameters each; of fewer states.
     pub regressor: Vec<Vec<f64>>,
 

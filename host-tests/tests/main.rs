@@ -12,6 +12,7 @@ mod control;
 mod control_example;
 mod control_parts;
 mod coriolis;
+mod derivatives;
 mod detectors;
 mod devices;
 mod effects;

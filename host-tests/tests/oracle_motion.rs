@@ -6,7 +6,7 @@ use crate::common::of_recorded_robots;
 use crate::common::{Verdict, Worst, flat, six, unit};
 use dynamics_core::Core;
 use dynamics_core::algorithms::{
-    center_of_mass, centroidal_matrix, centroidal_momentum, frame, momentum,
+    center_of_mass, centroidal_matrix, centroidal_momentum, frame, momentum, rnea_derivatives,
 };
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::model::{Robot, Static};
@@ -57,6 +57,8 @@ fn motions<R: Real, T, const B: usize, const Q: usize, const V: usize>(
         ("centroidal matrix", &r.centroidal_matrix),
         ("M qd", &r.generalised_momentum),
         ("Cᵀ qd", &r.coriolis_transposed),
+        ("∂ID/∂q", &r.rnea_by_q),
+        ("∂ID/∂qd", &r.rnea_by_qd),
     ];
     let mut errors = quantities.map(|(_, rows)| worst(rows));
     let tip = B - 1;
@@ -119,6 +121,15 @@ fn motions<R: Real, T, const B: usize, const Q: usize, const V: usize>(
         let rate = Core::<T>::momentum_and_coriolis(&state, &());
         errors[15].compare(rate.p.map(R::to_f64), row(&r.generalised_momentum, i));
         errors[16].compare(rate.ct_qd.map(R::to_f64), row(&r.coriolis_transposed, i));
+        if i < r.rnea_by_q.len() {
+            let by = rnea_derivatives(&Static::<T>::NEW, &state, &RIGID_BODY);
+            for (k, rows) in [by.dq, by.dqd].iter().enumerate() {
+                let (want, _) = quantities[17 + k].1[i].as_chunks::<V>();
+                for (got, want) in rows.iter().zip(want) {
+                    errors[17 + k].compare(got.map(R::to_f64), *want);
+                }
+            }
+        }
     }
     for ((name, _), worst) in quantities.iter().zip(&errors) {
         most.see::<R>(name, worst);

@@ -19,6 +19,7 @@ pub(crate) mod pivot_check;
 pub(crate) mod prescribed;
 mod regressor;
 pub(crate) mod rnea;
+mod rnea_derivatives;
 mod rnea_two_velocities;
 pub(crate) mod rotors;
 mod transmitted;
@@ -58,6 +59,7 @@ pub use regressor::{
     friction_regressor, inertial_parameters, regressor, regressor_columns, regressor_row,
     regressor_row_of_bodies,
 };
+pub use rnea_derivatives::{TorqueGradient, rnea_derivatives};
 pub use rnea_two_velocities::rnea_two_velocities;
 pub use transmitted::{motor_torque, transmitted_torque};
 pub(crate) use tree_pass::{inward, per_body};

@@ -221,6 +221,18 @@ impl<R: Real> LinkView<'_, R> {
         }
     }
 
+    /// The dependence of S on the joint's coordinate k, if there is one.
+    #[cfg_attr(optimised, inline(always))]
+    pub(crate) fn bend(&self, turns: &[JointCoordinate<R>], k: usize) -> Option<Bend<R>> {
+        if self.kind != Universal || k != 1 {
+            return None;
+        }
+        let turn = entry(turns, self.idx_q + 1);
+        let column = R::Vec3::new(-turn.sin, -turn.cos, R::ZERO);
+        let column = Motion::new(column, R::Vec3::ZERO);
+        Some(Bend { column, straight: self.column(turns, 0), idx_v: self.idx_v })
+    }
+
     /// Column k of S: the velocity of the joint at unit rate of its coordinate k.
     #[cfg_attr(optimised, inline(always))]
     pub fn column(&self, turns: &[JointCoordinate<R>], k: usize) -> Motion<R> {
@@ -312,6 +324,29 @@ impl<R: Real> LinkView<'_, R> {
             let [nx, ny, _] = f.ang.array();
             *first -= entry(rates, self.idx_v + 1) * (turn.sin * nx + turn.cos * ny);
         }
+    }
+}
+
+/// The dependence of a universal joint's S on its second angle.
+pub(crate) struct Bend<R: Real> {
+    /// ∂S₀/∂q₁.
+    pub(crate) column: Motion<R>,
+    /// S₀, which is −∂²S₀/∂q₁².
+    straight: Motion<R>,
+    idx_v: usize,
+}
+
+impl<R: Real> Bend<R> {
+    /// (∂S/∂q₁) y of a velocity in all of `rates`.
+    #[cfg_attr(optimised, inline(always))]
+    pub(crate) fn along(&self, rates: &[R]) -> Motion<R> {
+        self.column * entry(rates, self.idx_v)
+    }
+
+    /// ∂(S̊ q̇)/∂q₁.
+    #[cfg_attr(optimised, inline(always))]
+    pub(crate) fn of_rate(&self, qd: &[R]) -> Motion<R> {
+        -(self.straight * (entry(qd, self.idx_v) * entry(qd, self.idx_v + 1)))
     }
 }
 

@@ -1,0 +1,314 @@
+//! ∂ID/∂q and ∂ID/∂q̇, from composite inertias, their Coriolis matrices and composite forces.
+//!
+//! Singh, Russell & Wensing, "Efficient analytical derivatives of rigid-body dynamics using spatial
+//! vector algebra" (2022), equations (16) to (23), in link coordinates. As in the Coriolis matrix,
+//! the force of a column is projected on the joints between its body and the base.
+
+use core::borrow::Borrow;
+
+use heapless::Vec;
+
+use super::rnea::{acceleration, velocity};
+use super::tree_pass::{inward, per_body};
+use crate::effects::{
+    Declared, Effect, Scene, TorqueDerivatives, base_motion, body_inertia, joint_state,
+};
+use crate::model::{JointCoordinate, LinkView, RobotModel};
+use crate::scalar::{Matrix, Real, Vector};
+use crate::spatial::inertia::CompositeInertia;
+use crate::spatial::{BodyCoriolis, Force, Motion, MotionSubspace, Xform};
+use crate::state::{Configuration, RobotState, State};
+
+/// The derivatives of inverse dynamics at a state, by rows of τ.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TorqueGradient<R, const V: usize> {
+    /// ∂τ/∂q, N·m/rad between revolute joints, N/m between prismatic ones.
+    pub dq: [[R; V]; V],
+    /// ∂τ/∂q̇, N·m·s/rad between revolute joints, N·s/m between prismatic ones.
+    pub dqd: [[R; V]; V],
+}
+
+/// What moves all bodies from a joint on when one of its coordinates or rates changes, in the
+/// coordinates of its body.
+#[derive(Clone, Copy)]
+struct Column<R: Real> {
+    /// S, of ∂/∂q̇ the change of velocity.
+    s: Motion<R>,
+    /// ψ̇ = v_λ × S: of ∂/∂q the change of velocity beside the displacement by S.
+    s_rate: Motion<R>,
+    /// ψ̈ = a_λ × S + v_λ × ψ̇: of ∂/∂q the change of acceleration beside it.
+    s_accel: Motion<R>,
+    /// ψ̇ + Ṡ: of ∂/∂q̇ the change of acceleration.
+    s_rates: Motion<R>,
+}
+
+/// The results of the outward pass for the inward one.
+struct Body<'a, R: Real> {
+    link: LinkView<'a, R>,
+    x: Xform<R>,
+    ic: CompositeInertia<R>,
+    bc: BodyCoriolis<R>,
+    fc: Force<R>,
+}
+
+/// ∂τ/∂q and ∂τ/∂q̇ of inverse dynamics τ = ID(q, q̇, q̈) under the effects of the scene; ∂τ/∂q̈ is
+/// M, that of [`crba`](crate::algorithms::crba()).
+///
+/// With composite inertias Iᶜ, their Coriolis matrices Bᶜ and composite forces fᶜ (which are those
+/// of the joints), where joint i is joint j or one of its ancestors:
+///
+/// ```text
+/// ∂τ_j/∂q_i = S_jᵀ (2 Bᶜ_j ʲX_i ψ̇_i + Iᶜ_j ʲX_i ψ̈_i)
+/// ∂τ_i/∂q_j = S_iᵀ ʲX_iᵀ (2 Bᶜ_j ψ̇_j + Iᶜ_j ψ̈_j + S_j ×* fᶜ_j)        i ≠ j
+/// ∂τ_j/∂q̇_i = S_jᵀ (2 Bᶜ_j ʲX_i S_i + Iᶜ_j ʲX_i (ψ̇_i + Ṡ_i))
+/// ∂τ_i/∂q̇_j = S_iᵀ ʲX_iᵀ (2 Bᶜ_j S_j + Iᶜ_j (ψ̇_j + Ṡ_j))
+/// ```
+///
+/// The derivative with respect to q is that along q ⊕ δ of
+/// [`integrate`](crate::state::manifold::integrate()) at δ = 0: at a spherical, planar or free joint
+/// along its velocities, in the body's frame, which are q̇'s coordinates; elsewhere along q itself.
+///
+/// Gravity, inertia, velocity products, payloads, armatures and a base of given motion are part of
+/// it, and joint torques by the derivatives that an effect names
+/// ([`Effect::derivatives`]): what it does not name counts as constant. A scene with wrenches on
+/// bodies, rotors that spin as bodies or friction of loaded gears does not compile. A non-finite
+/// input gives a non-finite output.
+///
+/// # Shape
+/// Two of V × V, not symmetric; an entry between joints of which neither is an ancestor of the other
+/// is exactly zero.
+///
+/// # Cost
+/// For B revolute joints some 800 B flops, and 190 for each pair of a joint and its ancestor: B² / 2
+/// pairs on a chain.
+///
+/// # Source
+/// Singh, Russell & Wensing (2022); the universal joint, whose S depends on q, by differentiation.
+///
+/// # Example
+/// ```
+/// use dynamics_core::algorithms::{rnea, rnea_derivatives};
+/// use dynamics_core::{effects::RIGID_BODY, model::Robot, robots::Ur5e, state::State};
+/// let qd = [0.5, -1.0, 2.0, 0.3, 0.0, 1.0];
+/// let mut state = State { qd, ..State::at([0.0_f64, -1.2, 1.5, 0.3, 0.7, 0.0]) };
+/// let gradient = rnea_derivatives(&Ur5e::MODEL, &state, &RIGID_BODY);
+/// let before = rnea(&Ur5e::MODEL, &state, &RIGID_BODY);
+/// state.q[2] += 1e-6;
+/// let after = rnea(&Ur5e::MODEL, &state, &RIGID_BODY);
+/// for (row, (a, b)) in gradient.dq.iter().zip(after.iter().zip(before)) {
+///     assert!(((a - b) / 1e-6 - row[2]).abs() < 1e-3);
+/// }
+/// ```
+#[doc(alias = "computeRNEADerivatives")]
+#[doc(alias = "inverse dynamics derivatives")]
+#[cfg_attr(optimised, inline(always))]
+#[must_use]
+pub fn rnea_derivatives<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
+    robot: &D,
+    state: impl RobotState<R, Q, V>,
+    effects: &E,
+) -> TorqueGradient<R, V>
+where
+    D: RobotModel<R, B, Q, V>,
+    E: Effect<R, B, V>,
+{
+    const {
+        let () = Scene::<R, E, B, V>::OF_CORE;
+        named_derivatives::<R, E, B, V>();
+    };
+    let trig = state.configuration().trig_of(robot);
+    let (trig, state) = (trig.borrow(), state.state());
+    let turns = &trig.coordinates;
+    let (v_0, a_0) = base_motion(effects);
+    let (mut v, mut a) = (per_body(robot, v_0), per_body(robot, a_0));
+    let mut columns = [Column::ZERO; V];
+    let mut bodies: Vec<Body<'_, R>, B> = Vec::new();
+    for (i, link) in robot.links().enumerate() {
+        let x = link.xform(turns);
+        let (v_parent, a_parent) = (x * v.parent(&link), x * a.parent(&link));
+        let v_i = velocity(effects, &link, v_parent, turns, state);
+        let a_i = acceleration(effects, &link, a_parent, v_i, turns, state);
+        for k in link.coordinates() {
+            if let Some(own) = columns.get_mut(k) {
+                let place = k - link.idx_v();
+                *own =
+                    column::<R, E, B, Q, V>(&link, place, [v_parent, a_parent, v_i], turns, state);
+            }
+        }
+        v.push(v_i);
+        a.push(a_i);
+        let inertia = body_inertia(effects, i, &link);
+        let (ic, bc) = (inertia.into(), BodyCoriolis::new(&inertia, v_i));
+        let _ = bodies.push(Body { link, x, ic, bc, fc: inertia.force(a_i, v_i) });
+    }
+
+    let mut gradient = TorqueGradient { dq: [[R::ZERO; V]; V], dqd: [[R::ZERO; V]; V] };
+    let mut pass = inward(&mut bodies);
+    while let Some((body, inner)) = pass.next() {
+        if let Some(parent) = inner.get_mut(body.link.parent) {
+            parent.ic += body.ic.at_parent(&body.x);
+            parent.bc += body.bc.at_parent(&body.x);
+            parent.fc += body.x.transpose_mul(body.fc);
+        }
+        for (k, j) in body.link.coordinates().enumerate() {
+            gradient.pair_up(body, inner, (k, j), &columns, turns);
+        }
+        add_joint_derivatives(effects, &body.link, state, &mut gradient);
+    }
+    gradient
+}
+
+impl<R: Real> Column<R> {
+    const ZERO: Self = Self {
+        s: Motion::ZERO,
+        s_rate: Motion::ZERO,
+        s_accel: Motion::ZERO,
+        s_rates: Motion::ZERO,
+    };
+}
+
+/// S, ψ̇, ψ̈ and ψ̇ + Ṡ of the coordinate k of a link's joint, as far as the effects need them.
+///
+/// S depends on q at a universal joint alone: with eₖ = (∂S/∂q_k) q̇, the change of the velocity in
+/// the body's frame is v_λ × S + e, and that of the acceleration has (∂S/∂q_k) q̈ + ∂(S̊ q̇)/∂q_k +
+/// v × e as well.
+#[cfg_attr(optimised, inline(always))]
+fn column<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+    link: &LinkView<'_, R>,
+    k: usize,
+    [v_parent, a_parent, v]: [Motion<R>; 3],
+    turns: &[JointCoordinate<R>],
+    state: &State<R, Q, V>,
+) -> Column<R>
+where
+    E: Effect<R, B, V>,
+{
+    let s = link.column(turns, k);
+    let mut column = Column { s, s_accel: a_parent.cross(s), ..Column::ZERO };
+    let bend = link.bend(turns, k);
+    if E::ACCELERATIONS
+        && let Some(bend) = &bend
+    {
+        column.s_accel += bend.along(&state.qdd);
+    }
+    if E::VELOCITY_PRODUCTS {
+        let mut s_rate = v_parent.cross(s);
+        column.s_accel += v_parent.cross(s_rate);
+        if let Some(bend) = &bend {
+            let e = bend.along(&state.qd);
+            // −e × v_λ + v × e, and ∂(S̊ q̇)/∂q.
+            column.s_accel += v_parent.cross(e) + v.cross(e) + bend.of_rate(&state.qd);
+            s_rate += e;
+        }
+        column.s_rate = s_rate;
+        column.s_rates = s_rate + link.column_rate(turns, &state.qd, v, k);
+    }
+    column
+}
+
+impl<R: Real, const V: usize> TorqueGradient<R, V> {
+    /// The entries of coordinate k of a body, number j of the robot, with those of the body itself
+    /// and of the bodies `inner` to it.
+    #[cfg_attr(optimised, inline(always))]
+    fn pair_up(
+        &mut self,
+        body: &Body<'_, R>,
+        inner: &[Body<'_, R>],
+        (k, j): (usize, usize),
+        columns: &[Column<R>; V],
+        turns: &[JointCoordinate<R>],
+    ) {
+        let Some(own) = columns.get(j) else {
+            return;
+        };
+        let along = |m: Motion<R>| body.ic.along(&MotionSubspace::General(m));
+        let twice = |f: Force<R>| f + f;
+        // The forces of column j; the forces Iᶜ S and 2 Bᶜᵀ S of row j, the latter a couple.
+        let mut by_q = twice(body.bc * own.s_rate) + along(own.s_accel);
+        let mut by_qd = twice(body.bc * own.s) + along(own.s_rates);
+        let mut row = body.ic.along(&body.link.subspace(turns, k));
+        let mut couple = body.bc.transpose_mul(own.s);
+        couple += couple;
+        for (l, i) in body.link.coordinates().enumerate() {
+            let s = body.link.subspace(turns, l);
+            self.put(i, j, [s.dot(by_q), s.dot(by_qd)]);
+        }
+        if let Some(bend) = body.link.bend(turns, k) {
+            self.add(body.link.idx_v(), j, [bend.column.dot(body.fc), R::ZERO]);
+        }
+        by_q += own.s.cross_force(body.fc);
+        let mut child = body;
+        while let Some(parent) = inner.get(child.link.parent) {
+            by_q = child.x.transpose_mul(by_q);
+            by_qd = child.x.transpose_mul(by_qd);
+            row = child.x.transpose_mul(row);
+            couple = child.x.rot.transpose_mul(couple);
+            for (l, i) in parent.link.coordinates().enumerate() {
+                let Some(other) = columns.get(i) else {
+                    continue;
+                };
+                let s = parent.link.subspace(turns, l);
+                self.put(i, j, [s.dot(by_q), s.dot(by_qd)]);
+                let of_row =
+                    |rate: Motion<R>, accel: Motion<R>| couple.dot(rate.ang) + accel.dot(row);
+                let by_row = [of_row(other.s_rate, other.s_accel), of_row(other.s, other.s_rates)];
+                self.put(j, i, by_row);
+            }
+            child = parent;
+        }
+    }
+
+    #[cfg_attr(optimised, inline(always))]
+    fn put(&mut self, i: usize, j: usize, [by_q, by_qd]: [R; 2]) {
+        for (matrix, value) in [(&mut self.dq, by_q), (&mut self.dqd, by_qd)] {
+            if let Some(entry) = matrix.get_mut(i).and_then(|row| row.get_mut(j)) {
+                *entry = value;
+            }
+        }
+    }
+
+    #[cfg_attr(optimised, inline(always))]
+    fn add(&mut self, i: usize, j: usize, [by_q, by_qd]: [R; 2]) {
+        let [was_q, was_qd] = [&self.dq, &self.dqd].map(|rows| entry_of(rows, i, j));
+        self.put(i, j, [was_q + by_q, was_qd + by_qd]);
+    }
+}
+
+#[cfg_attr(optimised, inline(always))]
+fn entry_of<R: Real, const V: usize>(rows: &[[R; V]; V], i: usize, j: usize) -> R {
+    rows.get(i).and_then(|row| row.get(j)).copied().unwrap_or(R::ZERO)
+}
+
+/// Adds what the effects name at one joint's coordinates to the diagonals.
+#[cfg_attr(optimised, inline(always))]
+fn add_joint_derivatives<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+    effects: &E,
+    link: &LinkView<'_, R>,
+    state: &State<R, Q, V>,
+    gradient: &mut TorqueGradient<R, V>,
+) where
+    E: Effect<R, B, V>,
+{
+    for k in link.coordinates() {
+        let mut by = TorqueDerivatives::default();
+        effects.derivatives(k, joint_state(link, state, k), &mut by);
+        gradient.add(k, k, [by.dq, by.dqd]);
+    }
+}
+
+/// The effects of a scene name the derivatives of what they add.
+const fn named_derivatives<R: Real, E, const B: usize, const V: usize>()
+where
+    E: Effect<R, B, V>,
+{
+    assert!(
+        !E::WRENCH,
+        "an effect of the scene has a wrench on a body, whose derivatives it cannot name: leave it out of \
+         the scene whose derivatives are computed"
+    );
+    assert!(
+        !(E::GYROSCOPIC_ROTORS | E::LOAD_DEPENDENT | E::ELASTICITY),
+        "the derivatives of rotors that spin as bodies, of friction that depends on the load, and of links \
+         that bend are not computed: use `Armature`, `Viscous` and `Coulomb`"
+    );
+}

@@ -5,6 +5,7 @@ mod articulated_pass;
 mod coriolis_matrix;
 pub(crate) mod crba;
 mod crba_jacobian;
+mod derivatives;
 mod energy;
 mod error;
 mod forward_dynamics;
@@ -19,7 +20,6 @@ pub(crate) mod pivot_check;
 pub(crate) mod prescribed;
 mod regressor;
 pub(crate) mod rnea;
-mod rnea_derivatives;
 mod rnea_two_velocities;
 pub(crate) mod rotors;
 mod transmitted;
@@ -28,6 +28,10 @@ mod wrenches;
 
 pub use coriolis_matrix::coriolis_matrix;
 pub use crba_jacobian::crba_jacobian;
+pub use derivatives::{
+    AccelerationGradient, TorqueGradient, forward_dynamics_derivatives, rnea_along,
+    rnea_derivatives, rnea_transposed,
+};
 pub use energy::{kinetic_energy, potential_energy};
 pub use error::NotPositiveDefinite;
 pub use forward_dynamics::forward_dynamics;
@@ -59,7 +63,6 @@ pub use regressor::{
     friction_regressor, inertial_parameters, regressor, regressor_columns, regressor_row,
     regressor_row_of_bodies,
 };
-pub use rnea_derivatives::{TorqueGradient, rnea_derivatives};
 pub use rnea_two_velocities::rnea_two_velocities;
 pub use transmitted::{motor_torque, transmitted_torque};
 pub(crate) use tree_pass::{inward, per_body};

@@ -6,17 +6,13 @@
 
 use core::borrow::Borrow;
 
-use heapless::Vec;
-
-use super::rnea::{acceleration, velocity};
-use super::tree_pass::{inward, per_body};
-use crate::effects::{
-    Declared, Effect, Scene, TorqueDerivatives, base_motion, body_inertia, joint_state,
-};
+use super::named_derivatives;
+use super::outward::{Body, Column, outward};
+use crate::algorithms::tree_pass::inward;
+use crate::effects::{Effect, Scene, TorqueDerivatives, joint_state};
 use crate::model::{JointCoordinate, LinkView, RobotModel};
 use crate::scalar::{Matrix, Real, Vector};
-use crate::spatial::inertia::CompositeInertia;
-use crate::spatial::{BodyCoriolis, Force, Motion, MotionSubspace, Xform};
+use crate::spatial::Motion;
 use crate::state::{Configuration, RobotState, State};
 
 /// The derivatives of inverse dynamics at a state, by rows of τ.
@@ -26,29 +22,6 @@ pub struct TorqueGradient<R, const V: usize> {
     pub dq: [[R; V]; V],
     /// ∂τ/∂q̇, N·m·s/rad between revolute joints, N·s/m between prismatic ones.
     pub dqd: [[R; V]; V],
-}
-
-/// What moves all bodies from a joint on when one of its coordinates or rates changes, in the
-/// coordinates of its body.
-#[derive(Clone, Copy)]
-struct Column<R: Real> {
-    /// S, of ∂/∂q̇ the change of velocity.
-    s: Motion<R>,
-    /// ψ̇ = v_λ × S: of ∂/∂q the change of velocity beside the displacement by S.
-    s_rate: Motion<R>,
-    /// ψ̈ = a_λ × S + v_λ × ψ̇: of ∂/∂q the change of acceleration beside it.
-    s_accel: Motion<R>,
-    /// ψ̇ + Ṡ: of ∂/∂q̇ the change of acceleration.
-    s_rates: Motion<R>,
-}
-
-/// The results of the outward pass for the inward one.
-struct Body<'a, R: Real> {
-    link: LinkView<'a, R>,
-    x: Xform<R>,
-    ic: CompositeInertia<R>,
-    bc: BodyCoriolis<R>,
-    fc: Force<R>,
 }
 
 /// ∂τ/∂q and ∂τ/∂q̇ of inverse dynamics τ = ID(q, q̇, q̈) under the effects of the scene; ∂τ/∂q̈ is
@@ -99,6 +72,17 @@ struct Body<'a, R: Real> {
 ///     assert!(((a - b) / 1e-6 - row[2]).abs() < 1e-3);
 /// }
 /// ```
+///
+/// A wrench whose derivatives nothing names:
+///
+/// ```compile_fail,E0080
+/// use dynamics_core::algorithms::rnea_derivatives;
+/// use dynamics_core::effects::{BodyWrench, RIGID_BODY};
+/// use dynamics_core::spatial::Force;
+/// use dynamics_core::{model::Robot, robots::Ur5e, state::State};
+/// let scene = (RIGID_BODY, BodyWrench { body: 5, wrench: Force::<f64>::ZERO });
+/// let _ = rnea_derivatives(&Ur5e::MODEL, &State::at([0.0; 6]), &scene);
+/// ```
 #[doc(alias = "computeRNEADerivatives")]
 #[doc(alias = "inverse dynamics derivatives")]
 #[cfg_attr(optimised, inline(always))]
@@ -119,91 +103,18 @@ where
     let trig = state.configuration().trig_of(robot);
     let (trig, state) = (trig.borrow(), state.state());
     let turns = &trig.coordinates;
-    let (v_0, a_0) = base_motion(effects);
-    let (mut v, mut a) = (per_body(robot, v_0), per_body(robot, a_0));
-    let mut columns = [Column::ZERO; V];
-    let mut bodies: Vec<Body<'_, R>, B> = Vec::new();
-    for (i, link) in robot.links().enumerate() {
-        let x = link.xform(turns);
-        let (v_parent, a_parent) = (x * v.parent(&link), x * a.parent(&link));
-        let v_i = velocity(effects, &link, v_parent, turns, state);
-        let a_i = acceleration(effects, &link, a_parent, v_i, turns, state);
-        for k in link.coordinates() {
-            if let Some(own) = columns.get_mut(k) {
-                let place = k - link.idx_v();
-                *own =
-                    column::<R, E, B, Q, V>(&link, place, [v_parent, a_parent, v_i], turns, state);
-            }
-        }
-        v.push(v_i);
-        a.push(a_i);
-        let inertia = body_inertia(effects, i, &link);
-        let (ic, bc) = (inertia.into(), BodyCoriolis::new(&inertia, v_i));
-        let _ = bodies.push(Body { link, x, ic, bc, fc: inertia.force(a_i, v_i) });
-    }
+    let (mut bodies, columns) = outward(robot, turns, state, effects);
 
     let mut gradient = TorqueGradient { dq: [[R::ZERO; V]; V], dqd: [[R::ZERO; V]; V] };
     let mut pass = inward(&mut bodies);
     while let Some((body, inner)) = pass.next() {
-        if let Some(parent) = inner.get_mut(body.link.parent) {
-            parent.ic += body.ic.at_parent(&body.x);
-            parent.bc += body.bc.at_parent(&body.x);
-            parent.fc += body.x.transpose_mul(body.fc);
-        }
+        body.add_to(inner);
         for (k, j) in body.link.coordinates().enumerate() {
             gradient.pair_up(body, inner, (k, j), &columns, turns);
         }
         add_joint_derivatives(effects, &body.link, state, &mut gradient);
     }
     gradient
-}
-
-impl<R: Real> Column<R> {
-    const ZERO: Self = Self {
-        s: Motion::ZERO,
-        s_rate: Motion::ZERO,
-        s_accel: Motion::ZERO,
-        s_rates: Motion::ZERO,
-    };
-}
-
-/// S, ψ̇, ψ̈ and ψ̇ + Ṡ of the coordinate k of a link's joint, as far as the effects need them.
-///
-/// S depends on q at a universal joint alone: with eₖ = (∂S/∂q_k) q̇, the change of the velocity in
-/// the body's frame is v_λ × S + e, and that of the acceleration has (∂S/∂q_k) q̈ + ∂(S̊ q̇)/∂q_k +
-/// v × e as well.
-#[cfg_attr(optimised, inline(always))]
-fn column<R: Real, E, const B: usize, const Q: usize, const V: usize>(
-    link: &LinkView<'_, R>,
-    k: usize,
-    [v_parent, a_parent, v]: [Motion<R>; 3],
-    turns: &[JointCoordinate<R>],
-    state: &State<R, Q, V>,
-) -> Column<R>
-where
-    E: Effect<R, B, V>,
-{
-    let s = link.column(turns, k);
-    let mut column = Column { s, s_accel: a_parent.cross(s), ..Column::ZERO };
-    let bend = link.bend(turns, k);
-    if E::ACCELERATIONS
-        && let Some(bend) = &bend
-    {
-        column.s_accel += bend.along(&state.qdd);
-    }
-    if E::VELOCITY_PRODUCTS {
-        let mut s_rate = v_parent.cross(s);
-        column.s_accel += v_parent.cross(s_rate);
-        if let Some(bend) = &bend {
-            let e = bend.along(&state.qd);
-            // −e × v_λ + v × e, and ∂(S̊ q̇)/∂q.
-            column.s_accel += v_parent.cross(e) + v.cross(e) + bend.of_rate(&state.qd);
-            s_rate += e;
-        }
-        column.s_rate = s_rate;
-        column.s_rates = s_rate + link.column_rate(turns, &state.qd, v, k);
-    }
-    column
 }
 
 impl<R: Real, const V: usize> TorqueGradient<R, V> {
@@ -221,11 +132,9 @@ impl<R: Real, const V: usize> TorqueGradient<R, V> {
         let Some(own) = columns.get(j) else {
             return;
         };
-        let along = |m: Motion<R>| body.ic.along(&MotionSubspace::General(m));
-        let twice = |f: Force<R>| f + f;
         // The forces of column j; the forces Iᶜ S and 2 Bᶜᵀ S of row j, the latter a couple.
-        let mut by_q = twice(body.bc * own.s_rate) + along(own.s_accel);
-        let mut by_qd = twice(body.bc * own.s) + along(own.s_rates);
+        let mut by_q = body.force(own.s_rate, own.s_accel);
+        let mut by_qd = body.force(own.s, own.s_rates);
         let mut row = body.ic.along(&body.link.subspace(turns, k));
         let mut couple = body.bc.transpose_mul(own.s);
         couple += couple;
@@ -294,21 +203,4 @@ fn add_joint_derivatives<R: Real, E, const B: usize, const Q: usize, const V: us
         effects.derivatives(k, joint_state(link, state, k), &mut by);
         gradient.add(k, k, [by.dq, by.dqd]);
     }
-}
-
-/// The effects of a scene name the derivatives of what they add.
-const fn named_derivatives<R: Real, E, const B: usize, const V: usize>()
-where
-    E: Effect<R, B, V>,
-{
-    assert!(
-        !E::WRENCH,
-        "an effect of the scene has a wrench on a body, whose derivatives it cannot name: leave it out of \
-         the scene whose derivatives are computed"
-    );
-    assert!(
-        !(E::GYROSCOPIC_ROTORS | E::LOAD_DEPENDENT | E::ELASTICITY),
-        "the derivatives of rotors that spin as bodies, of friction that depends on the load, and of links \
-         that bend are not computed: use `Armature`, `Viscous` and `Coulomb`"
-    );
 }

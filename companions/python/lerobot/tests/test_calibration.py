@@ -110,7 +110,34 @@ def test_a_joint_that_leaves_its_limits_ends_without_torque(bench, at_rest):
     assert not any(servo.torque_enabled for servo in bus.servos)
 
 
-@pytest.mark.parametrize("bit", [0, 4, 7])
+def test_a_servo_that_counts_turns_counts_within_one_again(bench, at_rest):
+    bus = bench.bus(at_rest)
+    bus.servos[3].registers[18] |= 1 << 4
+    bus.servos[3].refresh()
+    assert bus.servos[3].get(56) > 4096
+    teleoperator = bench.teleoperator(bus)
+    teleoperator.connect(calibrate=False)
+    run(teleoperator, 10)
+    assert bus.servos[3].registers[18] == 12 and bus.servos[3].torque_enabled
+
+
+def test_a_full_turn_of_the_wrist_needs_a_statement(bench, at_rest):
+    bus = bench.bus(at_rest)
+    teleoperator = bench.teleoperator(bus, wrist_roll_zero=None)
+    with pytest.raises(WrongCalibration, match=r"wrist_roll_zero=ANGLE; now it is at 0"):
+        teleoperator.connect()
+    no_torque_ever(bus)
+    # lerobot-calibrate connects so.
+    teleoperator.connect(calibrate=False)
+    no_torque_ever(bus)
+    teleoperator.disconnect()
+    stated = bench.teleoperator(bus, wrist_roll_zero=30.0)
+    stated.connect()
+    stated.tick()
+    assert abs(stated.loop.observer.q[4] + 0.5236) < 1e-3 and abs(stated.get_action()["wrist_roll.pos"]) < 0.1
+
+
+@pytest.mark.parametrize("bit", [0, 7])
 def test_a_reversed_servo_is_refused(bench, at_rest, bit):
     bus = bench.bus(at_rest)
     bus.servos[3].registers[18] |= 1 << bit
@@ -167,6 +194,9 @@ def test_another_description_is_taken_or_refused(tmp_path):
         assert np.allclose(own, library, atol=1e-6)
     (tmp_path / "renamed.urdf").write_text(file.read_text().replace('"wrist_roll"', '"wrist_yaw"'))
     (tmp_path / "broken.urdf").write_text("<robot>")
-    for wrong in ("renamed.urdf", "broken.urdf", "none.urdf"):
+    # The zeros of the SO-100's description: its shoulder turns from 0 to 3.5 rad.
+    zeros = file.read_text().replace("-1.74533", "0.0").replace("1.74533", "3.5")
+    (tmp_path / "zeros.urdf").write_text(zeros)
+    for wrong in ("zeros.urdf", "renamed.urdf", "broken.urdf", "none.urdf"):
         with pytest.raises(WrongConfiguration):
             floating_dynamics(Motors(), str(tmp_path / wrong))

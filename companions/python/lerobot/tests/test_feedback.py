@@ -87,7 +87,6 @@ def test_a_hand_moves_the_arm_with_less_effort(bench):
         arm.hand = hand
         _, teleoperator = bench.floating(arm, ramp=0.3, **options)
         run(teleoperator, round(4.0 / TICK))
-        teleoperator.disconnect()
         return np.sqrt(np.mean(sum_of_squares))
 
     assert effort() <= 0.7 * effort(friction_share=0.0)

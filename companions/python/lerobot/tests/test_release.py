@@ -166,7 +166,8 @@ def by_a_bus_that_was_lost(bus, teleoperator):
 
 @pytest.mark.parametrize("gears", [SCENE_GEARS, LEADER_GEARS], ids=["scene", "leader"])
 def test_an_arm_that_is_disconnected_comes_down_and_does_not_fall(bench, postures, gears):
-    results = [comes_down(bench, posture, gears, lambda _, teleoperator: teleoperator.disconnect()) for posture in postures]
+    some = postures if gears == LEADER_GEARS else postures[::2]
+    results = [comes_down(bench, posture, gears, lambda _, teleoperator: teleoperator.disconnect()) for posture in some]
     fall, speed, way = (np.array(each) for each in zip(*results, strict=True))
     assert (fall <= FALL_BAR).all() and speed.max() <= SPEED_BAR and way.min() > FALL, (fall, speed, way)
     page.figures[f"down {'leader' if gears == LEADER_GEARS else 'scene'}"] = (fall.max(), speed.max())

@@ -30,6 +30,29 @@ def test_a_fresh_lerobot_finds_the_installed_plugin(tmp_path):
     assert ended.stdout.strip() == "So101Floating", ended.stderr
 
 
+def test_the_plugin_takes_the_lerobot_that_is_here():
+    """Otherwise `pip install` of it would replace LeRobot, and torch with it."""
+    from importlib.metadata import requires, version
+
+    from packaging.requirements import Requirement
+
+    for line in requires("lerobot_teleoperator_so101_floating"):
+        needed = Requirement(line)
+        if needed.marker is None:
+            assert needed.specifier.contains(version(needed.name)), line
+            # Nor does it exclude a later one.
+            assert not any(each.operator in ("<", "<=", "==", "~=") for each in needed.specifier), line
+
+
+def test_the_demonstration_runs(monkeypatch, capsys):
+    from lerobot_teleoperator_so101_floating import demo
+
+    monkeypatch.setattr(sys, "argv", ["demo", "--fast"])
+    demo.main()
+    *_, off, fell = capsys.readouterr().out.splitlines()
+    assert off.endswith("its torque is off") and float(fell.split("°")[0].split()[-1]) <= 2.0
+
+
 def test_the_class_implements_all_of_the_base_class():
     from lerobot.teleoperators import Teleoperator
 

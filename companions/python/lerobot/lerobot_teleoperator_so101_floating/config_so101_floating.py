@@ -27,9 +27,9 @@ class So101FloatingConfig(TeleoperatorConfig):
     gears: tuple[float, float, float, float, float, float] = LEADER_GEARS
     """Reductions of the servos; six times 345 if the leader is built of a follower's servos."""
     wrist_roll_zero: float | None = None
-    """The angle that LeRobot gives `wrist_roll`, in degrees, while the axis of the jaw is level and the
-    moving jaw is on top. Its calibration records a full turn of this joint, which says nothing of
-    its zero; 0 if the wrist stood so when it was calibrated."""
+    """The angle that LeRobot gives `wrist_roll`, in degrees, while the axis of the jaw is level and
+    the moving jaw on top: 0 if it stood so when it was calibrated. The full turn that LeRobot
+    records says nothing of it."""
     supply: float | None = None
     """The supply's voltage, V; None takes what the servos measure, in steps of 0.1 V."""
     least_supply: float = 4.5

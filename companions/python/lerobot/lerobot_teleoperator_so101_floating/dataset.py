@@ -1,17 +1,16 @@
 """Episodes of a LeRobot dataset, v2.1 or v3, as a table that `cargo xtask identify` reads.
 
-    python -m lerobot_teleoperator_so101_floating.dataset FOLDER OUT.csv [--episodes 0 1] [--torque-unit Nm]
+    python -m lerobot_teleoperator_so101_floating.dataset FOLDER OUT.csv [--episodes 0 1]
 
-OUT.csv has the columns `timestamp` in s, `JOINT.pos` in degrees, and `JOINT.torque`, `.effort` or
-`.current` as recorded; OUT.toml beside it is the map of the columns. LeRobot stores no units: a
-dataset has degrees if its robot was used with `use_degrees`, and the torque's unit is asked for by
-`identify` unless it is stated here.
-
+OUT.csv has `timestamp` in s, `JOINT.pos` in degrees, and `JOINT.torque`, `.effort` or `.current`
+as recorded; OUT.toml is the map of the columns. LeRobot stores no units: positions are degrees if
+the robot had `use_degrees`, and `identify` asks for the torque's unit unless it is stated here.
 Nothing in the dataset names a file: its tables are those in the folders of `data`.
 """
 
 import argparse
 import csv
+import importlib.util
 import json
 import math
 import re
@@ -52,9 +51,9 @@ def _columns(folder: Path) -> dict[str, tuple[str, int]]:
     """The columns of the table, and where each comes from."""
     try:
         quantities = _quantities(json.loads((folder / "meta/info.json").read_text()))
+    except UnfitDataset:
+        raise
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
-        if isinstance(error, UnfitDataset):
-            raise
         raise UnfitDataset(f"{folder} is no dataset of LeRobot: meta/info.json: {error!r}") from error
     positions = quantities.pop("pos", {})
     torques = next((quantity for quantity in TORQUES if quantity in quantities), None)
@@ -71,11 +70,9 @@ def _columns(folder: Path) -> dict[str, tuple[str, int]]:
 
 def rows(folder: Path, columns: dict[str, tuple[str, int]], episodes: set[int]):
     """The table's rows, episode by episode."""
-    try:
-        import pyarrow
-        import pyarrow.parquet as parquet
-    except ImportError as error:
-        raise UnfitDataset('tables of LeRobot need pyarrow: pip install "lerobot[dataset]"') from error
+    import pyarrow
+    import pyarrow.parquet as parquet
+
     features = sorted({feature for feature, _ in columns.values()})
     end, before, offset = -BETWEEN, None, 0.0
     for file in sorted(folder.glob("data/*/*.parquet")):
@@ -105,6 +102,8 @@ def main(arguments: list[str] | None = None) -> None:
     parser.add_argument("--episodes", type=int, nargs="+", default=[])
     parser.add_argument("--torque-unit", choices=["Nm", "mNm", "A", "mA"])
     given = parser.parse_args(arguments)
+    if importlib.util.find_spec("pyarrow") is None:
+        sys.exit('tables of LeRobot need pyarrow: pip install "lerobot[dataset]"')
     try:
         columns = _columns(given.folder)
         table = list(rows(given.folder, columns, set(given.episodes)))
@@ -116,7 +115,7 @@ def main(arguments: list[str] | None = None) -> None:
         csv.writer(file).writerows([["timestamp", *columns], *table])
     joints = [column.removesuffix(".pos") for column in columns if column.endswith(".pos")]
     torque = next(reversed(columns)).rpartition(".")[2]
-    lines = [f"joints = {json.dumps(joints)}", "time = 'timestamp'", "time_unit = 's'", "position = '{joint}.pos'"]
+    lines = [f"joints = {joints}", "time = 'timestamp'", "time_unit = 's'", "position = '{joint}.pos'"]
     lines += ["position_unit = 'deg'", f"torque = '{{joint}}.{torque}'"]
     lines += [f"torque_unit = '{given.torque_unit}'"] if given.torque_unit else []
     given.out.with_suffix(".toml").write_text("\n".join(lines) + "\n")

@@ -14,12 +14,11 @@ from .motors import JOINTS, LEADER_GEARS
 from .simulated import TICK, Arm, Bench, Clock, install, run
 
 POSTURE = np.array([0.0, -0.6, 0.6, 0.5, 0.0, 0.3])
-EVERY = 0.25
-"""The time between two lines, s."""
 
 
 class Watched(Clock):
-    """A clock that keeps pace with the machine's, unless it is fast, and prints the arm."""
+    """A clock that keeps pace with the machine's, unless it is fast, and prints the arm four times a
+    second."""
 
     def __init__(self, fast: bool):
         super().__init__()
@@ -29,7 +28,7 @@ class Watched(Clock):
     def sleep(self, seconds: float) -> None:
         super().sleep(seconds)
         if self.seconds >= self.due:
-            self.due = self.seconds + EVERY
+            self.due = self.seconds + 0.25
             if not self.fast:
                 time.sleep(max(self.seconds - (time.monotonic() - self.begin), 0.0))
             angles = "".join(f"{angle:14.1f}" for angle in np.degrees(self.arm.q))

@@ -1,4 +1,4 @@
-"""The errors of this package, by type. After each of them the arm is lowered, and then the attribute
+"""The errors of this package, by type. After each the arm is lowered, and then the attribute
 `released` says whether the servos confirmed that their torque is off."""
 
 

@@ -6,9 +6,9 @@ Each joint's duty d fades while the joint is slower than v, and brakes it while 
     ḋ = −f (1 − |q̇|/v) sign d   for |q̇| ≤ v,    ḋ = −b (|q̇|/v − 1) sign q̇   otherwise.
 
 The motor's back-EMF damps what this integrates. At low speeds the small part of it that every gear
-and supply has, e q̇, is added to the duty: an arm that creeps under the brake alone gets on. The torque
-is switched off once all duties are zero and the arm rests. A joint that does not reply counts as one at
-rest: its duty fades unseen.
+and supply has, e q̇, is added to the duty: an arm that creeps under the brake alone gets on. The
+torque is switched off once all duties are zero and the arm rests. A joint that does not reply
+counts as one at rest: its duty fades unseen.
 """
 
 import math

@@ -131,7 +131,7 @@ class So101Floating(Teleoperator):
             raise WrongServos(str(error)) from error
 
     def _count_within_a_turn(self) -> None:
-        """Clears bit 4 of the phase, with which a position counts on over turns, as LeRobot does from
+        """Clears bit 4 of the phase, with which positions count on over turns, as LeRobot does from
         0.6 on."""
         for joint in JOINTS:
             phase = int(self.bus.read("Phase", joint))
@@ -151,10 +151,9 @@ class So101Floating(Teleoperator):
         if self._wrist_is_unknown:
             angles = calibrations.Angles(self.calibration).of(np.array([readings[servo].position for servo in self.bus.ids]))
             raise WrongCalibration(
-                "LeRobot's calibration has a full turn of wrist_roll, which says nothing of its zero: turn the wrist until the "
-                "axis of the jaw is level and the moving jaw on top, and state the angle that LeRobot then gives it by "
-                f"--teleop.wrist_roll_zero=ANGLE; now it is at {round(np.degrees(angles[4]))}. It is 0 if the wrist stood so when "
-                "it was calibrated",
+                "LeRobot's calibration has a full turn of wrist_roll, which says nothing of its zero: turn it until the axis of "
+                "the jaw is level and the moving jaw on top, and state the angle that LeRobot then gives it by "
+                f"--teleop.wrist_roll_zero=ANGLE; now it is at {round(np.degrees(angles[4]))}",
                 "wrist_roll",
             )
 
@@ -204,7 +203,8 @@ class So101Floating(Teleoperator):
                 )
 
     def _float(self) -> None:
-        self.loop = Loop(self.config, self._wire, calibrations.Angles(self.calibration, self.config.wrist_roll_zero or 0.0), self.dynamics)
+        angles = calibrations.Angles(self.calibration, self.config.wrist_roll_zero or 0.0)
+        self.loop = Loop(self.config, self._wire, angles, self.dynamics)
         if self.config.guardian:
             self._guardian = Guardian(self.config.port, self.bus.default_baudrate, self.bus.ids)
         self._torque_may_be_on = True

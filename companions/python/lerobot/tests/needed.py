@@ -6,16 +6,11 @@ from importlib.metadata import requires
 from pip._vendor.packaging.requirements import Requirement
 from stand_ins import PACKAGES
 
-LEFT_OUT = {*PACKAGES, "rerun-sdk", "torchcodec", "cmake", "setuptools"}
+LEFT_OUT = {*PACKAGES, "lerobot", "rerun-sdk", "torchcodec", "cmake", "setuptools"}
+EXTRAS = ("", "feetech", "pyserial-dep", "deepdiff-dep", "dataset", "av-dep")
 
-extras, done = {"", "feetech", "dataset"}, set()
-while done != extras:
-    done, extras = set(extras), set(extras)
-    for needed in map(Requirement, requires("lerobot")):
-        if needed.name in LEFT_OUT or not any(needed.marker is None or needed.marker.evaluate({"extra": extra}) for extra in done):
-            continue
-        if needed.name == "lerobot":
-            extras |= needed.extras
-        else:
-            needed.marker = None
-            print(needed)
+for needed in map(Requirement, requires("lerobot")):
+    here = needed.marker is None or any(needed.marker.evaluate({"extra": extra}) for extra in EXTRAS)
+    if here and needed.name not in LEFT_OUT:
+        needed.marker = None
+        print(needed)

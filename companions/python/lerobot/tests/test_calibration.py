@@ -146,18 +146,11 @@ def test_a_reversed_servo_is_refused(bench, at_rest, bit):
     no_torque_ever(bus)
 
 
-def test_a_missing_servo_is_named(bench, at_rest):
+@pytest.mark.parametrize(("wrong", "words"), [(lambda servo: servo.cut(), "5"), (lambda servo: servo.set(3, 2825), "2825")])
+def test_a_servo_that_is_missing_or_of_another_model_is_refused(bench, at_rest, wrong, words):
     bus = bench.bus(at_rest)
-    bus.servos[4].cut()
-    with pytest.raises(WrongServos, match="5"):
-        bench.teleoperator(bus).connect(calibrate=False)
-    no_torque_ever(bus)
-
-
-def test_another_model_of_servo_is_refused(bench, at_rest):
-    bus = bench.bus(at_rest)
-    bus.servos[0].set(3, 2825)
-    with pytest.raises(WrongServos):
+    wrong(bus.servos[4])
+    with pytest.raises(WrongServos, match=words):
         bench.teleoperator(bus).connect(calibrate=False)
     no_torque_ever(bus)
 
@@ -171,23 +164,16 @@ def test_angles_are_lerobots_degrees(bench, at_rest):
         assert abs(np.deg2rad(action[f"{joint}.pos"]) - angle) < 2e-3, joint
 
 
-def test_the_joints_limits_are_those_of_the_model():
-    import numpy as np
-    import robot_dynamics as rd
-
-    from lerobot_teleoperator_so101_floating.calibration import LOWER, UPPER
-
-    robot = rd.Robot("so101")
-    assert np.array_equal(robot.lower_limits, LOWER) and np.array_equal(robot.upper_limits, UPPER)
-
-
 def test_another_description_is_taken_or_refused(tmp_path):
     import numpy as np
+    import robot_dynamics as rd
     from conftest import REPOSITORY
 
+    from lerobot_teleoperator_so101_floating.calibration import LOWER, UPPER
     from lerobot_teleoperator_so101_floating.dynamics import floating_dynamics
     from lerobot_teleoperator_so101_floating.motors import Motors
 
+    assert np.array_equal([rd.Robot("so101").lower_limits, rd.Robot("so101").upper_limits], [LOWER, UPPER])
     q, qd = np.array([0.3, 0.6, -0.6, 0.2, 0.1, 0.3]), np.full(6, 0.2)
     file = REPOSITORY / "tools/robot-import/tests/urdf/so101.urdf"
     for own, library in zip(floating_dynamics(Motors(), str(file))(q, qd), floating_dynamics(Motors(), None)(q, qd), strict=True):

@@ -7,5 +7,3 @@ from .bus import Bus
 from .clock import Clock
 from .port import LINES, Remote, install
 from .servo import Servo
-
-__all__ = ["LINES", "SCENE_GEARS", "TICK", "Arm", "Bench", "Bus", "Clock", "Remote", "Servo", "Still", "calibration", "install", "run"]

@@ -314,13 +314,14 @@ class So101Floating(Teleoperator):
             while not released and (until is None or self.clock.now() < until):
                 try:
                     released = descent.run(self._wire, self.clock)
-                    if not released and self._guardian is None and until and self.clock.now() >= until:
+                    if not released and not self.config.guardian and until and self.clock.now() >= until:
                         # Nobody goes on trying: the torque is switched off unseen.
                         released = self._wire.release(1)
                 except wires.PORT_ERRORS:
                     self._reopen()
                 until = until or self.clock.now() + self.config.release_time
-            if released:
+            if released or self._guardian is not None:
+                # From now on it is off, or the guardian's concern: two on one bus would disturb each other.
                 self._torque_may_be_on = False
             if self._guardian is not None:
                 self._guardian.dismiss() if released else self._guardian.take_over()

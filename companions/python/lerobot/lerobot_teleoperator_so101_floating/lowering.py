@@ -21,18 +21,18 @@ from .motors import COUNTS, DUTY_STEPS
 
 TICK = 0.005
 BANDWIDTH = 30.0
+# v, rad/s.
 SPEED = 0.4
-"""v, rad/s."""
+# f and b, shares of the supply per second; the weight of a stretched arm takes 0.3 of it.
 FADE, BRAKE = 0.15, 1.0
-"""f and b, shares of the supply per second; the weight of a stretched arm takes 0.3 of it."""
+# e, s/rad: a gear 1:147 at 8.4 V has it.
 BACK_EMF = 0.06
-"""e, s/rad: a gear 1:147 at 8.4 V has it."""
 MOST_DUTY = 0.5
+# The arm rests if no joint moves on by more than these counts within this time, s: so slowly that it
+# stays so without the brake that the back-EMF was.
 REST_COUNTS, REST_TIME = 2, 0.6
-"""The arm rests if no joint moves on by more than these counts within this time, s: so slow that it
-stays so without the brake that the back-EMF was."""
+# An arm that a hand keeps in motion is released after this time, s.
 LONGEST = 90.0
-"""An arm that a hand keeps in motion is released after this time, s."""
 ENCODER_FAULT = 1 << 1
 
 

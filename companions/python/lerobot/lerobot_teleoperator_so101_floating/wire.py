@@ -148,8 +148,8 @@ class Wire:
 
     def __init__(self, port, servos: list[int], reply_time: float, now: Callable[[], float] = time.monotonic):
         self.port, self.servos, self.reply_time, self.now = port, servos, reply_time, now
+        # Those that were sent last.
         self.duties: dict[int, int] = {}
-        """Those that were sent last."""
         # The SDK polls; a read that waits for its bytes leaves the processor to LeRobot's other
         # threads.
         port.timeout = reply_time / 4.0

@@ -14,3 +14,5 @@ for needed in map(Requirement, requires("lerobot")):
     if here and needed.name not in LEFT_OUT:
         needed.marker = None
         print(needed)
+# LeRobot 0.4.4 has it by way of accelerate, which is left out.
+print("safetensors")

@@ -28,8 +28,8 @@ FADE, BRAKE = 0.15, 1.0
 # e, s/rad: a gear 1:147 at 8.4 V has it.
 BACK_EMF = 0.06
 MOST_DUTY = 0.5
-# The arm rests if no joint moves on by more than these counts within this time, s: so slowly that it
-# stays so without the brake that the back-EMF was.
+# The arm rests if no joint moves on by more than these counts within this time, s: so slowly that
+# it stays so without the brake that the back-EMF was.
 REST_COUNTS, REST_TIME = 2, 0.6
 # An arm that a hand keeps in motion is released after this time, s.
 LONGEST = 90.0

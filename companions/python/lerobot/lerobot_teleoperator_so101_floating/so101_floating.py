@@ -276,7 +276,7 @@ class So101Floating(Teleoperator):
             if known and isinstance(value, (int, float, np.number)) and np.isfinite(value):
                 torque[JOINTS.index(joint)] = value
             elif key not in self._ignored:
-                # Others may send more than torques, positions for instance: no reason to drop the arm.
+                # Others may send more than torques, positions for instance.
                 self._ignored.add(key)
                 logger.warning("%s: the feedback %s, %r, is no torque of a joint and is ignored", self, key, value)
         if self.loop is not None:
@@ -321,7 +321,7 @@ class So101Floating(Teleoperator):
                     self._reopen()
                 until = until or self.clock.now() + self.config.release_time
             if released or self._guardian is not None:
-                # From now on it is off, or the guardian's concern: two on one bus would disturb each other.
+                # It is off, or the guardian's concern: two on one bus would disturb each other.
                 self._torque_may_be_on = False
             if self._guardian is not None:
                 self._guardian.dismiss() if released else self._guardian.take_over()

@@ -1,44 +1,9 @@
-"""An SO-101 leader arm that floats, as a teleoperator of LeRobot:
-`--teleop.type=so101_floating`."""
+"""An SO-101 leader arm that floats, in LeRobot: `--teleop.type=so101_floating`."""
 
+from . import errors
 from .config_so101_floating import So101FloatingConfig
-from .errors import (
-    BusLost,
-    CorruptReplies,
-    DynamicsFailed,
-    FeedbackRefused,
-    FloatingError,
-    ImplausibleMotion,
-    JointOutOfRange,
-    LoopLate,
-    ServoFault,
-    ServoSilent,
-    StaleServo,
-    WrongCalibration,
-    WrongConfiguration,
-    WrongServos,
-    WrongSupply,
-)
+from .errors import *
 from .follower import FollowerLoad
 from .so101_floating import So101Floating
 
-__all__ = [
-    "BusLost",
-    "CorruptReplies",
-    "DynamicsFailed",
-    "FeedbackRefused",
-    "FloatingError",
-    "FollowerLoad",
-    "ImplausibleMotion",
-    "JointOutOfRange",
-    "LoopLate",
-    "ServoFault",
-    "ServoSilent",
-    "So101Floating",
-    "So101FloatingConfig",
-    "StaleServo",
-    "WrongCalibration",
-    "WrongConfiguration",
-    "WrongServos",
-    "WrongSupply",
-]
+__all__ = ["FollowerLoad", "So101Floating", "So101FloatingConfig", *(name for name in vars(errors) if name[0].isupper())]

@@ -65,11 +65,18 @@ def check(calibration: dict[str, MotorCalibration], advice: str = "run lerobot-c
             raise refuse("the middle of its range is far from the middle of the turn")
 
 
-class Angles:
-    """The conversion of counts into joint angles."""
+def turns_fully(calibration: dict[str, MotorCalibration]) -> bool:
+    """Whether the wrist was recorded as a full turn, as LeRobot does without asking."""
+    wrist = calibration["wrist_roll"]
+    return wrist.range_max - wrist.range_min == COUNTS - 1
 
-    def __init__(self, calibration: dict[str, MotorCalibration]):
+
+class Angles:
+    """The conversion of counts into joint angles; `wrist_roll_zero` in LeRobot's degrees."""
+
+    def __init__(self, calibration: dict[str, MotorCalibration], wrist_roll_zero: float = 0.0):
         middles = [(calibration[joint].range_min + calibration[joint].range_max) / 2.0 for joint in JOINTS]
+        middles[4] += math.radians(wrist_roll_zero) / RADIANS
         middles[5] = calibration["gripper"].range_min - LOWER[5] / RADIANS
         self._zero = np.array(middles)
 

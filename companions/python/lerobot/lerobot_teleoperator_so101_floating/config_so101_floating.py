@@ -26,6 +26,10 @@ class So101FloatingConfig(TeleoperatorConfig):
 
     gears: tuple[float, float, float, float, float, float] = LEADER_GEARS
     """Reductions of the servos; six times 345 if the leader is built of a follower's servos."""
+    wrist_roll_zero: float | None = None
+    """The angle that LeRobot gives `wrist_roll`, in degrees, while the axis of the jaw is level and
+    the moving jaw on top: 0 if it stood so when it was calibrated. The full turn that LeRobot
+    records says nothing of it."""
     supply: float | None = None
     """The supply's voltage, V; None takes what the servos measure, in steps of 0.1 V."""
     least_supply: float = 4.5
@@ -87,11 +91,10 @@ class So101FloatingConfig(TeleoperatorConfig):
     load_tolerance: float = 0.02
     most_temperature: int = 65
     release_time: float = 1.0
-    """The time, s, for which the loop tries to switch the torque off before it raises the error;
-    the guardian goes on after that."""
+    """The time, s, for which a bus that is lost is tried anew; the guardian goes on after that."""
     guardian: bool = True
-    """A second process that switches the torque off if this one ends without having done so, killed
-    for instance."""
+    """A second process that lowers the arm if this one ends without having done so, killed for
+    instance."""
     background: bool = True
     """A thread runs the loop. Without it whoever holds the teleoperator calls `tick()` at the
     rate."""
@@ -110,7 +113,7 @@ class So101FloatingConfig(TeleoperatorConfig):
             value = getattr(self, each.name)
             if isinstance(value, bool) or not isinstance(value, (int, float)):
                 continue
-            least = 0.0 if each.name in zero_is_possible else math.ulp(0.0)
+            least = -180.0 if each.name == "wrist_roll_zero" else 0.0 if each.name in zero_is_possible else math.ulp(0.0)
             if not (math.isfinite(value) and value >= least):
                 raise WrongConfiguration(f"{each.name} is not possible: {value}")
         if self.friction_share * (1.0 + self.friction_error) > 1.0 + 1e-9:

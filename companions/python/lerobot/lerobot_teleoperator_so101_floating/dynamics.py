@@ -4,6 +4,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from .calibration import LOWER, UPPER
 from .errors import WrongConfiguration
 from .motors import JOINTS, WIDTH, Motors
 
@@ -23,6 +24,9 @@ def floating_dynamics(motors: Motors, urdf: str | None) -> Dynamics:
     # The library's robot names its joints by their links.
     if urdf is not None and tuple(robot.joints) != JOINTS:
         raise WrongConfiguration(f"{urdf} has the joints {robot.joints} in place of {list(JOINTS)}")
+    if not np.allclose([robot.lower_limits, robot.upper_limits], [LOWER, UPPER], atol=0.2):
+        # Such as those of the SO-100's description: gravity would be that of another posture.
+        raise WrongConfiguration(f"{urdf} has other limits of its joints than an SO-101, and so other zeros of their angles")
     gravity = rd.Gravity()
     friction = rd.Scene(
         rd.Viscous(motors.viscous),

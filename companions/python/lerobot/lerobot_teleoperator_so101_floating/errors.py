@@ -1,5 +1,5 @@
-"""The errors of this package, by type. Each error that reaches the caller comes after the torque
-was switched off, or its attribute `released` says that the servos did not confirm it."""
+"""The errors of this package, by type. After each the arm is lowered, and then the attribute
+`released` says whether the servos confirmed that their torque is off."""
 
 
 class FloatingError(RuntimeError):
@@ -7,7 +7,7 @@ class FloatingError(RuntimeError):
 
     `joint` is the joint concerned, or None. `released` is True once all six servos have confirmed
     that their torque is off, False if at least one has not, and None if the torque had not been
-    switched on.
+    switched on, or while the arm comes down.
     """
 
     def __init__(self, message: str, joint: str | None = None):
@@ -81,7 +81,3 @@ class LoopLate(FloatingError):
 
 class DynamicsFailed(FloatingError):
     """The model gave torques that are not finite, or raised an error."""
-
-
-class FeedbackRefused(FloatingError, ValueError):
-    """Feedback for a joint that does not exist, or not a finite number."""

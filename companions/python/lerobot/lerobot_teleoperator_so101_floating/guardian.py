@@ -1,10 +1,10 @@
-"""A second process that switches the torque off if the first ends without having done so.
+"""A second process that lowers the arm if the first ends without having done so.
 
 It waits at a pipe whose other end the first process holds: however that one ends, the pipe closes.
 The byte `d` before the end says that the torque is off; anything else, or none, makes the guardian
-open the port and send until the servos confirm.
+open the port and lower the arm until the servos confirm that their torque is off.
 
-    python -m lerobot_teleoperator_so101_floating.guardian PORT BAUD_RATE SECONDS ID…
+    python guardian.py PORT BAUD_RATE SECONDS ID…
 """
 
 import os
@@ -12,6 +12,7 @@ import signal
 import subprocess
 import sys
 import time
+import types
 from pathlib import Path
 
 
@@ -43,33 +44,36 @@ class Guardian:
             pass  # It has ended.
 
 
-def _release(port: str, baud_rate: int, servos: list[int]) -> bool:
-    import serial
-
-    sys.path.insert(0, str(Path(__file__).parent))
-    import wire
-
-    try:
-        with serial.Serial(port, baud_rate, timeout=0) as opened:
-            return wire.Wire(opened, servos, 0.02).release(5)
-    except wire.PORT_ERRORS:
-        return False  # The adapter may be plugged in again.
-
-
 def main() -> int:
     port, baud_rate, seconds = sys.argv[1], int(sys.argv[2]), float(sys.argv[3])
     servos = [int(servo) for servo in sys.argv[4:]]
     for each in (signal.SIGINT, signal.SIGHUP):
         signal.signal(each, signal.SIG_IGN)
+    # The submodules alone: the package imports LeRobot, which takes seconds.
+    package = types.ModuleType("floating")
+    package.__path__ = [str(Path(__file__).parent)]
+    sys.modules["floating"] = package
+    import serial
+    from floating import clock, lowering, wire
+
     said = b""
     while chunk := os.read(0, 64):
         said += chunk
     if said.endswith(b"d"):
         return 0
     until = time.monotonic() + seconds
-    while time.monotonic() < until:
-        if _release(port, baud_rate, servos):
-            return 0
+    descent = lowering.Lowering({}, time.monotonic())
+    last = False
+    while not last:
+        # Once the time is over the torque is switched off unseen, whether the arm is down or not.
+        last = time.monotonic() > until
+        try:
+            with serial.Serial(port, baud_rate, timeout=0) as opened:
+                bus = wire.Wire(opened, servos, 0.02)
+                if bus.release(5) if last else descent.run(bus, clock.Clock):
+                    return 0
+        except wire.PORT_ERRORS:
+            pass  # The adapter may be plugged in again.
         time.sleep(0.1)
     print(f"the servos on {port} did not confirm that their torque is off: switch off their supply", file=sys.stderr)
     return 1

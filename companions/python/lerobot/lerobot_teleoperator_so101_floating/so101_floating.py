@@ -19,9 +19,10 @@ from . import wire as wires
 from .clock import Clock
 from .config_so101_floating import So101FloatingConfig
 from .dynamics import floating_dynamics
-from .errors import BusLost, FeedbackRefused, FloatingError, LoopLate, WrongCalibration, WrongConfiguration, WrongServos
+from .errors import BusLost, FloatingError, LoopLate, WrongCalibration, WrongConfiguration, WrongServos
 from .guardian import Guardian
 from .loop import Loop
+from .lowering import LONGEST, Lowering
 from .motors import JOINTS, Motors
 
 logger = logging.getLogger(__name__)
@@ -49,6 +50,7 @@ class So101Floating(Teleoperator):
         self._connected = False
         self._torque_may_be_on = False
         self._error: FloatingError | None = None
+        self._ignored: set[str] = set()
         self._lock = threading.Lock()
         self._ended = threading.Event()
         self._thread: threading.Thread | None = None
@@ -85,13 +87,15 @@ class So101Floating(Teleoperator):
         self._error, self._ended = None, threading.Event()
         self._open()
         try:
+            self._translated(self._count_within_a_turn)
             if self.calibration:
                 # Before LeRobot offers to write it to the servos.
                 calibrations.check(self.calibration, f"delete {self.calibration_fpath} and run lerobot-calibrate")
-            if not self._translated(lambda: self.is_calibrated):
-                if not calibrate:
-                    logger.warning("%s is not calibrated: it does not float", self)
-                    return
+            calibrated = self._translated(lambda: self.is_calibrated)
+            if not calibrate and (not calibrated or self._wrist_is_unknown):
+                logger.warning("%s is not calibrated, or wrist_roll_zero is not stated: it does not float", self)
+                return
+            if not calibrated:
                 self.calibrate()
             self._check_calibration()
             self.configure()
@@ -126,6 +130,15 @@ class So101Floating(Teleoperator):
         except RuntimeError as error:
             raise WrongServos(str(error)) from error
 
+    def _count_within_a_turn(self) -> None:
+        """Clears bit 4 of the phase, with which positions count on over turns, as LeRobot does from
+        0.6 on."""
+        for joint in JOINTS:
+            phase = int(self.bus.read("Phase", joint))
+            if phase & wires.COUNTS_TURNS:
+                self.bus.disable_torque(joint)
+                self.bus.write("Phase", joint, phase & ~wires.COUNTS_TURNS)
+
     def _check_calibration(self) -> None:
         calibrations.check(self.calibration)
         if not self._translated(lambda: self.bus.is_calibrated):
@@ -135,6 +148,18 @@ class So101Floating(Teleoperator):
             joint = JOINTS[self.bus.ids.index(replies.missing[0])]
             raise WrongServos(f"the servo of {joint} did not reply", joint)
         calibrations.check_posture(self.calibration, readings)
+        if self._wrist_is_unknown:
+            angles = calibrations.Angles(self.calibration).of(np.array([readings[servo].position for servo in self.bus.ids]))
+            raise WrongCalibration(
+                "LeRobot's calibration has a full turn of wrist_roll, which says nothing of its zero: turn it until the axis of "
+                "the jaw is level and the moving jaw on top, and state the angle that LeRobot then gives it by "
+                f"--teleop.wrist_roll_zero=ANGLE; now it is at {round(np.degrees(angles[4]))}",
+                "wrist_roll",
+            )
+
+    @property
+    def _wrist_is_unknown(self) -> bool:
+        return self.config.wrist_roll_zero is None and calibrations.turns_fully(self.calibration)
 
     def _present(self):
         return self._translated(self._wire.present)
@@ -147,7 +172,7 @@ class So101Floating(Teleoperator):
         """
         self._stop_thread()
         if self._torque_may_be_on:
-            self._release()
+            self._lower()
         self.loop = None
         try:
             self._translated(lambda: SOLeader.calibrate(self))
@@ -170,15 +195,16 @@ class So101Floating(Teleoperator):
             if self.bus.read("Operating_Mode", joint) != wires.PWM_MODE or self.bus.read("Goal_Time", joint) != 0:
                 raise WrongConfiguration(f"the servo {servo} of {joint} did not take the PWM mode with duty zero", joint)
             phase = int(self.bus.read("Phase", joint))
-            # Bit 0 reverses the drive, bit 7 the position, and bit 4 makes the position count on
-            # over turns.
-            if phase & 0b1001_0001:
+            if phase & (wires.REVERSED | wires.COUNTS_TURNS):
                 raise WrongConfiguration(
-                    f"the servo of {joint} has the phase {phase:#04x}: its direction is reversed, or it counts turns", joint
+                    f"the servo of {joint} has the phase {phase:#04x}: bits 0 and 7 reverse it, bit 4 counts turns; "
+                    "clear them with Feetech's software and calibrate the arm anew",
+                    joint,
                 )
 
     def _float(self) -> None:
-        self.loop = Loop(self.config, self._wire, calibrations.Angles(self.calibration), self.dynamics)
+        angles = calibrations.Angles(self.calibration, self.config.wrist_roll_zero or 0.0)
+        self.loop = Loop(self.config, self._wire, angles, self.dynamics)
         if self.config.guardian:
             self._guardian = Guardian(self.config.port, self.bus.default_baudrate, self.bus.ids)
         self._torque_may_be_on = True
@@ -203,7 +229,7 @@ class So101Floating(Teleoperator):
                 return
 
     def tick(self) -> None:
-        """One tick of the loop; after an error the torque is off, and each further call raises the
+        """One tick of the loop; after an error the arm is lowered, and each further call raises the
         same error."""
         if self._error is not None:
             raise self._error
@@ -247,18 +273,14 @@ class So101Floating(Teleoperator):
         for key, value in feedback.items():
             joint = key.removesuffix(".torque")
             known = key.endswith(".torque") and joint in JOINTS
-            number = float(value) if known and isinstance(value, (int, float, np.number)) else float("nan")
-            if not np.isfinite(number):
-                self._refuse(f"the feedback {key}: {value!r} is not a torque of a joint", joint if known else None)
-            torque[JOINTS.index(joint)] = number
+            if known and isinstance(value, (int, float, np.number)) and np.isfinite(value):
+                torque[JOINTS.index(joint)] = value
+            elif key not in self._ignored:
+                # Others may send more than torques, positions for instance.
+                self._ignored.add(key)
+                logger.warning("%s: the feedback %s, %r, is no torque of a joint and is ignored", self, key, value)
         if self.loop is not None:
             self.loop.feedback.set(torque, self.clock.now())
-
-    def _refuse(self, message: str, joint: str | None) -> None:
-        error = FeedbackRefused(message, joint)
-        self._stop_thread()
-        self._fail(error)
-        raise error
 
     def _raise_if_failed(self) -> None:
         if self._error is not None:
@@ -275,30 +297,31 @@ class So101Floating(Teleoperator):
             raise error
 
     def _fail(self, error: BaseException) -> None:
-        """Switches the torque off, and keeps the error for the calls to come."""
+        """Keeps the error for the calls to come, and lowers the arm."""
         self._ended.set()
-        released = self._release() if self._torque_may_be_on else None
-        if isinstance(error, FloatingError):
-            error.released = released
-            self._error = error
-        elif self._error is None:
-            self._error = FloatingError(f"the loop ended: {error!r}")
-            self._error.released = released
+        if not isinstance(error, FloatingError):
+            error = FloatingError(f"the loop ended: {error!r}")
+        self._error = self._error or error
+        self._error.released = error.released = self._lower() if self._torque_may_be_on else None
 
-    def _release(self) -> bool:
-        """Whether all servos confirm that their torque is off; if not, the guardian goes on
-        trying."""
+    def _lower(self) -> bool:
+        """Lowers the arm. Whether all servos confirm that their torque is off; if not, the guardian
+        goes on trying."""
         with self._lock:
+            logger.info("%s: the arm comes down", self)
+            descent, until = Lowering(self._wire.duties, self.clock.now()), None
             released = False
-            until = self.clock.now() + self.config.release_time
-            while not released:
+            while not released and (until is None or self.clock.now() < until):
                 try:
-                    released = self._wire.release(1)
+                    released = descent.run(self._wire, self.clock)
+                    if not released and not self.config.guardian and until and self.clock.now() >= until:
+                        # Nobody goes on trying: the torque is switched off unseen.
+                        released = self._wire.release(1)
                 except wires.PORT_ERRORS:
                     self._reopen()
-                if released or self.clock.now() > until:
-                    break
-            if released:
+                until = until or self.clock.now() + self.config.release_time
+            if released or self._guardian is not None:
+                # It is off, or the guardian's concern: two on one bus would disturb each other.
                 self._torque_may_be_on = False
             if self._guardian is not None:
                 self._guardian.dismiss() if released else self._guardian.take_over()
@@ -319,14 +342,14 @@ class So101Floating(Teleoperator):
         self._ended.set()
         thread, self._thread = self._thread, None
         if thread is not None and thread is not threading.current_thread():
-            self.clock.join(thread, 2.0 + self.config.release_time)
+            self.clock.join(thread, 2.0 + LONGEST + self.config.release_time)
 
     @check_if_not_connected
     def disconnect(self) -> None:
-        """Switches the torque off and closes the port. Raises `BusLost` if the servos do not
-        confirm, once the port is closed."""
+        """Lowers the arm, switches the torque off and closes the port. Raises `BusLost` if the servos
+        do not confirm, once the port is closed."""
         self._stop_thread()
-        released = self._release() if self._torque_may_be_on else True
+        released = self._lower() if self._torque_may_be_on else True
         if released and self._error is None:
             self._to_position_mode()
         already = self._error
@@ -363,7 +386,7 @@ class So101Floating(Teleoperator):
     def _at_exit(self) -> None:
         if self._torque_may_be_on and self._wire is not None:
             self._stop_thread()
-            self._release()
+            self._lower()
 
     def setup_motors(self) -> None:
         """As LeRobot's so101_leader: gives each servo its identity."""

@@ -41,6 +41,8 @@ PRESENT_LENGTH = 10
 """Position, speed, load (two bytes each), voltage, temperature, a flag, status."""
 
 PWM_MODE = 2
+REVERSED, COUNTS_TURNS = 0b1000_0001, 0b1_0000
+"""Bits of the phase: one reverses the drive, one the position; the position counts on over turns."""
 POSITION_SIGN, DUTY_SIGN = 15, 10
 
 
@@ -146,6 +148,8 @@ class Wire:
 
     def __init__(self, port, servos: list[int], reply_time: float, now: Callable[[], float] = time.monotonic):
         self.port, self.servos, self.reply_time, self.now = port, servos, reply_time, now
+        # Those that were sent last.
+        self.duties: dict[int, int] = {}
         # The SDK polls; a read that waits for its bytes leaves the processor to LeRobot's other
         # threads.
         port.timeout = reply_time / 4.0
@@ -174,6 +178,7 @@ class Wire:
 
     def set_duties(self, steps: dict[int, int]) -> None:
         """Duties in thousandths of the supply."""
+        self.duties = steps
         self.send(sync_write(GOAL_DUTY, {servo: encode(value, DUTY_SIGN) for servo, value in steps.items()}))
 
     def release(self, rounds: int) -> bool:

@@ -110,7 +110,34 @@ def test_a_joint_that_leaves_its_limits_ends_without_torque(bench, at_rest):
     assert not any(servo.torque_enabled for servo in bus.servos)
 
 
-@pytest.mark.parametrize("bit", [0, 4, 7])
+def test_a_servo_that_counts_turns_counts_within_one_again(bench, at_rest):
+    bus = bench.bus(at_rest)
+    bus.servos[3].registers[18] |= 1 << 4
+    bus.servos[3].refresh()
+    assert bus.servos[3].get(56) > 4096
+    teleoperator = bench.teleoperator(bus)
+    teleoperator.connect(calibrate=False)
+    run(teleoperator, 10)
+    assert bus.servos[3].registers[18] == 12 and bus.servos[3].torque_enabled
+
+
+def test_a_full_turn_of_the_wrist_needs_a_statement(bench, at_rest):
+    bus = bench.bus(at_rest)
+    teleoperator = bench.teleoperator(bus, wrist_roll_zero=None)
+    with pytest.raises(WrongCalibration, match=r"wrist_roll_zero=ANGLE; now it is at 0"):
+        teleoperator.connect()
+    no_torque_ever(bus)
+    # lerobot-calibrate connects so.
+    teleoperator.connect(calibrate=False)
+    no_torque_ever(bus)
+    teleoperator.disconnect()
+    stated = bench.teleoperator(bus, wrist_roll_zero=30.0)
+    stated.connect()
+    stated.tick()
+    assert abs(stated.loop.observer.q[4] + 0.5236) < 1e-3 and abs(stated.get_action()["wrist_roll.pos"]) < 0.1
+
+
+@pytest.mark.parametrize("bit", [0, 7])
 def test_a_reversed_servo_is_refused(bench, at_rest, bit):
     bus = bench.bus(at_rest)
     bus.servos[3].registers[18] |= 1 << bit
@@ -119,18 +146,11 @@ def test_a_reversed_servo_is_refused(bench, at_rest, bit):
     no_torque_ever(bus)
 
 
-def test_a_missing_servo_is_named(bench, at_rest):
+@pytest.mark.parametrize(("wrong", "words"), [(lambda servo: servo.cut(), "5"), (lambda servo: servo.set(3, 2825), "2825")])
+def test_a_servo_that_is_missing_or_of_another_model_is_refused(bench, at_rest, wrong, words):
     bus = bench.bus(at_rest)
-    bus.servos[4].cut()
-    with pytest.raises(WrongServos, match="5"):
-        bench.teleoperator(bus).connect(calibrate=False)
-    no_torque_ever(bus)
-
-
-def test_another_model_of_servo_is_refused(bench, at_rest):
-    bus = bench.bus(at_rest)
-    bus.servos[0].set(3, 2825)
-    with pytest.raises(WrongServos):
+    wrong(bus.servos[4])
+    with pytest.raises(WrongServos, match=words):
         bench.teleoperator(bus).connect(calibrate=False)
     no_torque_ever(bus)
 
@@ -144,29 +164,25 @@ def test_angles_are_lerobots_degrees(bench, at_rest):
         assert abs(np.deg2rad(action[f"{joint}.pos"]) - angle) < 2e-3, joint
 
 
-def test_the_joints_limits_are_those_of_the_model():
-    import numpy as np
-    import robot_dynamics as rd
-
-    from lerobot_teleoperator_so101_floating.calibration import LOWER, UPPER
-
-    robot = rd.Robot("so101")
-    assert np.array_equal(robot.lower_limits, LOWER) and np.array_equal(robot.upper_limits, UPPER)
-
-
 def test_another_description_is_taken_or_refused(tmp_path):
     import numpy as np
+    import robot_dynamics as rd
     from conftest import REPOSITORY
 
+    from lerobot_teleoperator_so101_floating.calibration import LOWER, UPPER
     from lerobot_teleoperator_so101_floating.dynamics import floating_dynamics
     from lerobot_teleoperator_so101_floating.motors import Motors
 
+    assert np.array_equal([rd.Robot("so101").lower_limits, rd.Robot("so101").upper_limits], [LOWER, UPPER])
     q, qd = np.array([0.3, 0.6, -0.6, 0.2, 0.1, 0.3]), np.full(6, 0.2)
     file = REPOSITORY / "tools/robot-import/tests/urdf/so101.urdf"
     for own, library in zip(floating_dynamics(Motors(), str(file))(q, qd), floating_dynamics(Motors(), None)(q, qd), strict=True):
         assert np.allclose(own, library, atol=1e-6)
     (tmp_path / "renamed.urdf").write_text(file.read_text().replace('"wrist_roll"', '"wrist_yaw"'))
     (tmp_path / "broken.urdf").write_text("<robot>")
-    for wrong in ("renamed.urdf", "broken.urdf", "none.urdf"):
+    # The zeros of the SO-100's description: its shoulder turns from 0 to 3.5 rad.
+    zeros = file.read_text().replace("-1.74533", "0.0").replace("1.74533", "3.5")
+    (tmp_path / "zeros.urdf").write_text(zeros)
+    for wrong in ("zeros.urdf", "renamed.urdf", "broken.urdf", "none.urdf"):
         with pytest.raises(WrongConfiguration):
             floating_dynamics(Motors(), str(tmp_path / wrong))

@@ -30,13 +30,27 @@ def test_a_fresh_lerobot_finds_the_installed_plugin(tmp_path):
     assert ended.stdout.strip() == "So101Floating", ended.stderr
 
 
-def test_the_class_implements_all_of_the_base_class():
-    from lerobot.teleoperators import Teleoperator
+def test_the_plugin_takes_the_lerobot_that_is_here():
+    """Otherwise `pip install` of it would replace LeRobot, and torch with it."""
+    from importlib.metadata import requires, version
 
-    from lerobot_teleoperator_so101_floating import So101Floating, So101FloatingConfig
+    from packaging.requirements import Requirement
 
-    assert issubclass(So101Floating, Teleoperator) and not So101Floating.__abstractmethods__
-    assert So101Floating.config_class is So101FloatingConfig
+    for line in requires("lerobot_teleoperator_so101_floating"):
+        needed = Requirement(line)
+        if needed.marker is None:
+            assert needed.specifier.contains(version(needed.name)), line
+            # Nor does it exclude a later one.
+            assert not any(each.operator in ("<", "<=", "==", "~=") for each in needed.specifier), line
+
+
+def test_the_demonstration_runs(monkeypatch, capsys):
+    from lerobot_teleoperator_so101_floating import demo
+
+    monkeypatch.setattr(sys, "argv", ["demo", "--fast"])
+    demo.main()
+    *_, off, fell = capsys.readouterr().out.splitlines()
+    assert off.endswith("its torque is off") and float(fell.split("°")[0].split()[-1]) <= 2.0
 
 
 def test_features_are_known_without_a_connection(bench, at_rest):
@@ -69,18 +83,13 @@ def test_lerobots_command_line_sets_every_field(tmp_path):
     assert config.gears == (345.0,) * 6 and config.friction_share == 0.5 and config.supply == 5.0 and not config.guardian
 
 
-@pytest.mark.parametrize(
-    "wrong",
-    [
-        {"friction_share": 0.95},
-        {"rate": 0.0},
-        {"torque_limit": float("nan")},
-        {"gears": (345.0,) * 5},
-        {"gravity_scale": (1.0, 1.0, -1.0, 1.0, 1.0, 1.0)},
-        {"most_duty": 1.5},
-        {"least_supply": 9.0},
-    ],
-)
+WRONG = [
+    {"friction_share": 0.95}, {"rate": 0.0}, {"torque_limit": float("nan")}, {"gears": (345.0,) * 5},
+    {"gravity_scale": (1.0, 1.0, -1.0, 1.0, 1.0, 1.0)}, {"most_duty": 1.5}, {"least_supply": 9.0},
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("wrong", WRONG)
 def test_impossible_configurations_are_refused(wrong):
     from lerobot_teleoperator_so101_floating import So101FloatingConfig, WrongConfiguration
 

@@ -8,13 +8,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import JOINTS, run
+from conftest import run
 
 from lerobot_teleoperator_so101_floating import (
     BusLost,
     CorruptReplies,
     DynamicsFailed,
-    FeedbackRefused,
     FloatingError,
     ImplausibleMotion,
     LoopLate,
@@ -82,20 +81,11 @@ def test_a_fault_is_named_and_ends_without_torque(warm, name):
         no_torque(bus)
 
 
-def lost(bus):
-    bus.deaf = bus.mute = True
-
-
-def back(bus):
-    bus.deaf = bus.mute = False
-
-
-@pytest.mark.parametrize(("gone", "again"), [(lost, back), (lambda bus: bus.unplug(), lambda bus: bus.plug_in())])
-def test_a_bus_that_returns_ends_without_torque(bench, at_rest, gone, again):
+def test_an_adapter_that_returns_ends_without_torque(bench, at_rest):
     bus, teleoperator = bench.floating(at_rest, release_time=3.0)
     run(teleoperator, WARM)
-    gone(bus)
-    bench.clock.at(0.5, lambda: again(bus))
+    bus.unplug()
+    bench.clock.at(0.5, bus.plug_in)
     error, _ = ends(teleoperator, BusLost)
     assert error.released is True
     no_torque(bus)
@@ -215,11 +205,15 @@ def test_a_model_without_numbers_ends_without_torque(warm, answer):
 @pytest.mark.parametrize(
     "feedback", [{"elbow_flex.torque": float("nan")}, {"elbow.torque": 0.1}, {"gripper.pos": 0.1}, {"gripper.torque": "x"}]
 )
-def test_wrong_feedback_ends_without_torque(warm, feedback):
+def test_wrong_feedback_is_ignored_with_one_warning(warm, feedback, caplog):
     bus, teleoperator = warm
-    with pytest.raises(FeedbackRefused):
-        teleoperator.send_feedback(feedback)
-    no_torque(bus)
+    before = teleoperator.loop.torque.copy()
+    for _ in range(20):
+        teleoperator.send_feedback(feedback | {"shoulder_pan.torque": 0.55})
+        teleoperator.tick()
+    # The torques beside it are felt all the same.
+    assert np.abs(teleoperator.loop.torque - before - [0.15, 0, 0, 0, 0, 0]).max() < 1e-6
+    assert [record.levelname for record in caplog.records] == ["WARNING"] and next(iter(feedback)) in caplog.text
 
 
 def test_each_call_after_an_error_raises_it_again(warm):
@@ -232,14 +226,7 @@ def test_each_call_after_an_error_raises_it_again(warm):
         assert caught.value is error
     teleoperator.disconnect()
     assert not teleoperator.is_connected
-    no_torque(bus)
-
-
-def test_an_arm_can_float_again_after_an_error(warm):
-    bus, teleoperator = warm
-    bus.servos[1].set(65, 1, 1)
-    ends(teleoperator, ServoFault)
-    teleoperator.disconnect()
+    # It can float again.
     bus.servos[1].set(65, 0, 1)
     teleoperator.connect(calibrate=False)
     run(teleoperator, 10)
@@ -269,12 +256,11 @@ sys.path.insert(0, {here!r})
 import stand_ins
 stand_ins.install()
 from pathlib import Path
-import simulated
-from lerobot_teleoperator_so101_floating import So101Floating, So101FloatingConfig
+from lerobot_teleoperator_so101_floating import So101Floating, So101FloatingConfig, simulated
 simulated.install()
 line = simulated.LINES[{port!r}] = simulated.Remote({address!r})
 So101Floating.clock = line.clock
-config = So101FloatingConfig(id="bench", calibration_dir=Path({folder!r}), port={port!r}, gears=(345.0,) * 6)
+config = So101FloatingConfig(id="bench", calibration_dir=Path({folder!r}), port={port!r}, gears=(345.0,) * 6, wrist_roll_zero=0)
 teleoperator = So101Floating(config)
 teleoperator.connect(calibrate=False)
 line.clock.sleep(0.3)
@@ -306,12 +292,3 @@ def test_however_the_process_ends_the_torque_does(bench, at_rest, end):
     until(lambda: not any(servo.torque_enabled for servo in bus.servos))
     no_torque(bus)
     assert bus.duties and any(any(duties.values()) for duties in bus.duties)
-
-
-def test_errors_are_one_family_and_name_the_joint():
-    import lerobot_teleoperator_so101_floating as package
-
-    errors = [getattr(package, name) for name in package.__all__ if isinstance(getattr(package, name), type)]
-    errors = [each for each in errors if issubclass(each, BaseException)]
-    assert len(errors) > 10 and all(issubclass(each, FloatingError) for each in errors)
-    assert ServoFault("gripper", 1).joint == "gripper" and JOINTS[5] == "gripper"

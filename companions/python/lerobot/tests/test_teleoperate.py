@@ -40,8 +40,9 @@ def test_lerobot_teleoperate_runs_from_its_command_line(two, monkeypatch, caplog
     arguments = [
         "lerobot-teleoperate", "--teleop.type=so101_floating", f"--teleop.port={leader.port}", "--teleop.id=bench",
         f"--teleop.calibration_dir={two[0].folder}", "--teleop.gears=[345,345,345,345,345,345]",
-        "--teleop.guardian=false", "--robot.type=so101_follower", f"--robot.port={follower.port}", "--robot.id=bench",
-        "--robot.use_degrees=true", f"--robot.calibration_dir={two[1].folder}", "--teleop_time_s=3", "--fps=30",
+        "--teleop.guardian=false", "--teleop.wrist_roll_zero=0", "--robot.type=so101_follower",
+        f"--robot.port={follower.port}", "--robot.id=bench", "--robot.use_degrees=true",
+        f"--robot.calibration_dir={two[1].folder}", "--teleop_time_s=3", "--fps=30",
     ]  # fmt: skip
     monkeypatch.setattr(sys, "argv", arguments)
     lerobot_teleoperate.main()
@@ -83,5 +84,7 @@ def test_an_error_of_the_thread_reaches_lerobots_loop(bench):
         for _ in range(20):
             teleoperator.get_action()
             bench.clock.sleep(1 / 60)
-    assert not any(servo.torque_enabled for servo in bus.servos)
+    # The loop gets it at once, and the arm comes down meanwhile; one servo cannot confirm it.
+    assert bus.servos[0].torque_enabled
     teleoperator.disconnect()
+    assert not any(servo.torque_enabled for servo in bus.servos)

@@ -19,7 +19,7 @@ def percent(share: float) -> str:
 
 def test_the_tables_are_those_of_this_run():
     wanted = {f"{way} {law}" for way in ("rest", "motion", "release") for law in ("scene", "leader")}
-    wanted |= {"release off -1", "release off +1", "bus lost"}
+    wanted |= {"release off -1", "release off +1", "bus lost", "down scene", "down leader"}
     if not wanted <= set(page.figures):
         pytest.skip("some of the tests that measure did not run, or failed")
     f = page.figures
@@ -39,6 +39,11 @@ def test_the_tables_are_those_of_this_run():
         f"| without torque, the posture that falls least | {math.floor(min(f['release scene'][1], f['release leader'][1]))}° |",
     ]
     page.table("release", lines)
+    down = [max(each) for each in zip(f["down scene"], f["down leader"], strict=True)]
+    lines = ["| disconnected, in no hand | |", "| --- | ---: |"]
+    lines += [f"| greatest fall of a joint, two seconds after its torque is off | {rounded_up(down[0])}° |"]
+    lines += [f"| greatest speed of a joint while the arm comes down | {rounded_up(down[1])} rad/s |"]
+    page.table("down", lines)
 
 
 def test_every_error_is_on_the_page():

@@ -3,18 +3,19 @@
 import numpy as np
 import robot_dynamics as rd
 
-from lerobot_teleoperator_so101_floating.motors import WIDTH, Motors
+from ..motors import WIDTH, Motors
 
 
-def forward_dynamics(gears, friction: float = 1.0):
-    """Accelerations at positions, velocities and torques; `friction` scales all of it."""
+def forward_dynamics(gears, friction: float = 1.0, width: float = WIDTH):
+    """Accelerations at positions, velocities and torques; `friction` scales all of it, and fades below
+    the speed `width`, rad/s."""
     motors, robot = Motors(tuple(gears)), rd.Robot("so101")
     effects = rd.Scene(
         rd.RIGID_BODY,
         rd.Viscous(friction * motors.viscous),
-        rd.Coulomb(friction * motors.coulomb, WIDTH),
+        rd.Coulomb(friction * motors.coulomb, width),
         rd.Armature(motors.armature),
-        rd.LoadFriction(friction * motors.driving, friction * motors.backdriving, WIDTH),
+        rd.LoadFriction(friction * motors.driving, friction * motors.backdriving, width),
     )
 
     def accelerations(q, qd, torque):

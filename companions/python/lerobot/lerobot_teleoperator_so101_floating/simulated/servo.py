@@ -109,7 +109,8 @@ class Servo:
 
     def refresh(self) -> None:
         actual = round(self.angle / RADIANS) + self.zero + self.mounting
-        present = actual - self.signed(31, 11)
+        # With bit 4 of the phase the servo counts on over turns: it has made one.
+        present = actual - self.signed(31, 11) + (COUNTS if self.registers[18] & 0x10 else 0)
         self.set_signed(56, present, 15)
         self.set_signed(58, round(self.speed / RADIANS), 15)
         self.set_signed(60, round(1000 * self.duty()), 10)

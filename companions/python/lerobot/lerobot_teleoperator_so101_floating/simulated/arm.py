@@ -2,10 +2,9 @@
 
 import numpy as np
 
-from simulated import plant
+from ..calibration import LOWER, UPPER
+from . import plant
 
-LOWER = np.array([-1.91986, -1.74533, -1.69, -1.65806, -2.74385, -0.174533])
-UPPER = np.array([1.91986, 1.74533, 1.69, 1.65806, 2.84121, 1.74533])
 STEP = 5e-4
 
 

@@ -67,15 +67,15 @@ impl Names {
             .flat_map(|(far, up)| sides.map(|(sign, side)| ((x + sign * far, y + up), side)))
             .collect();
         places.sort_by_key(|((to, up), _)| (to - x).abs() + 2 * (up - y).abs());
+        let nearest = places[0];
         places.retain(|&(to, side)| self.is_free(room(words, to, side)));
         let others = self.boxes.iter().filter(|one| !meet(**one, around(&[at], 1)));
         let is_clear = |(to, _): &&(Place, HPos)| {
             leader(at, *to).all(|on| !others.clone().any(|one| meet(around(&[on], 0), *one)))
         };
         // A line to a name crosses another one only if there is no other place.
-        let Some(&(to, side)) = places.iter().find(is_clear).or(places.first()) else {
-            return Err(format!("there is no room for the name {words:?}").into());
-        };
+        let free = places.iter().find(is_clear).or(places.first());
+        let (to, side) = *free.unwrap_or(&nearest);
         if leader(at, to).next().is_some() {
             path(area, &[at, (to.0 + (x - to.0).signum() * 2, to.1)], MUTED, 1)?;
             self.boxes.extend(leader(at, to).map(|on| around(&[on], 0)));

@@ -3,6 +3,7 @@
 
 mod bad_input;
 mod contract;
+mod derivatives;
 mod engine;
 mod laws;
 mod matrix;

@@ -84,6 +84,7 @@ mod call;
 mod centroidal;
 mod compile;
 mod crba;
+mod derivatives;
 mod displacement;
 mod energy;
 mod folding;

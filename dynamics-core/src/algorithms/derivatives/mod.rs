@@ -13,7 +13,7 @@ use crate::effects::{Declared, Effect};
 use crate::scalar::Real;
 
 /// The effects of a scene name the derivatives of what they add.
-const fn named_derivatives<R: Real, E, const B: usize, const V: usize>()
+pub(crate) const fn named_derivatives<R: Real, E, const B: usize, const V: usize>()
 where
     E: Effect<R, B, V>,
 {

@@ -1,5 +1,6 @@
 //! Inverse dynamics, form by form, effect by effect.
 
+use dynamics_core::algorithms::TorqueGradient;
 use dynamics_core::effects::{Coriolis, Effect, Gravity, Inertia, RIGID_BODY};
 use dynamics_core::model::Robot;
 use dynamics_core::state::{State, StateWithTrig};
@@ -18,6 +19,7 @@ pub fn run<T: Robot<B, N, N>, const B: usize, const N: usize>() -> ! {
     inverse::<T, _, B, N>("bias", &asks, &(Gravity::EARTH, Coriolis));
     inverse::<T, _, B, N>("gravity", &asks, &(Gravity::EARTH,));
     inverse::<T, _, B, N>("no_coriolis", &asks, &(Gravity::EARTH, Inertia));
+    derivatives::<T, B, N>(&asks);
     done()
 }
 
@@ -38,4 +40,16 @@ pub fn inverse<T: Robot<B, N, N>, E: Effect<f32, B, N>, const B: usize, const N:
             precomputed(ask.trig.with(&ask.state), effects)
         });
     }
+}
+
+type Gradient<S, const N: usize> = fn(S, &RigidBody) -> TorqueGradient<f32, N>;
+type RigidBody = (Gravity, Inertia, Coriolis);
+
+/// Derivatives of inverse dynamics by the engine, with sines and cosines computed inside and before.
+fn derivatives<T: Robot<B, N, N>, const B: usize, const N: usize>(asks: &[Ask<N>; STATES]) {
+    let row = |trig| Row::of::<T, B, N>("rnea_derivatives", "engine", "full", trig);
+    let run: Gradient<&State<f32, N, N>, N> = Engine::<T>::rnea_derivatives;
+    row(true).measure(run as usize, asks, |ask| run(&ask.state, &RIGID_BODY));
+    let run: Gradient<StateWithTrig<'_, f32, N, N>, N> = Engine::<T>::rnea_derivatives;
+    row(false).measure(run as usize, asks, |ask| run(ask.trig.with(&ask.state), &RIGID_BODY));
 }

@@ -1,0 +1,112 @@
+//! ∂ID/∂q and ∂ID/∂q̇ by the engine: against Pinocchio, and against the core under effects.
+
+use dynamics_core::Engine;
+use dynamics_core::algorithms::rnea_derivatives;
+use dynamics_core::effects::{Armature, Effect, MovingBase, Payload, RIGID_BODY, Viscous};
+use dynamics_core::model::{BodyInertia, Robot, Static};
+use dynamics_core::robots::{A1, Gen3, Iiwa14, OpenArm, Panda, Puma560, So101, Ur5e, XArm7, Z1};
+use dynamics_core::scalar::Real;
+use dynamics_core::spatial::Motion;
+use dynamics_core::state::State;
+use firmware_demo::robots::Scara;
+use host_tests::measured::largest;
+use host_tests::random::{random_numbers, within};
+use host_tests::recordings::{load, row};
+
+/// The largest difference of two matrices relative to the largest entry of the second.
+struct Worst {
+    error: f64,
+    scale: f64,
+}
+
+impl Worst {
+    const NONE: Self = Self { error: 0.0, scale: 0.0 };
+
+    fn see<R: Real, const V: usize>(&mut self, got: &[[R; V]; V], want: &[[f64; V]]) {
+        for (got, want) in got.as_flattened().iter().zip(want.as_flattened()) {
+            self.error = largest([self.error, (got.to_f64() - want).abs()]);
+            self.scale = self.scale.max(want.abs());
+        }
+    }
+}
+
+/// The errors of ∂ID/∂q and ∂ID/∂q̇ against the recording, of which `share` is taken.
+fn recorded<R: Real, T, const B: usize, const V: usize>(share: f64) -> [f64; 2]
+where
+    T: Robot<B, V, V>,
+{
+    let recording = load(T::MODEL.name);
+    let mut worst = [Worst::NONE; 2];
+    for i in 0..recording.rnea_by_q.len() {
+        let real = |rows| row::<V>(rows, i).map(R::from_f64);
+        let [q, qd, qdd] = [&recording.q, &recording.qd, &recording.qdd].map(|rows| real(rows));
+        let by = Engine::<T>::rnea_derivatives(&State { q, qd, qdd }, &RIGID_BODY);
+        let wanted = [&recording.rnea_by_q[i], &recording.rnea_by_qd[i]];
+        for ((worst, got), wanted) in worst.iter_mut().zip([by.dq, by.dqd]).zip(wanted) {
+            let wanted: Vec<f64> = wanted.iter().map(|x| share * x).collect();
+            worst.see(&got, wanted.as_chunks::<V>().0);
+        }
+    }
+    worst.map(|worst| worst.error / worst.scale)
+}
+
+fn check<T: Robot<B, V, V>, const B: usize, const V: usize>() {
+    for (scalar, bound, errors) in [
+        ("f64", 1e-13, recorded::<f64, T, B, V>(1.0)),
+        ("f32", 5e-6, recorded::<f32, T, B, V>(1.0)),
+    ] {
+        println!("{} {scalar}: {errors:?}", T::MODEL.name);
+        assert!(errors.iter().all(|&e| e < bound), "{} {scalar}: {errors:?}", T::MODEL.name);
+    }
+}
+
+#[test]
+fn the_engines_derivatives_are_pinocchios() {
+    check::<Ur5e, 6, 6>();
+    check::<Panda, 7, 7>();
+    check::<Iiwa14, 7, 7>();
+    check::<Gen3, 7, 7>();
+    check::<XArm7, 7, 7>();
+    check::<Puma560, 6, 6>();
+    check::<OpenArm, 7, 7>();
+    check::<Z1, 7, 7>();
+    check::<So101, 6, 6>();
+    check::<A1, 16, 12>();
+    let off = recorded::<f64, Panda, 7, 7>(1.001);
+    assert!(off.iter().all(|&error| error > 1e-5), "{off:?}");
+}
+
+/// Under effects, and with prismatic joints, core and engine are each other's oracle.
+fn alike<T: Robot<B, V, V>, E, const B: usize, const V: usize>(scene: &E)
+where
+    E: Effect<f64, B, V>,
+{
+    let (mut worst, mut random) = ([Worst::NONE; 2], random_numbers());
+    for _ in 0..20 {
+        let [q, qd, qdd] = [1.0, 3.0, 10.0].map(|bound| within::<V>(&mut random, bound));
+        let state = State { q, qd, qdd };
+        let got = Engine::<T>::rnea_derivatives(&state, scene);
+        let want = rnea_derivatives(&Static::<T>::NEW, &state, scene);
+        worst[0].see(&got.dq, &want.dq);
+        worst[1].see(&got.dqd, &want.dqd);
+    }
+    let errors = worst.map(|worst| worst.error / worst.scale);
+    assert!(errors.iter().all(|&error| error < 1e-13), "{}: {errors:?}", T::MODEL.name);
+}
+
+#[test]
+fn core_and_engine_have_the_same_derivatives_under_effects() {
+    let load = Payload::<f64, 5>::from_inertia(BodyInertia {
+        mass: 1.5,
+        com: [0.1, -0.2, 0.05],
+        inertia: [0.01, 0.0, 0.0, 0.02, 0.0, 0.015],
+    });
+    let vector = |x, y, z| <f64 as Real>::Vec3::new(x, y, z);
+    let ship = MovingBase {
+        velocity: Motion::new(vector(0.3, -0.5, 0.7), vector(0.1, 0.2, -0.3)),
+        acceleration: Motion::new(vector(-1.0, 2.0, 0.5), vector(0.4, 1.0, -2.0)),
+    };
+    alike::<Ur5e, _, 6, 6>(&(RIGID_BODY, Armature([0.3; 6]), load, ship, Viscous([0.7; 6])));
+    alike::<Scara, _, 3, 3>(&RIGID_BODY);
+    alike::<Scara, _, 3, 3>(&(RIGID_BODY, ship));
+}

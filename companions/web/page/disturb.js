@@ -27,7 +27,7 @@ function begin(key) {
   Object.assign(disturb, { key, push: null, errors: [], events: [], owed: 0, ticks: 0, worst: 0 });
   if (state.robot.key !== key) state.select(key);
   const shown = tick(1);
-  state.view.show(state.robot.about, shown.poses);
+  state.view.show(state.robot.about, [shown.poses]);
   by("fault-joint").replaceChildren(...state.robot.about.joints.map((joint, i) => element("option", { value: i }, joint.name)));
   by("fault-joint").value = Math.min(2, state.robot.about.joints.length - 1);
   const recorded = state.data.scenes[state.scenes.get(key)];
@@ -64,12 +64,12 @@ export function disturbFrame(seconds) {
   disturb.errors.push(...shown.errors);
   if (disturb.errors.length > SHOWN) disturb.errors.splice(0, disturb.errors.length - SHOWN);
   state.view.place(shown.poses, shown.torque.map((torque, i) => torque / shown.limits[i]));
-  for (const [at, mode, fault] of shown.events) disturb.events.unshift(`${(at / 1000).toFixed(3)} s: ${mode}${fault ? `, ${fault}` : ""}`);
+  for (const [at, mode, fault] of shown.events) disturb.events.unshift(`${(at / 1000).toFixed(3)} s: ${mode}${fault ? `, ${named(fault)}` : ""}`);
   state.shown = shown;
   chart();
   write(by("mode"), shown.mode);
   by("mode").dataset.mode = shown.mode;
-  write(by("fault"), shown.fault ?? "no fault");
+  write(by("fault"), shown.fault ? named(shown.fault) : "no fault");
   write(by("brake"), shown.brake ? "holds" : "open");
   if (performance.now() - disturb.text > 150) {
     disturb.text = performance.now();
@@ -82,6 +82,9 @@ export function disturbFrame(seconds) {
     }
   }
 }
+
+/// A fault with its joint's name in place of the number.
+const named = (fault) => fault.replace(/joint (\d+)/, (number, i) => state.robot.about.joints[i]?.name ?? number);
 
 /// The tracking error of the last seconds, on a logarithmic scale.
 function chart() {

@@ -1,11 +1,16 @@
 // The tab "Move": joints, effects, torques, the front of accuracy, costs and Rust.
 import { Bars } from "./bars.js";
-import { front, price, wayAbout, wayInWords } from "./recorded.js";
+import { CLOCK, drawFront } from "./front.js";
+import { MOST_FACES, MOST_FILES, base, placed, triangles, visuals } from "./meshes.js";
+import { everyWay, front, price, wayAbout, wayInWords } from "./recorded.js";
 import { rust } from "./rust.js";
-import { EFFECTS, chosen, has, motion, posture, range, say, state } from "./state.js";
+import { EFFECTS, chosen, enter, entered, has, motion, numbersOf, posture, range, rub, say, state } from "./state.js";
 import { by, colours, digits, element, grouped, write } from "./words.js";
 
 const move = { bars: null, inputs: [], numbers: [], way: null, quantity: "q", text: 0, shown: 0, colour: null };
+
+/// The postures of a swing, over twenty seconds, that a view is chosen by.
+const SWINGS = 40;
 
 /// The limits and the unit of what the sliders set.
 const QUANTITIES = {
@@ -22,12 +27,25 @@ export function take(robot) {
   state.qd = state.q.map(() => 0);
   state.qdd = state.q.map(() => 0);
   state.clock = 0;
+  numbersOf(about);
   move.way = front()?.find((way) => way.key === "default") ?? null;
-  state.view.show(about, compute().poses);
+  look();
   joints();
   effects();
   ways();
   code();
+}
+
+/// Shows the robot with all that its swing reaches.
+export function look() {
+  const { clock } = state;
+  const poses = [compute().poses];
+  for (let i = 1; i <= SWINGS; i++) {
+    state.clock = clock + (20 * i) / SWINGS;
+    poses.push(state.library.call({ op: "compute", motion: motion(), on: {} }).poses);
+  }
+  state.clock = clock;
+  state.view.show(state.robot.about, poses, state.robot.meshes);
 }
 
 /// Computes the state of now.
@@ -88,18 +106,30 @@ export function reach(body, target) {
   state.qdd = state.q.map(() => 0);
 }
 
+/// A number that the user enters.
+function field(label, value, step, take) {
+  const input = element("input", { type: "number", "aria-label": label, min: step > 0 ? 0 : null, step: Math.abs(step), value: Number(value.toPrecision(4)) });
+  input.addEventListener("input", () => {
+    const x = Number(input.value);
+    if (!Number.isFinite(x) || Math.abs(x) > 1e4) return;
+    take(step > 0 ? Math.max(0, x) : x);
+    code();
+  });
+  return input;
+}
+
 function effects() {
-  by("effects").replaceChildren(...EFFECTS.map(({ name, title, about }) => {
-    const there = has(name);
-    const input = element("input", { type: "checkbox", id: `effect-${name}`, checked: state.on[name] && there, disabled: !there });
+  by("effects").replaceChildren(...EFFECTS.map(({ name, title, about, unit, step }) => {
+    const input = element("input", { type: "checkbox", id: `effect-${name}`, checked: state.on[name] });
     input.addEventListener("change", () => {
       state.on[name] = input.checked;
       code();
     });
-    const words = there ? about : "no numbers of this robot in the repository";
+    const fields = unit ? [field(`${title}, ${unit}`, entered(name), step, (x) => enter(name, x)), unit] : [];
+    if (name === "payload") fields.push(" at ", ...["x", "y", "z"].map((axis, i) => field(`Payload, ${axis}, m`, 0, -0.01, (x) => (state.load.at[i] = x))), "m");
     return element("div", { class: "effect" }, input,
       element("label", { for: `effect-${name}` }, element("span", { class: `swatch of-${name}`, "aria-hidden": "true" }), title),
-      element("span", { class: "note" }, words));
+      element("span", { class: "entered" }, ...fields), element("span", { class: "note" }, about));
   }));
 }
 
@@ -112,6 +142,8 @@ function ways() {
   const slider = by("way");
   slider.max = all.length - 1;
   slider.value = Math.max(0, all.indexOf(move.way));
+  by("ways").replaceChildren(...everyWay().map((way) => element("tr", {}, element("th", { scope: "row" }, wayInWords(way)),
+    ...[grouped(way.cycles), digits(way.cycles / CLOCK), digits(way.error)].map((cell) => element("td", {}, cell)))));
   chose();
 }
 
@@ -123,19 +155,9 @@ function chose() {
   by("way").setAttribute("aria-valuetext", `${words}, ${move.way.cycles} cycles`);
   write(by("way-name"), words);
   write(by("way-about"), wayAbout(move.way));
-  write(by("way-cycles"), grouped(move.way.cycles));
+  write(by("way-cycles"), `${grouped(move.way.cycles)}: ${digits(move.way.cycles / CLOCK)} µs`);
   write(by("way-error"), `${digits(move.way.error)} N·m`);
-  const most = Math.log(all.at(-1).cycles);
-  const least = Math.log(all[0].cycles);
-  const errors = all.map((way) => Math.log(way.error));
-  const [low, high] = [Math.min(...errors), Math.max(...errors)];
-  const dots = all.map((way, i) => {
-    const x = 36 + (250 * (Math.log(way.cycles) - least)) / (most - least || 1);
-    const y = 74 - (62 * (Math.log(way.error) - low)) / (high - low || 1);
-    const chosenOne = way === move.way;
-    return `<circle cx="${x.toFixed(1)}" cy="${y.toFixed(1)}" r="${chosenOne ? 6 : 3.5}" class="${chosenOne ? "chosen" : "dot"}"/>`;
-  });
-  by("front-picture").innerHTML = `<text x="4" y="11">error</text><text x="296" y="80" text-anchor="end">cycles</text>${dots.join("")}`;
+  drawFront(by("front-picture"), all, move.way);
   code();
 }
 
@@ -148,7 +170,7 @@ function code() {
   write(by("cycles"), found.why ? "not recorded" : grouped(found.cycles));
   write(by("flash"), found.why || found.code === null ? "not recorded" : `${grouped(found.code)} B`);
   const sum = found.added > 0 ? `, the sum of a rigid body's cost and of ${found.added} recorded prices` : "";
-  const share = found.why ? "" : ` ${digits(found.cycles / 168, 3)} µs at 168 MHz.`;
+  const share = found.why ? "" : ` ${digits(found.cycles / CLOCK)} µs at 168 MHz.`;
   const estimate = estimates?.cycles ? ` The importer estimates ${grouped(estimates.cycles)} cycles and ${grouped(estimates.flash ?? 0)} B.` : "";
   write(by("cost-note"), found.why ? found.why + estimate : `Modelled Cortex-M4F, worst of the recorded states, sines included; from ${found.from.join(" and ")}${sum}.${share}`);
 }
@@ -216,8 +238,8 @@ export function select(key) {
 export function load(name, text) {
   const before = state.robot;
   try {
-    const found = state.library.call({ op: "import", text });
-    take({ key: null, title: found.name, type: found.type, about: found.about, source: found.source, estimates: { cycles: found.cycles, flash: found.flash } });
+    const found = state.library.call({ op: "import", text, date: new Date().toISOString().slice(0, 10) });
+    take({ key: null, title: found.name, type: found.type, about: found.about, source: found.source, estimates: { cycles: found.cycles, flash: found.flash }, links: found.links, visuals: visuals(text), files: new Map() });
     const option = by("robot").querySelector("[value='']") ?? by("robot").appendChild(element("option", { value: "" }));
     option.textContent = `${found.name} (your file)`;
     by("robot").value = "";
@@ -225,20 +247,70 @@ export function load(name, text) {
     return true;
   } catch (error) {
     // After a trap the library has no robot any more.
-    if (before?.key) state.library.call({ op: "select", key: before.key });
+    if (before?.key) {
+      state.library.call({ op: "select", key: before.key });
+      rub();
+    }
     say(`${name}: ${error.message}`, true);
     return false;
   }
 }
 
+/// Shows the meshes that the file's robot names, of files with their names.
+export async function dress(files) {
+  const { robot } = state;
+  if (!robot.visuals?.length) return files.length && say(`${robot.title} names no mesh.`, true);
+  const wanted = new Set(robot.visuals.map(({ file }) => file));
+  for (const file of files.filter((one) => wanted.has(base(one.name)))) {
+    try {
+      if (file.size > MOST_BYTES) throw new Error(`${file.size} bytes are too many`);
+      robot.files.set(base(file.name), triangles(file.name, await file.arrayBuffer()));
+      const faces = [...robot.files.values()].reduce((sum, one) => sum + one.length / 9, 0);
+      if (faces > MOST_FACES) throw new Error(`with it there are ${faces} triangles: at most ${MOST_FACES} are shown`);
+    } catch (error) {
+      robot.files.delete(base(file.name));
+      return say(`${file.name}: ${error.message}.`, true);
+    }
+  }
+  const links = new Map(robot.links.map(([link, body, pose]) => [link, { body, pose }]));
+  const there = robot.visuals.filter(({ link, file }) => links.has(link) && robot.files.has(file));
+  robot.meshes = there.map((visual) => placed(robot.files.get(visual.file), visual, links.get(visual.link).body, links.get(visual.link).pose));
+  const missing = [...wanted].filter((file) => !robot.files.has(file));
+  if (state.robot === robot && there.length) look();
+  say(`${robot.title}: ${robot.about.joints.length} joints, ${there.length} of ${robot.visuals.length} meshes are shown.${missing.length ? ` Drop ${missing.slice(0, 4).join(", ")}${missing.length > 4 ? " …" : ""} too (STL or OBJ).` : ""}`);
+}
+
 /// The largest file that is read, bytes: above the importer's own bound.
 const MOST_BYTES = 64 << 20;
 
+/// A robot's file, the meshes of one, or both.
 async function files(list) {
-  const [file] = list;
-  if (!file) return;
-  if (file.size > MOST_BYTES) return say(`${file.name}: ${file.size} bytes are too many.`, true);
-  load(file.name, await file.text());
+  const all = [...list];
+  const meshes = all.filter((file) => /\.(stl|obj|dae)$/i.test(file.name)).slice(0, MOST_FILES);
+  const others = all.filter((file) => !/\.(stl|obj|dae)$/i.test(file.name));
+  const file = others.find(({ name }) => /\.urdf$/i.test(name)) ?? others[0];
+  if (!file && !meshes.length) return;
+  if (file?.size > MOST_BYTES) return say(`${file.name}: ${file.size} bytes are too many.`, true);
+  if (!file || load(file.name, await file.text())) await dress(meshes);
+}
+
+/// The files that were dropped, those in folders too.
+async function dropped({ items, files }) {
+  const queue = [...items].map((item) => item.webkitGetAsEntry?.()).filter(Boolean);
+  const found = [...files];
+  if (!queue.some((entry) => entry.isDirectory)) return found;
+  found.length = 0;
+  for (let i = 0; i < queue.length && i < 10 * MOST_FILES; i++) {
+    if (queue[i].isFile) {
+      found.push(await new Promise((done, fail) => queue[i].file(done, fail)));
+      continue;
+    }
+    const reader = queue[i].createReader();
+    let more;
+    do queue.push(...(more = await new Promise((done, fail) => reader.readEntries(done, fail))));
+    while (more.length);
+  }
+  return found.filter(({ name }) => /\.(urdf|xml|mjcf|stl|obj|dae)$/i.test(name));
 }
 
 export function start() {
@@ -251,6 +323,7 @@ export function start() {
   });
   by("amount").addEventListener("input", () => (state.amount = Number(by("amount").value)));
   by("home").addEventListener("click", () => {
+    state.view.home();
     rest();
     state.q = posture(state.robot);
     state.qd = state.q.map(() => 0);
@@ -275,8 +348,9 @@ export function start() {
     }
   });
   document.addEventListener("dragover", (event) => event.preventDefault());
-  document.addEventListener("drop", (event) => {
+  document.addEventListener("drop", async (event) => {
     event.preventDefault();
-    files(event.dataTransfer.files);
+    files(await dropped(event.dataTransfer));
   });
+  new ResizeObserver(() => front() && drawFront(by("front-picture"), front(), move.way)).observe(by("front"));
 }

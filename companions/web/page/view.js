@@ -60,22 +60,41 @@ export class View {
     const { clientWidth, clientHeight } = this.at;
     this.size = [clientWidth, clientHeight];
     if (clientWidth === 0) return;
+    if (this.whole) this.frame();
     this.picture.size(clientWidth, clientHeight, this.ratio);
     this.stale = true;
   }
 
-  /// Takes a robot in a pose.
-  show(about, poses) {
+  /// Takes a robot, with the poses between which it moves, from that of now on; the meshes of its
+  /// bodies, where there are any.
+  show(about, motion, meshes) {
+    const [poses] = motion;
     const points = [[0, 0, 0], ...poses.map((p) => [p[0], p[1], p[2]])];
     const low = [0, 1, 2].map((i) => Math.min(...points.map((p) => p[i])));
     const high = [0, 1, 2].map((i) => Math.max(...points.map((p) => p[i])));
     this.extent = Math.max(0.2, length(minus(high, low)));
-    this.orbit.frame(low.map((x, i) => (x + high[i]) / 2), this.extent);
-    this.shape = new Shape(about, this.extent);
+    this.shape = new Shape(about, this.extent, meshes);
     this.picture.take(this.shape);
     this.hand = this.shape.hand;
     this.drag = null;
+    this.balls = motion.flatMap((poses) => {
+      this.shape.place(poses, []);
+      return this.shape.balls();
+    });
     this.place(poses, []);
+    this.home();
+  }
+
+  /// Looks at all of the robot, wherever it moves, until someone turns the view.
+  home() {
+    this.orbit.front();
+    this.whole = true;
+    if (this.size?.[0]) this.frame();
+  }
+
+  frame() {
+    this.orbit.frame(this.balls, this.size, this.extent);
+    this.stale = true;
   }
 
   place(poses, loads) {
@@ -114,7 +133,17 @@ export class View {
     this.stale = false;
     this.ground.draw(this.orbit, this.extent, this.size);
     this.shape.place(this.poses, this.loads, this.drag && [this.point(this.drag.body), this.drag.to]);
+    // What was dragged or pushed out of the picture is brought back.
+    if (this.whole && !this.drag && this.shape.balls().some(([p]) => this.outside(p))) {
+      this.balls.push(...this.shape.balls());
+      this.frame();
+    }
     this.picture.draw(this.shape, this.orbit, this.palette);
+  }
+
+  outside(p) {
+    const [x, y] = this.orbit.project(p, ...this.size);
+    return !(x > 0 && y > 0 && x < this.size[0] && y < this.size[1]);
   }
 
   /// The body under a pointer.
@@ -161,10 +190,10 @@ export class View {
       } else if (this.pointers.size === 2) {
         const old = spread();
         this.pointers.set(event.pointerId, [x, y]);
-        this.orbit.zoomed(old / Math.max(1, spread()));
+        this.zoomed(old / Math.max(1, spread()));
       } else {
         this.pointers.set(event.pointerId, [x, y]);
-        this.orbit.turned(x - before[0], y - before[1]);
+        this.turned(x - before[0], y - before[1]);
       }
       this.stale = true;
     });
@@ -176,12 +205,22 @@ export class View {
     view.addEventListener("pointercancel", end);
     view.addEventListener("wheel", (event) => {
       event.preventDefault();
-      this.orbit.zoomed(Math.exp(event.deltaY * 0.001));
-      this.stale = true;
+      this.zoomed(Math.exp(event.deltaY * 0.001));
     }, { passive: false });
+    view.addEventListener("dblclick", () => this.home());
     view.addEventListener("keydown", (event) => this.key(event));
     view.addEventListener("keyup", (event) => event.key.startsWith("Arrow") && this.drag?.keys && this.end());
     view.addEventListener("blur", () => this.drag?.keys && this.end());
+  }
+
+  zoomed(factor) {
+    this.orbit.zoomed(factor);
+    [this.whole, this.stale] = [false, true];
+  }
+
+  turned(dx, dy) {
+    this.orbit.turned(dx, dy);
+    [this.whole, this.stale] = [false, true];
   }
 
   begin(body) {
@@ -204,7 +243,7 @@ export class View {
   }
 
   /// Arrows move the hand across the view, with shift away from it; plus, minus and the letters a
-  /// and d turn and zoom.
+  /// and d turn and zoom, 0 shows the whole arm.
   key(event) {
     const ways = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
     const way = ways[event.key];
@@ -219,9 +258,11 @@ export class View {
       const across = event.shiftKey ? forward : up;
       this.move(this.drag.to.map((x, i) => x + step * (way[0] * right[i] + way[1] * across[i])));
     } else if (event.key === "+" || event.key === "-") {
-      this.orbit.zoomed(event.key === "+" ? 0.9 : 1.1);
+      this.zoomed(event.key === "+" ? 0.9 : 1.1);
     } else if (event.key === "a" || event.key === "d") {
-      this.orbit.turned(event.key === "a" ? 20 : -20, 0);
+      this.turned(event.key === "a" ? 20 : -20, 0);
+    } else if (event.key === "0") {
+      this.home();
     } else {
       return;
     }

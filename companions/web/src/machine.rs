@@ -57,13 +57,23 @@ pub struct About {
 }
 
 /// Friction and rotors of the joints.
-#[derive(Clone, Debug, Default, Serialize)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Friction {
     pub viscous: Vec<f64>,
     pub coulomb: Vec<f64>,
     pub armature: Vec<f64>,
     /// The speed at which Coulomb friction is full, rad/s.
     pub width: f64,
+}
+
+impl Friction {
+    /// Whether so many joints can have it.
+    pub fn is_of(&self, joints: usize) -> bool {
+        let possible = |x: &f64| x.is_finite() && *x >= 0.0;
+        let all = [&self.viscous, &self.coulomb, &self.armature];
+        let right = all.iter().all(|of| of.len() == joints && of.iter().all(possible));
+        right && self.width.is_finite() && self.width > 0.0
+    }
 }
 
 /// The effects that act on a robot.
@@ -76,8 +86,9 @@ pub struct On {
     pub viscous: bool,
     pub coulomb: bool,
     pub armature: bool,
-    /// The load on the last body, kg.
+    /// The load on the last body, kg, and where it is in its frame, m.
     pub payload: f64,
+    pub at: [f64; 3],
 }
 
 impl On {
@@ -123,6 +134,8 @@ pub struct Computed {
 /// A robot of any size.
 pub trait Machine {
     fn about(&self) -> About;
+    /// Friction and rotors of its joints with a slider.
+    fn friction(&mut self) -> &mut Option<Friction>;
     fn compute(&self, motion: &Motion, on: &On) -> Computed;
     /// The joints near q that bring the origin of a body to a point, by damped least squares.
     fn reach(&self, body: usize, q: &[f64], target: [f64; 3]) -> Vec<f64>;
@@ -209,7 +222,7 @@ impl<const B: usize, const Q: usize, const V: usize> Sized<B, Q, V> {
             GravityVector(R::Vec3::new(o, o, R::from_f64(-g))),
             Inertia,
             Coriolis,
-            OnLast::new(mass, [o; 3], [o; 6]),
+            OnLast::new(mass, on.at.map(R::from_f64), [o; 6]),
         );
         let at = State {
             q,
@@ -315,6 +328,10 @@ where
             joints,
             friction: self.friction.clone(),
         }
+    }
+
+    fn friction(&mut self) -> &mut Option<Friction> {
+        &mut self.friction
     }
 
     fn compute(&self, motion: &Motion, on: &On) -> Computed {

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-use crate::machine::{Machine, Motion, On};
+use crate::machine::{Friction, Machine, Motion, On};
 use crate::robots::ALL;
 use crate::scene::{Disturbance, Disturbed, Injected, SCENES};
 use crate::suite::SuiteCase;
@@ -28,6 +28,11 @@ enum Request {
     /// Takes the robot of a file.
     Import {
         text: String,
+        date: String,
+    },
+    /// Gives the robot's joints friction and rotors.
+    Rub {
+        friction: Friction,
     },
     /// The torques of a state.
     Compute {
@@ -106,13 +111,22 @@ impl Session {
                 let machine = self.machine.insert((listed.make)());
                 value(machine.about())
             }
-            Request::Import { text } => {
-                let imported = import::import(&text)?;
+            Request::Import { text, date } => {
+                let imported = import::import(&text, date)?;
                 let machine = self.machine.insert(imported.machine);
                 Ok(json!({
                     "about": machine.about(), "name": imported.name, "type": imported.type_name,
                     "source": imported.source, "cycles": imported.cycles, "flash": imported.flash,
+                    "links": imported.links,
                 }))
+            }
+            Request::Rub { friction } => {
+                let machine = self.machine.as_mut().ok_or("no robot is selected")?;
+                if !friction.is_of(machine.about().joints.len()) {
+                    return Err("friction and rotors: a number of at least 0 a joint".to_owned());
+                }
+                *machine.friction() = Some(friction);
+                Ok(Value::Null)
             }
             Request::Compute { motion, on } => value(self.machine()?.compute(&motion, &on)),
             Request::Reach { body, q, target } => value(self.machine()?.reach(body, &q, target)),

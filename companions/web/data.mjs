@@ -63,7 +63,9 @@ function scenes(text) {
   for (const { columns, cells } of rows(text)) {
     const name = /^\*\*(\w+)\*\*$/.exec(cells[0]);
     if (!name || !columns[1]?.startsWith("tick")) continue;
-    scenes[name[1]] = { cycles: number(cells[1]), share: cells[2], code: number(cells[3]), flash: number(cells[4]), rms: number(cells[6]) };
+    const [share, code] = ["of its period", "tick's code, B"].map((column) => cells[columns.indexOf(column)]);
+    refuse(share?.endsWith("%") && number(code) > 0, `docs/scenes.md has no share or code of ${name[1]}`);
+    scenes[name[1]] = { cycles: number(cells[1]), share, code: number(code) };
   }
   refuse(scenes.ur5e?.cycles > 0, "docs/scenes.md has no scene ur5e");
   return scenes;
@@ -85,12 +87,9 @@ function fronts(json, source) {
     });
   }
   for (const [robot, front] of Object.entries(fronts)) {
-    let least = Infinity;
-    fronts[robot] = front.sort((a, b) => a.cycles - b.cycles).filter(({ key, error }) => {
-      const counts = error <= step * least || key === "default";
-      least = counts ? Math.min(least, error) : least;
-      return counts;
-    });
+    const steps = [];
+    for (const way of front.sort((a, b) => a.cycles - b.cycles)) if (way.key === "default" || !(way.error > step * steps.at(-1)?.error)) steps.push(way);
+    fronts[robot] = steps;
   }
   refuse(fronts.ur5e?.length > 3, "docs/accuracy.json has no front of the UR5e");
   return fronts;
@@ -131,7 +130,6 @@ export function recorded(root) {
     fronts: fronts(read("docs/accuracy.json"), read("xtask/src/studies/accuracy/page.rs")),
     hard: hard(read("docs/hard-cases.md"), read("README.md")),
     names: names(read("xtask/src/studies/accuracy/names.rs")),
-    compiler: /Measured with (rustc [\d.]+)/.exec(read("docs/costs.md"))?.[1] ?? "",
   };
 }
 

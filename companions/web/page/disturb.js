@@ -106,7 +106,7 @@ function chart() {
   context.strokeStyle = disturb.colour("track");
   for (let power = low; power <= high; power++) {
     context.beginPath();
-    context.moveTo(58, y(10 ** power));
+    context.moveTo(66, y(10 ** power));
     context.lineTo(width, y(10 ** power));
     context.stroke();
     if (power % 2 === 0) context.fillText(`${10 ** power} mrad`, 0, y(10 ** power) + 4);
@@ -114,14 +114,14 @@ function chart() {
   context.strokeStyle = disturb.colour("accent");
   context.lineWidth = 1.5;
   context.beginPath();
-  const step = (width - 60) / SHOWN;
+  const step = (width - 66) / SHOWN;
   const from = SHOWN - disturb.errors.length;
   // As many points as pixels: each the largest of its ticks.
   const each = Math.max(1, Math.floor(1 / step));
   for (let i = 0; i < disturb.errors.length; i += each) {
     let most = 0;
     for (let j = i; j < Math.min(i + each, disturb.errors.length); j++) most = Math.max(most, disturb.errors[j]);
-    context.lineTo(60 + (from + i) * step, y(1000 * most));
+    context.lineTo(66 + (from + i) * step, y(1000 * most));
   }
   context.stroke();
 }

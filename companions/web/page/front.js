@@ -34,7 +34,7 @@ export function drawFront(svg, ways, chosen) {
     ...marks(cycles, x, 40, [1, 2, 5, 3, 7, 4]).map((value) => line(x(value), top, x(value), HEIGHT - bottom) + text(x(value), HEIGHT - bottom + 15, "middle", grouped(value))),
     ...marks(cycles.map((value) => value / CLOCK), (time) => x(time * CLOCK), 40, [1, 2, 5, 3, 7, 4]).map((time) => line(x(time * CLOCK), top, x(time * CLOCK), top - 4) + text(x(time * CLOCK), top - 7, "middle", String(time))),
     ...marks(errors, y, 16, [1]).map((value) => line(left, y(value), width - right, y(value)) + text(left - 6, y(value) + 4, "end", digits(value, 1).replace("1·", ""))),
-    ...ways.map((way) => `<circle cx="${x(way.cycles).toFixed(1)}" cy="${y(way.error).toFixed(1)}" r="${way === chosen ? 7 : 4}" class="${way === chosen ? "chosen" : "dot"}"/>`),
+    ...ways.map((way) => `<circle cx="${x(way.cycles).toFixed(1)}" cy="${y(way.error).toFixed(1)}" r="${way === chosen ? 5 : 3}" class="${way === chosen ? "chosen" : "dot"}"/>`),
   ];
   svg.setAttribute("viewBox", `0 0 ${width} ${HEIGHT}`);
   svg.setAttribute("height", HEIGHT);

@@ -5,7 +5,7 @@ import { Soft } from "./soft.js";
 import { View } from "./view.js";
 import { say, state } from "./state.js";
 import { by, element } from "./words.js";
-import { dress, frame, load, look, reach, select, start } from "./move.js";
+import { frame, load, look, reach, select, start } from "./move.js";
 import { disturbFrame, open, pull, startDisturb } from "./disturb.js";
 import { openCases, runCase, startCases } from "./cases.js";
 import { connect, serialFrame, startSerial } from "./serial.js";

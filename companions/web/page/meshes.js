@@ -59,27 +59,23 @@ export function visuals(text) {
 
 /// A mesh in the frame of its body, which has its link at `pose`.
 export function placed(found, { xyz, axes }, body, pose) {
-  const [at, turn] = [pose.slice(0, 3), pose.slice(3)];
+  const turn = pose.slice(3);
   const whole = [0, 3, 6].flatMap((i) => inFrame([0, 0, 0], turn, axes.slice(i, i + 3)));
-  const origin = inFrame(at, turn, xyz);
+  const origin = inFrame(pose.slice(0, 3), turn, xyz);
   const points = Array.from({ length: found.length / 3 }, (_, i) => inFrame(origin, whole, found.slice(3 * i, 3 * i + 3)));
   const [low, high] = [Math.min, Math.max].map((most) => [0, 1, 2].map((i) => points.reduce((x, p) => most(x, p[i]), points[0][i])));
   const cell = Math.max(...minus(high, low)) / CELLS;
   const cells = new Map();
-  const kept = (p) => {
-    const key = p.map((x, i) => Math.floor((x - low[i]) / cell)).join();
-    return cells.get(key) ?? (cells.set(key, p), p);
-  };
+  const kept = (p, key = p.map((x, i) => Math.floor((x - low[i]) / cell)).join()) => cells.get(key) ?? (cells.set(key, p), p);
   const faces = (points) => Array.from({ length: points.length / 3 }, (_, i) => points.slice(3 * i, 3 * i + 3)).filter(([a, b, c]) => a !== b && b !== c && c !== a);
   const fine = faces(points);
   // A mirrored mesh has its corners the other way round.
   if (dot(cross(axes.slice(0, 3), axes.slice(3, 6)), axes.slice(6)) < 0) fine.forEach((face) => face.reverse());
-  const normals = fine.flatMap(([a, b, c]) => [1, 1, 1].flatMap(() => unit(cross(minus(b, a), minus(c, a)))));
   return {
     body,
     corners: [0, 1, 2, 3, 4, 5, 6, 7].map((k) => low.map((x, i) => ((k >> i) & 1 ? high[i] : x))),
     positions: new Float32Array(fine.flat(2)),
-    normals: new Float32Array(normals),
-    coarse: fine.length > FINE ? faces(fine.flat().map(kept)) : fine,
+    normals: new Float32Array(fine.flatMap(([a, b, c]) => [a, b, c].flatMap(() => unit(cross(minus(b, a), minus(c, a)))))),
+    coarse: fine.length > FINE ? faces(fine.flat().map((p) => kept(p))) : fine,
   };
 }

@@ -4,13 +4,10 @@ import { CLOCK, drawFront } from "./front.js";
 import { MOST_FACES, MOST_FILES, base, placed, triangles, visuals } from "./meshes.js";
 import { everyWay, front, price, wayAbout, wayInWords } from "./recorded.js";
 import { rust } from "./rust.js";
-import { EFFECTS, chosen, enter, entered, has, motion, numbersOf, posture, range, rub, say, state } from "./state.js";
+import { EFFECTS, chosen, enter, entered, has, motion, numbersOf, posture, range, say, state } from "./state.js";
 import { by, colours, digits, element, grouped, write } from "./words.js";
 
 const move = { bars: null, inputs: [], numbers: [], way: null, quantity: "q", text: 0, shown: 0, colour: null };
-
-/// The postures of a swing, over twenty seconds, that a view is chosen by.
-const SWINGS = 40;
 
 /// The limits and the unit of what the sliders set.
 const QUANTITIES = {
@@ -36,16 +33,16 @@ export function take(robot) {
   code();
 }
 
-/// Shows the robot with all that its swing reaches.
+/// Shows the robot with all that its swing reaches in twenty seconds.
 export function look() {
   const { clock } = state;
-  const poses = [compute().poses];
-  for (let i = 1; i <= SWINGS; i++) {
-    state.clock = clock + (20 * i) / SWINGS;
-    poses.push(state.library.call({ op: "compute", motion: motion(), on: {} }).poses);
-  }
+  const motions = Array.from({ length: 40 }, (_, i) => {
+    state.clock = clock + i / 2;
+    return compute().poses;
+  });
   state.clock = clock;
-  state.view.show(state.robot.about, poses, state.robot.meshes);
+  state.view.show(state.robot.about, motions, state.robot.meshes);
+  compute();
 }
 
 /// Computes the state of now.
@@ -110,9 +107,7 @@ export function reach(body, target) {
 function field(label, value, step, take) {
   const input = element("input", { type: "number", "aria-label": label, min: step > 0 ? 0 : null, step: Math.abs(step), value: Number(value.toPrecision(4)) });
   input.addEventListener("input", () => {
-    const x = Number(input.value);
-    if (!Number.isFinite(x) || Math.abs(x) > 1e4) return;
-    take(step > 0 ? Math.max(0, x) : x);
+    take(Math.min(1e4, Math.max(step > 0 ? 0 : -1e4, Number(input.value))));
     code();
   });
   return input;
@@ -247,37 +242,37 @@ export function load(name, text) {
     return true;
   } catch (error) {
     // After a trap the library has no robot any more.
-    if (before?.key) {
-      state.library.call({ op: "select", key: before.key });
-      rub();
-    }
+    if (before?.key) state.library.call({ op: "select", key: before.key });
     say(`${name}: ${error.message}`, true);
     return false;
   }
 }
 
 /// Shows the meshes that the file's robot names, of files with their names.
-export async function dress(files) {
+async function dress(given) {
   const { robot } = state;
-  if (!robot.visuals?.length) return files.length && say(`${robot.title} names no mesh.`, true);
-  const wanted = new Set(robot.visuals.map(({ file }) => file));
-  for (const file of files.filter((one) => wanted.has(base(one.name)))) {
+  const { visuals: all = [], files: there, about, title } = robot;
+  const wanted = new Set(all.map(({ file }) => file));
+  const named = given.filter((file) => wanted.has(base(file.name)));
+  if (given.length > 0 && named.length === 0) return say(`${given[0].name}: ${title} does not name it.`, true);
+  for (const file of named) {
+    const name = base(file.name);
     try {
       if (file.size > MOST_BYTES) throw new Error(`${file.size} bytes are too many`);
-      robot.files.set(base(file.name), triangles(file.name, await file.arrayBuffer()));
-      const faces = [...robot.files.values()].reduce((sum, one) => sum + one.length / 9, 0);
+      there.set(name, triangles(name, await file.arrayBuffer()));
+      const faces = [...there.values()].reduce((sum, one) => sum + one.length / 9, 0);
       if (faces > MOST_FACES) throw new Error(`with it there are ${faces} triangles: at most ${MOST_FACES} are shown`);
     } catch (error) {
-      robot.files.delete(base(file.name));
+      there.delete(name);
       return say(`${file.name}: ${error.message}.`, true);
     }
   }
-  const links = new Map(robot.links.map(([link, body, pose]) => [link, { body, pose }]));
-  const there = robot.visuals.filter(({ link, file }) => links.has(link) && robot.files.has(file));
-  robot.meshes = there.map((visual) => placed(robot.files.get(visual.file), visual, links.get(visual.link).body, links.get(visual.link).pose));
-  const missing = [...wanted].filter((file) => !robot.files.has(file));
-  if (state.robot === robot && there.length) look();
-  say(`${robot.title}: ${robot.about.joints.length} joints, ${there.length} of ${robot.visuals.length} meshes are shown.${missing.length ? ` Drop ${missing.slice(0, 4).join(", ")}${missing.length > 4 ? " …" : ""} too (STL or OBJ).` : ""}`);
+  if (all.length === 0 || state.robot !== robot) return;
+  const links = new Map(robot.links.map(([link, ...place]) => [link, place]));
+  robot.meshes = all.filter(({ link, file }) => links.has(link) && there.has(file)).map((one) => placed(there.get(one.file), one, ...links.get(one.link)));
+  look();
+  const missing = [...wanted].filter((file) => !there.has(file));
+  say(`${title}: ${about.joints.length} joints, ${robot.meshes.length} of ${all.length} meshes.${missing.length ? ` Drop ${missing.slice(0, 4).join(", ")}${missing[4] ? " …" : ""} too, as STL or OBJ.` : ""}`);
 }
 
 /// The largest file that is read, bytes: above the importer's own bound.
@@ -285,32 +280,10 @@ const MOST_BYTES = 64 << 20;
 
 /// A robot's file, the meshes of one, or both.
 async function files(list) {
-  const all = [...list];
-  const meshes = all.filter((file) => /\.(stl|obj|dae)$/i.test(file.name)).slice(0, MOST_FILES);
-  const others = all.filter((file) => !/\.(stl|obj|dae)$/i.test(file.name));
-  const file = others.find(({ name }) => /\.urdf$/i.test(name)) ?? others[0];
-  if (!file && !meshes.length) return;
+  const isMesh = ({ name }) => /\.(stl|obj|dae)$/i.test(name);
+  const file = [...list].find((one) => !isMesh(one));
   if (file?.size > MOST_BYTES) return say(`${file.name}: ${file.size} bytes are too many.`, true);
-  if (!file || load(file.name, await file.text())) await dress(meshes);
-}
-
-/// The files that were dropped, those in folders too.
-async function dropped({ items, files }) {
-  const queue = [...items].map((item) => item.webkitGetAsEntry?.()).filter(Boolean);
-  const found = [...files];
-  if (!queue.some((entry) => entry.isDirectory)) return found;
-  found.length = 0;
-  for (let i = 0; i < queue.length && i < 10 * MOST_FILES; i++) {
-    if (queue[i].isFile) {
-      found.push(await new Promise((done, fail) => queue[i].file(done, fail)));
-      continue;
-    }
-    const reader = queue[i].createReader();
-    let more;
-    do queue.push(...(more = await new Promise((done, fail) => reader.readEntries(done, fail))));
-    while (more.length);
-  }
-  return found.filter(({ name }) => /\.(urdf|xml|mjcf|stl|obj|dae)$/i.test(name));
+  if (!file || load(file.name, await file.text())) await dress([...list].filter(isMesh).slice(0, MOST_FILES));
 }
 
 export function start() {
@@ -348,9 +321,9 @@ export function start() {
     }
   });
   document.addEventListener("dragover", (event) => event.preventDefault());
-  document.addEventListener("drop", async (event) => {
+  document.addEventListener("drop", (event) => {
     event.preventDefault();
-    files(await dropped(event.dataTransfer));
+    files(event.dataTransfer.files);
   });
   new ResizeObserver(() => front() && drawFront(by("front-picture"), front(), move.way)).observe(by("front"));
 }

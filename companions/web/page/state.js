@@ -6,7 +6,7 @@ export const EFFECTS = [
   { name: "gravity", title: "Gravity", about: "the weight of the links" },
   { name: "inertia", title: "Inertia", about: "M(q) q̈" },
   { name: "coriolis", title: "Coriolis", about: "Coriolis and centrifugal torques" },
-  { name: "payload", title: "Payload", about: "a point mass in the last body's frame", unit: "kg", step: 0.1 },
+  { name: "payload", title: "Payload", about: "a point, in the last body's frame", unit: "kg", step: 0.1 },
   { name: "viscous", title: "Viscous", about: "friction that grows with speed", unit: "N·m·s/rad", step: 0.01 },
   { name: "coulomb", title: "Coulomb", about: "friction of constant size", unit: "N·m", step: 0.01 },
   { name: "armature", title: "Armature", about: "inertia of the motors' rotors", unit: "kg·m²", step: 0.001 },
@@ -23,8 +23,8 @@ export const state = {
   qd: [],
   qdd: [],
   /// Friction and rotors by joint, and the load: its mass, kg, and its place in the last body, m.
-  friction: null,
-  load: { mass: 1, at: [0, 0, 0] },
+  friction: {},
+  load: null,
   on: { gravity: true, inertia: true, coriolis: true, viscous: true, coulomb: true, armature: true, payload: false },
   /// Whether the joints swing, by what share of what they may, and since when, s.
   swinging: false,
@@ -88,7 +88,7 @@ export function motion() {
 }
 
 /// The number of an effect that the user enters: of joints the largest.
-export const entered = (name) => (name === "payload" ? state.load.mass : state.friction[name] ? Math.max(...state.friction[name]) : 1);
+export const entered = (name) => (name === "payload" ? state.load.mass : Math.max(...(state.friction[name] ?? [1])));
 
 /// Enters it: joints keep the proportions that the repository or the file gives them.
 export function enter(name, x) {
@@ -96,21 +96,17 @@ export function enter(name, x) {
   const given = state.robot.about.friction?.[name] ?? [];
   const most = Math.max(0, ...given);
   state.friction[name] = state.friction[name].map((_, i) => (most > 0 ? (given[i] / most) * x : x));
-  rub();
 }
-
-export const rub = () => state.library.call({ op: "rub", friction: state.friction });
 
 /// The numbers of a robot that comes: its own, or none, and a load that it may carry.
 export function numbersOf({ bodies, joints, friction }) {
   const none = joints.map(() => 0);
-  state.friction = structuredClone(friction) ?? { viscous: none, coulomb: none, armature: none, width: 0.05 };
-  const light = bodies.reduce((sum, body) => sum + body.mass, 0) < 5;
-  state.load = { mass: light ? 0.2 : 1, at: [0, 0, 0] };
+  state.friction = { viscous: none, coulomb: none, armature: none, width: 0.05, ...friction };
+  state.load = { mass: bodies.reduce((sum, body) => sum + body.mass, 0) < 5 ? 0.2 : 1, at: [0, 0, 0] };
 }
 
 /// The request's form of the effects.
-export const chosen = () => ({ ...state.on, payload: state.on.payload ? state.load.mass : 0, at: state.load.at });
+export const chosen = () => ({ ...state.on, payload: state.on.payload ? state.load.mass : 0, at: state.load.at, friction: state.friction });
 
 /// Whether an effect has a number.
 export const has = (name) => entered(name) > 0;

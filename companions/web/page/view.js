@@ -1,6 +1,6 @@
 // The view of the robot: it draws, turns, and says which body a pointer or the keyboard drags
 // where.
-import { Orbit, length, minus } from "./camera.js";
+import { Orbit, length } from "./camera.js";
 import { Gl, hasGraphics } from "./gl.js";
 import { Ground } from "./ground.js";
 import { Shape, palette } from "./shape.js";
@@ -59,7 +59,7 @@ export class View {
   resize() {
     const { clientWidth, clientHeight } = this.at;
     this.size = [clientWidth, clientHeight];
-    if (clientWidth === 0) return;
+    if (clientWidth * clientHeight === 0) return;
     if (this.whole) this.frame();
     this.picture.size(clientWidth, clientHeight, this.ratio);
     this.stale = true;
@@ -69,10 +69,8 @@ export class View {
   /// bodies, where there are any.
   show(about, motion, meshes) {
     const [poses] = motion;
-    const points = [[0, 0, 0], ...poses.map((p) => [p[0], p[1], p[2]])];
-    const low = [0, 1, 2].map((i) => Math.min(...points.map((p) => p[i])));
-    const high = [0, 1, 2].map((i) => Math.max(...points.map((p) => p[i])));
-    this.extent = Math.max(0.2, length(minus(high, low)));
+    const spans = [0, 1, 2].map((i) => Math.max(0, ...poses.map((p) => p[i])) - Math.min(0, ...poses.map((p) => p[i])));
+    this.extent = Math.max(0.2, length(spans));
     this.shape = new Shape(about, this.extent, meshes);
     this.picture.take(this.shape);
     this.hand = this.shape.hand;
@@ -89,7 +87,7 @@ export class View {
   home() {
     this.orbit.front();
     this.whole = true;
-    if (this.size?.[0]) this.frame();
+    if (this.size?.[1]) this.frame();
   }
 
   frame() {
@@ -129,21 +127,21 @@ export class View {
   }
 
   render() {
-    if (!this.stale || !this.poses || !this.size?.[0]) return;
+    if (!this.stale || !this.poses || !this.size?.[1]) return;
     this.stale = false;
     this.ground.draw(this.orbit, this.extent, this.size);
     this.shape.place(this.poses, this.loads, this.drag && [this.point(this.drag.body), this.drag.to]);
-    // What was dragged or pushed out of the picture is brought back.
-    if (this.whole && !this.drag && this.shape.balls().some(([p]) => this.outside(p))) {
-      this.balls.push(...this.shape.balls());
+    // What moves, is dragged or pushed out of the picture is brought back.
+    const balls = this.whole && !this.drag ? this.shape.balls() : [];
+    if (balls.some((ball) => this.outside(ball))) {
+      this.balls.push(...balls);
       this.frame();
     }
     this.picture.draw(this.shape, this.orbit, this.palette);
   }
 
-  outside(p) {
-    const [x, y] = this.orbit.project(p, ...this.size);
-    return !(x > 0 && y > 0 && x < this.size[0] && y < this.size[1]);
+  outside([p]) {
+    return this.orbit.project(p, ...this.size).slice(0, 2).some((x, k) => !(x > 0 && x < this.size[k]));
   }
 
   /// The body under a pointer.
@@ -171,6 +169,7 @@ export class View {
       this.pointers.set(event.pointerId, [x, y]);
       const body = this.pointers.size === 1 ? this.under(x, y, event.pointerType) : null;
       if (body !== null) this.begin(body);
+      else this.whole = false;
     });
     view.addEventListener("pointermove", (event) => {
       const [x, y] = at(event);
@@ -190,10 +189,10 @@ export class View {
       } else if (this.pointers.size === 2) {
         const old = spread();
         this.pointers.set(event.pointerId, [x, y]);
-        this.zoomed(old / Math.max(1, spread()));
+        this.orbit.zoomed(old / Math.max(1, spread()));
       } else {
         this.pointers.set(event.pointerId, [x, y]);
-        this.turned(x - before[0], y - before[1]);
+        this.orbit.turned(x - before[0], y - before[1]);
       }
       this.stale = true;
     });
@@ -205,22 +204,13 @@ export class View {
     view.addEventListener("pointercancel", end);
     view.addEventListener("wheel", (event) => {
       event.preventDefault();
-      this.zoomed(Math.exp(event.deltaY * 0.001));
+      this.orbit.zoomed(Math.exp(event.deltaY * 0.001));
+      [this.whole, this.stale] = [false, true];
     }, { passive: false });
     view.addEventListener("dblclick", () => this.home());
     view.addEventListener("keydown", (event) => this.key(event));
     view.addEventListener("keyup", (event) => event.key.startsWith("Arrow") && this.drag?.keys && this.end());
     view.addEventListener("blur", () => this.drag?.keys && this.end());
-  }
-
-  zoomed(factor) {
-    this.orbit.zoomed(factor);
-    [this.whole, this.stale] = [false, true];
-  }
-
-  turned(dx, dy) {
-    this.orbit.turned(dx, dy);
-    [this.whole, this.stale] = [false, true];
   }
 
   begin(body) {
@@ -247,6 +237,7 @@ export class View {
   key(event) {
     const ways = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
     const way = ways[event.key];
+    if ("+-ad".includes(event.key)) this.whole = false;
     if (way && this.poses) {
       event.preventDefault();
       if (!this.drag) {
@@ -258,9 +249,9 @@ export class View {
       const across = event.shiftKey ? forward : up;
       this.move(this.drag.to.map((x, i) => x + step * (way[0] * right[i] + way[1] * across[i])));
     } else if (event.key === "+" || event.key === "-") {
-      this.zoomed(event.key === "+" ? 0.9 : 1.1);
+      this.orbit.zoomed(event.key === "+" ? 0.9 : 1.1);
     } else if (event.key === "a" || event.key === "d") {
-      this.turned(event.key === "a" ? 20 : -20, 0);
+      this.orbit.turned(event.key === "a" ? 20 : -20, 0);
     } else if (event.key === "0") {
       this.home();
     } else {

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use robot_import::description::Kind;
-use robot_import::error::{ImportError, Problem};
+use robot_import::error::ImportError;
 use robot_import::inertia::MassProperties;
 use robot_import::model::arm;
 use robot_import::number::Attitude;
@@ -37,9 +37,10 @@ const WIDTH: f64 = 0.05;
 /// The importer's, with line and element; more joints than the page has sizes for.
 pub fn import(text: &str, date: String) -> Result<Imported, String> {
     // The page has no options of a command line.
-    let words = |error: ImportError| match error.problem {
-        Problem::NothingMoves => "no joint moves".to_owned(),
-        _ => error.to_string(),
+    let words = |error: ImportError| {
+        let text = error.to_string();
+        let cut = text.split("`--").next().unwrap_or_default();
+        cut.trim_end_matches([' ', ':', ';']).to_owned()
     };
     let robot = source::parse(text, Path::new("")).map_err(words)?;
     let selected = Selection::default().of(&robot).map_err(words)?;

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-use crate::machine::{Friction, Machine, Motion, On};
+use crate::machine::{Machine, Motion, On};
 use crate::robots::ALL;
 use crate::scene::{Disturbance, Disturbed, Injected, SCENES};
 use crate::suite::SuiteCase;
@@ -29,10 +29,6 @@ enum Request {
     Import {
         text: String,
         date: String,
-    },
-    /// Gives the robot's joints friction and rotors.
-    Rub {
-        friction: Friction,
     },
     /// The torques of a state.
     Compute {
@@ -119,14 +115,6 @@ impl Session {
                     "source": imported.source, "cycles": imported.cycles, "flash": imported.flash,
                     "links": imported.links,
                 }))
-            }
-            Request::Rub { friction } => {
-                let machine = self.machine.as_mut().ok_or("no robot is selected")?;
-                if !friction.is_of(machine.about().joints.len()) {
-                    return Err("friction and rotors: a number of at least 0 a joint".to_owned());
-                }
-                *machine.friction() = Some(friction);
-                Ok(Value::Null)
             }
             Request::Compute { motion, on } => value(self.machine()?.compute(&motion, &on)),
             Request::Reach { body, q, target } => value(self.machine()?.reach(body, &q, target)),

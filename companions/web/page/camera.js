@@ -1,7 +1,7 @@
 // A camera that pointers turn, with z up, and where points of the scene are on the screen.
 
 /// The part of a view, from its middle, that a robot may fill.
-const FILLED = 0.9;
+const FILLED = 0.95;
 
 export class Orbit {
   constructor() {

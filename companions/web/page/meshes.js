@@ -5,7 +5,7 @@ import { inFrame } from "./shape.js";
 
 /// The most files, and the most triangles of all of them.
 export const MOST_FILES = 200;
-export const MOST_FACES = 500_000;
+const MOST_FACES = 500_000;
 /// Meshes of more triangles are coarser where there is no graphics processor: with one corner in
 /// each cell, of which so many are as long as the mesh.
 const [FINE, CELLS] = [2_000, 32];
@@ -18,8 +18,7 @@ function stl(bytes) {
   const count = bytes.byteLength < 84 ? 0 : view.getUint32(80, true);
   const text = new TextDecoder().decode(bytes.byteLength === 84 + 50 * count ? new Uint8Array() : bytes);
   if (text.startsWith("solid")) return Array.from(text.matchAll(/vertex\s+(\S+)\s+(\S+)\s+(\S+)/g), ([, ...p]) => p.map(Number)).flat();
-  if (count > MOST_FACES || bytes.byteLength < 84 + 50 * count) throw new Error(`it ends before its ${count} triangles`);
-  return Float32Array.from({ length: 9 * count }, (_, i) => view.getFloat32(96 + 50 * Math.floor(i / 9) + 4 * (i % 9), true));
+  return Float32Array.from({ length: bytes.byteLength < 84 + 50 * count ? 0 : 9 * count }, (_, i) => view.getFloat32(96 + 50 * Math.floor(i / 9) + 4 * (i % 9), true));
 }
 
 function obj(bytes) {
@@ -34,12 +33,12 @@ function obj(bytes) {
   return found;
 }
 
-/// The corners of a file's triangles, nine numbers each.
-export function triangles(name, bytes) {
-  const found = /\.obj$/i.test(name) ? obj(bytes) : stl(bytes);
-  const faces = found.length / 9;
-  if (faces > MOST_FACES) throw new Error(`${faces} triangles: at most ${MOST_FACES} are shown`);
-  if (faces < 1 || faces % 1 !== 0 || !found.every((x) => Math.abs(x) < 1e9)) throw new Error("it has no triangles, or corners that are no numbers");
+/// The corners of a file's triangles, nine numbers each, beside those of others.
+export function triangles(file, bytes, others) {
+  const found = /\.obj$/i.test(file) ? obj(bytes) : stl(bytes);
+  const faces = [found, ...others].reduce((sum, one) => sum + one.length / 9, 0);
+  if (faces > MOST_FACES) throw new Error(`${file}: with it there are ${faces} triangles, and at most ${MOST_FACES} are shown.`);
+  if (!found.length || found.length % 9 || !found.every((x) => Math.abs(x) < 1e9)) throw new Error(`${file}: it has no triangles, or corners that are no numbers.`);
   return found;
 }
 
@@ -66,7 +65,7 @@ export function placed(found, { xyz, axes }, body, pose) {
   const [low, high] = [Math.min, Math.max].map((most) => [0, 1, 2].map((i) => points.reduce((x, p) => most(x, p[i]), points[0][i])));
   const cell = Math.max(...minus(high, low)) / CELLS;
   const cells = new Map();
-  const kept = (p, key = p.map((x, i) => Math.floor((x - low[i]) / cell)).join()) => cells.get(key) ?? (cells.set(key, p), p);
+  const kept = (p, key = p.map((x) => Math.floor(x / cell)).join()) => cells.get(key) ?? (cells.set(key, p), p);
   const faces = (points) => Array.from({ length: points.length / 3 }, (_, i) => points.slice(3 * i, 3 * i + 3)).filter(([a, b, c]) => a !== b && b !== c && c !== a);
   const fine = faces(points);
   // A mirrored mesh has its corners the other way round.

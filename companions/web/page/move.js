@@ -1,10 +1,10 @@
 // The tab "Move": joints, effects, torques, the front of accuracy, costs and Rust.
 import { Bars } from "./bars.js";
 import { CLOCK, drawFront } from "./front.js";
-import { MOST_FACES, MOST_FILES, base, placed, triangles, visuals } from "./meshes.js";
+import { MOST_FILES, base, placed, triangles, visuals } from "./meshes.js";
 import { everyWay, front, price, wayAbout, wayInWords } from "./recorded.js";
 import { rust } from "./rust.js";
-import { EFFECTS, chosen, enter, entered, has, motion, numbersOf, posture, range, say, state } from "./state.js";
+import { EFFECTS, chosen, enter, entered, has, motion, posture, range, say, state } from "./state.js";
 import { by, colours, digits, element, grouped, write } from "./words.js";
 
 const move = { bars: null, inputs: [], numbers: [], way: null, quantity: "q", text: 0, shown: 0, colour: null };
@@ -24,7 +24,8 @@ export function take(robot) {
   state.qd = state.q.map(() => 0);
   state.qdd = state.q.map(() => 0);
   state.clock = 0;
-  numbersOf(about);
+  state.friction = { ...Object.fromEntries(["viscous", "coulomb", "armature"].map((name) => [name, about.joints.map(() => 0)])), width: 0.05, ...about.friction };
+  state.load = { mass: about.bodies.reduce((sum, body) => sum + body.mass, 0) < 5 ? 0.2 : 1, at: [0, 0, 0] };
   move.way = front()?.find((way) => way.key === "default") ?? null;
   look();
   joints();
@@ -36,13 +37,9 @@ export function take(robot) {
 /// Shows the robot with all that its swing reaches in twenty seconds.
 export function look() {
   const { clock } = state;
-  const motions = Array.from({ length: 40 }, (_, i) => {
-    state.clock = clock + i / 2;
-    return compute().poses;
-  });
-  state.clock = clock;
-  state.view.show(state.robot.about, motions, state.robot.meshes);
-  compute();
+  const at = (time) => ((state.clock = time), compute().poses);
+  state.view.show(state.robot.about, Array.from({ length: 40 }, (_, i) => at(clock + i / 2)), state.robot.meshes);
+  at(clock);
 }
 
 /// Computes the state of now.
@@ -106,23 +103,20 @@ export function reach(body, target) {
 /// A number that the user enters.
 function field(label, value, step, take) {
   const input = element("input", { type: "number", "aria-label": label, min: step > 0 ? 0 : null, step: Math.abs(step), value: Number(value.toPrecision(4)) });
-  input.addEventListener("input", () => {
-    take(Math.min(1e4, Math.max(step > 0 ? 0 : -1e4, Number(input.value))));
-    code();
-  });
+  return changed(input, "input", () => take(Math.min(1e4, Math.max(step > 0 ? 0 : -1e4, Number(input.value)))));
+}
+
+function changed(input, event, take) {
+  input.addEventListener(event, () => (take(), code()));
   return input;
 }
 
 function effects() {
   by("effects").replaceChildren(...EFFECTS.map(({ name, title, about, unit, step }) => {
     const input = element("input", { type: "checkbox", id: `effect-${name}`, checked: state.on[name] });
-    input.addEventListener("change", () => {
-      state.on[name] = input.checked;
-      code();
-    });
     const fields = unit ? [field(`${title}, ${unit}`, entered(name), step, (x) => enter(name, x)), unit] : [];
     if (name === "payload") fields.push(" at ", ...["x", "y", "z"].map((axis, i) => field(`Payload, ${axis}, m`, 0, -0.01, (x) => (state.load.at[i] = x))), "m");
-    return element("div", { class: "effect" }, input,
+    return element("div", { class: "effect" }, changed(input, "change", () => (state.on[name] = input.checked)),
       element("label", { for: `effect-${name}` }, element("span", { class: `swatch of-${name}`, "aria-hidden": "true" }), title),
       element("span", { class: "entered" }, ...fields), element("span", { class: "note" }, about));
   }));
@@ -253,20 +247,16 @@ async function dress(given) {
   const { robot } = state;
   const { visuals: all = [], files: there, about, title } = robot;
   const wanted = new Set(all.map(({ file }) => file));
-  const named = given.filter((file) => wanted.has(base(file.name)));
-  if (given.length > 0 && named.length === 0) return say(`${given[0].name}: ${title} does not name it.`, true);
-  for (const file of named) {
-    const name = base(file.name);
-    try {
-      if (file.size > MOST_BYTES) throw new Error(`${file.size} bytes are too many`);
-      there.set(name, triangles(name, await file.arrayBuffer()));
-      const faces = [...there.values()].reduce((sum, one) => sum + one.length / 9, 0);
-      if (faces > MOST_FACES) throw new Error(`with it there are ${faces} triangles: at most ${MOST_FACES} are shown`);
-    } catch (error) {
-      there.delete(name);
-      return say(`${file.name}: ${error.message}.`, true);
+  try {
+    for (const file of given.filter(({ name }) => wanted.has(base(name)))) {
+      if (file.size > MOST_BYTES) throw new Error(`${file.name}: ${file.size} bytes are too many.`);
+      there.delete(base(file.name));
+      there.set(base(file.name), triangles(file.name, await file.arrayBuffer(), [...there.values()]));
     }
+  } catch (error) {
+    return say(error.message, true);
   }
+  if (given.length && !given.some(({ name }) => wanted.has(base(name)))) return say(`${given[0].name}: ${title} does not name it.`, true);
   if (all.length === 0 || state.robot !== robot) return;
   const links = new Map(robot.links.map(([link, ...place]) => [link, place]));
   robot.meshes = all.filter(({ link, file }) => links.has(link) && there.has(file)).map((one) => placed(there.get(one.file), one, ...links.get(one.link)));
@@ -280,10 +270,9 @@ const MOST_BYTES = 64 << 20;
 
 /// A robot's file, the meshes of one, or both.
 async function files(list) {
-  const isMesh = ({ name }) => /\.(stl|obj|dae)$/i.test(name);
-  const file = [...list].find((one) => !isMesh(one));
+  const file = [...list].find(({ name }) => !/\.(stl|obj|dae)$/i.test(name));
   if (file?.size > MOST_BYTES) return say(`${file.name}: ${file.size} bytes are too many.`, true);
-  if (!file || load(file.name, await file.text())) await dress([...list].filter(isMesh).slice(0, MOST_FILES));
+  if (!file || load(file.name, await file.text())) await dress([...list].filter(({ name }) => /\.(stl|obj)$/i.test(name)).slice(0, MOST_FILES));
 }
 
 export function start() {

@@ -51,7 +51,6 @@ export function wayInWords(way) {
     if (axis === "trig" && (value === "table3" || way.axes.arith === "f64")) return "";
     return names[axis]?.[value]?.name ?? "";
   });
-  if (way.axes.model === "no_coriolis" || way.axes.model === "gravity") words.push("");
   return words.filter(Boolean).join(", ") || "the library's default";
 }
 

@@ -17,10 +17,8 @@ export class Shape {
     this.parts = [];
     const shown = new Set(meshes.map((mesh) => mesh.body));
     const link = (from, to, r) => shown.has(from.body) || this.parts.push({ kind: "link", colour: "link", from, to, r });
-    for (const mesh of meshes) {
-      const joint = about.joints.findIndex(({ body }) => body === mesh.body);
-      this.parts.push({ kind: "mesh", colour: "link", from: { body: mesh.body }, joint, mesh });
-    }
+    const joint = (of) => about.joints.findIndex(({ body }) => body === of);
+    this.parts.push(...meshes.map((mesh) => ({ kind: "mesh", colour: "link", from: { body: mesh.body }, joint: joint(mesh.body), mesh })));
     about.bodies.forEach((body, i) => {
       if (body.parent === null) link({ body: null }, { body: i }, radius * 1.15);
       for (const child of children[i]) link({ body: i }, { body: child }, radius);
@@ -70,10 +68,7 @@ export class Shape {
   /// Balls around the robot as it was placed, each with centre and radius.
   balls() {
     const robot = this.parts.filter((part) => part.from && part.visible);
-    return robot.flatMap(({ a, b, r, axes, mesh }) => {
-      if (mesh) return mesh.corners.map((p) => [inFrame(a, axes, p), 0]);
-      return b ? [[a, r], [b, r]] : [[a, r]];
-    });
+    return robot.flatMap(({ a, b = a, r, axes, mesh }) => mesh?.corners.map((p) => [inFrame(a, axes, p), 0]) ?? [[a, r], [b, r]]);
   }
 }
 

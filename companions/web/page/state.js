@@ -98,13 +98,6 @@ export function enter(name, x) {
   state.friction[name] = state.friction[name].map((_, i) => (most > 0 ? (given[i] / most) * x : x));
 }
 
-/// The numbers of a robot that comes: its own, or none, and a load that it may carry.
-export function numbersOf({ bodies, joints, friction }) {
-  const none = joints.map(() => 0);
-  state.friction = { viscous: none, coulomb: none, armature: none, width: 0.05, ...friction };
-  state.load = { mass: bodies.reduce((sum, body) => sum + body.mass, 0) < 5 ? 0.2 : 1, at: [0, 0, 0] };
-}
-
 /// The request's form of the effects.
 export const chosen = () => ({ ...state.on, payload: state.on.payload ? state.load.mass : 0, at: state.load.at, friction: state.friction });
 

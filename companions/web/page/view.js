@@ -75,10 +75,7 @@ export class View {
     this.picture.take(this.shape);
     this.hand = this.shape.hand;
     this.drag = null;
-    this.balls = motion.flatMap((poses) => {
-      this.shape.place(poses, []);
-      return this.shape.balls();
-    });
+    this.balls = motion.flatMap((poses) => (this.shape.place(poses, []), this.shape.balls()));
     this.place(poses, []);
     this.home();
   }
@@ -133,15 +130,11 @@ export class View {
     this.shape.place(this.poses, this.loads, this.drag && [this.point(this.drag.body), this.drag.to]);
     // What moves, is dragged or pushed out of the picture is brought back.
     const balls = this.whole && !this.drag ? this.shape.balls() : [];
-    if (balls.some((ball) => this.outside(ball))) {
+    if (balls.some(([p]) => this.orbit.project(p, ...this.size).slice(0, 2).some((x, k) => x < 0 || x > this.size[k]))) {
       this.balls.push(...balls);
       this.frame();
     }
     this.picture.draw(this.shape, this.orbit, this.palette);
-  }
-
-  outside([p]) {
-    return this.orbit.project(p, ...this.size).slice(0, 2).some((x, k) => !(x > 0 && x < this.size[k]));
   }
 
   /// The body under a pointer.
@@ -237,7 +230,6 @@ export class View {
   key(event) {
     const ways = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
     const way = ways[event.key];
-    if ("+-ad".includes(event.key)) this.whole = false;
     if (way && this.poses) {
       event.preventDefault();
       if (!this.drag) {
@@ -257,6 +249,7 @@ export class View {
     } else {
       return;
     }
+    this.whole &&= Boolean(way) || event.key === "0";
     this.stale = true;
   }
 }

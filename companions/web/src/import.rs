@@ -39,8 +39,7 @@ pub fn import(text: &str, date: String) -> Result<Imported, String> {
     // The page has no options of a command line.
     let words = |error: ImportError| {
         let text = error.to_string();
-        let cut = text.split("`--").next().unwrap_or_default();
-        cut.trim_end_matches([' ', ':', ';']).to_owned()
+        text.split("`--").next().unwrap_or_default().trim_end_matches([' ', ':', ';']).to_owned()
     };
     let robot = source::parse(text, Path::new("")).map_err(words)?;
     let selected = Selection::default().of(&robot).map_err(words)?;

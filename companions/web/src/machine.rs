@@ -32,7 +32,6 @@ pub struct JointAbout {
 /// A body, for a drawing.
 #[derive(Clone, Debug, Serialize)]
 pub struct BodyAbout {
-    pub name: String,
     /// The index of its parent; none is the base.
     pub parent: Option<usize>,
     /// The axis of its joint in its frame; zero if it has none.
@@ -281,7 +280,6 @@ where
                 false => DVec3::ZERO,
             };
             BodyAbout {
-                name: self.names[i - self.fillers].clone(),
                 parent: link.parent.checked_sub(self.fillers).filter(|&p| p < B),
                 axis: link.joint.axis.to_array(),
                 com: com.to_array(),

@@ -6,7 +6,7 @@ export const EFFECTS = [
   { name: "gravity", title: "Gravity", about: "the weight of the links" },
   { name: "inertia", title: "Inertia", about: "M(q) q̈" },
   { name: "coriolis", title: "Coriolis", about: "Coriolis and centrifugal torques" },
-  { name: "payload", title: "Payload", about: "a point, in the last body's frame", unit: "kg", step: 0.1 },
+  { name: "payload", title: "Payload", about: "a point mass", unit: "kg", step: 0.1 },
   { name: "viscous", title: "Viscous", about: "friction that grows with speed", unit: "N·m·s/rad", step: 0.01 },
   { name: "coulomb", title: "Coulomb", about: "friction of constant size", unit: "N·m", step: 0.01 },
   { name: "armature", title: "Armature", about: "inertia of the motors' rotors", unit: "kg·m²", step: 0.001 },

@@ -1,10 +1,10 @@
-//! The ways to compute inverse dynamics on the fronts of docs/accuracy.md that compute in every tick,
-//! and the core's, by their keys.
+//! The ways to compute inverse dynamics that docs/accuracy.md compares: those that compute in every
+//! tick, by their keys.
 
 use dynamics_core::model::{Pruned, Robot};
 use dynamics_core::robots::{A1Leg, Panda, Ur5e};
 use dynamics_core::state::State;
-use dynamics_core::trig::Table;
+use dynamics_core::trig::{Minimax, Table};
 use dynamics_core::{Core, Engine};
 use fixtures::accuracy::Inverse;
 use fixtures::accuracy::inverse::{By, In};
@@ -37,6 +37,11 @@ fn of<T: Robot<B, N, N>, const B: usize, const N: usize>(
     by_key! { key, state, N;
         In<f32, Full<T>, Engine<T>, B>,
         In<f64, Full<T>, Engine<T>, B>,
+        By<f32, Table<128, 3, 4>, Full<T>, Engine<T>, B>,
+        By<f32, Minimax<7, 2>, Full<T>, Engine<T>, B>,
+        By<f32, Minimax<5, 2>, Full<T>, Engine<T>, B>,
+        By<f32, Minimax<3, 2>, Full<T>, Engine<T>, B>,
+        By<f32, Table<64, 4>, Full<T>, Engine<T>, B>,
         By<f32, Table<256, 2>, Full<T>, Engine<T>, B>,
         By<f32, Coarse, Full<T>, Engine<T>, B>,
         In<f32, Without<T, 100>, Engine<Pruned<T, 100>>, B>,
@@ -45,8 +50,12 @@ fn of<T: Robot<B, N, N>, const B: usize, const N: usize>(
         By<f32, Coarse, Without<T, 3000>, Engine<Pruned<T, 3000>>, B>,
         By<f32, Coarse, Without<T, 10_000>, Engine<Pruned<T, 10_000>>, B>,
         By<f32, Coarse, Without<T, 30_000>, Engine<Pruned<T, 30_000>>, B>,
+        In<f32, NoCoriolis<T>, Engine<T>, B>,
         By<f32, Coarse, NoCoriolis<T>, Engine<T>, B>,
+        In<f32, GravityOnly<T>, Engine<T>, B>,
+        By<f32, Table<256, 2>, GravityOnly<T>, Engine<T>, B>,
         By<f32, Coarse, GravityOnly<T>, Engine<T>, B>,
+        By<f32, Minimax<7, 2>, Full<T>, Core<T>, B>,
         In<f32, Full<T>, Core<T>, B>,
     }
 }

@@ -21,8 +21,8 @@ export class Orbit {
     const slopes = [(up * width) / height, up];
     const axes = this.axes();
     const at = balls.map(([p, r]) => [...axes.map((axis) => dot(p, axis)), r]);
-    // The planes at the edges of the view: an eye at e with depth z sees a ball if |x - e| + r is at
-    // most the slope times its depth. The lines x = e ± slope · depth bound e and the depth.
+    // A ball is on the inner side of the plane at an edge if x - ex + r √(1 + s²) ≤ s (z - ez), with
+    // the eye at (ex, ez) and the edge's slope s: that and the other edge bound ex and ez.
     const bounds = slopes.map((slope, k) => [
       Math.max(...at.map((p) => p[k] + p[3] * Math.hypot(1, slope) - slope * p[2])),
       Math.min(...at.map((p) => p[k] - p[3] * Math.hypot(1, slope) + slope * p[2])),

@@ -63,29 +63,50 @@ function scenes(text) {
   for (const { columns, cells } of rows(text)) {
     const name = /^\*\*(\w+)\*\*$/.exec(cells[0]);
     if (!name || !columns[1]?.startsWith("tick")) continue;
-    scenes[name[1]] = { cycles: number(cells[1]), share: cells[2], code: number(cells[3]), flash: number(cells[4]), rms: number(cells[6]) };
+    const [share, code] = ["of its period", "tick's code, B"].map((column) => cells[columns.indexOf(column)]);
+    refuse(share?.endsWith("%") && number(code) > 0, `docs/scenes.md has no share or code of ${name[1]}`);
+    scenes[name[1]] = { cycles: number(cells[1]), share, code: number(code) };
   }
   refuse(scenes.ur5e?.cycles > 0, "docs/scenes.md has no scene ur5e");
   return scenes;
 }
 
-/// The front of each robot: the ways that compute in every tick, cheapest first.
-function fronts(json) {
+/// The front of each robot, as its picture and README.md have it: the ways that compute in every
+/// tick, cheapest first, each much more accurate than the one before, and the default.
+function fronts(json, source) {
+  const step = Number(/const STEP: f64 = ([\d.]+);/.exec(source)?.[1]);
+  refuse(step > 0 && step < 1, "the accuracy page's step cannot be read");
   const fronts = {};
   for (const way of JSON.parse(json)) {
     if (way.kind !== "inverse" || !way.front || way.configuration.rate !== "1") continue;
     (fronts[way.robot] ??= []).push({
       key: way.key.replace(/,?opt=\w+/, "") || "default",
-      opt: way.configuration.opt,
       axes: { trig: way.configuration.trig, model: way.configuration.model, form: way.configuration.form, arith: way.configuration.arith },
       cycles: way.cycles,
       error: way.error_max,
-      relative: way.relative_max,
     });
   }
-  for (const front of Object.values(fronts)) front.sort((a, b) => a.cycles - b.cycles);
+  for (const [robot, front] of Object.entries(fronts)) {
+    const steps = [];
+    for (const way of front.sort((a, b) => a.cycles - b.cycles)) if (way.key === "default" || !(way.error > step * steps.at(-1)?.error)) steps.push(way);
+    fronts[robot] = steps;
+  }
   refuse(fronts.ur5e?.length > 3, "docs/accuracy.json has no front of the UR5e");
   return fronts;
+}
+
+/// The hard cases of the page and its totals; the one further figure that README.md knows to be
+/// beyond its bound.
+function hard(page, readme) {
+  const totals = /^\d+ cases: \d+ figures within .* shown\.$/m.exec(page)?.[0];
+  const row = /^\[(\d+)\. (.*)\]\(#case-\d+\) \| (\S+) \| (\S+) \| (?:(.*): (\S+))?$/gm;
+  const cases = [...page.matchAll(row)].map(([, number, title, single, double, way, times]) => ({
+    case: Number(number), title, f32: Number(single), f64: Number(double), naive: way && { way, share: Number(times) },
+  }));
+  const [, words, number] = /One figure of a further case\s+is beyond its bound, ([^(]*case (\d+)[^(]*) \(\[/.exec(readme) ?? [];
+  refuse(totals?.startsWith(`${cases.length} cases:`) && cases.every((one, i) => one.case === i + 1 && one.f64 >= 0), "docs/hard-cases.md cannot be read");
+  refuse(Number(number) > cases.length, "README.md has no further case that is beyond its bound");
+  return { totals, cases, further: { case: Number(number), words: `Known to be beyond its bound: ${words.replaceAll("`", "")}.` } };
 }
 
 /// The names of what a way is along each axis, and the Rust for it.
@@ -106,9 +127,9 @@ export function recorded(root) {
     costs: costs(read("docs/costs.md")),
     effects: effects(read("docs/effects.md")),
     scenes: scenes(read("docs/scenes.md")),
-    fronts: fronts(read("docs/accuracy.json")),
+    fronts: fronts(read("docs/accuracy.json"), read("xtask/src/studies/accuracy/page.rs")),
+    hard: hard(read("docs/hard-cases.md"), read("README.md")),
     names: names(read("xtask/src/studies/accuracy/names.rs")),
-    compiler: /Measured with (rustc [\d.]+)/.exec(read("docs/costs.md"))?.[1] ?? "",
   };
 }
 

@@ -1,19 +1,37 @@
 // A camera that pointers turn, with z up, and where points of the scene are on the screen.
 
+/// The part of a view, from its middle, that a robot may fill.
+const FILLED = 0.95;
+
 export class Orbit {
   constructor() {
-    this.turn = -0.9;
-    this.tilt = 0.42;
-    this.distance = 3;
-    this.target = [0, 0, 0.4];
     this.field = 35;
+    this.front();
   }
 
-  frame(centre, size) {
-    this.target = centre;
-    this.distance = size * 2.4;
-    this.near = size * 0.02;
-    this.far = size * 30;
+  /// Looks from where every robot is first seen.
+  front() {
+    [this.turn, this.tilt, this.distance, this.target] = [-0.9, 0.42, 3, [0, 0, 0.4]];
+  }
+
+  /// Moves to where balls [centre, radius] fill a view of this size, in the direction of now.
+  frame(balls, [width, height], extent) {
+    [this.near, this.far] = [extent * 0.02, extent * 30];
+    const up = FILLED * Math.tan((this.field * Math.PI) / 360);
+    const slopes = [(up * width) / height, up];
+    const axes = this.axes();
+    const at = balls.map(([p, r]) => [...axes.map((axis) => dot(p, axis)), r]);
+    // A ball is on the inner side of the plane at an edge if x - ex + r √(1 + s²) ≤ s (z - ez), with
+    // the eye at (ex, ez) and the edge's slope s: that and the other edge bound ex and ez.
+    const bounds = slopes.map((slope, k) => [
+      Math.max(...at.map((p) => p[k] + p[3] * Math.hypot(1, slope) - slope * p[2])),
+      Math.min(...at.map((p) => p[k] - p[3] * Math.hypot(1, slope) + slope * p[2])),
+    ]);
+    const [ex, ey] = bounds.map(([high, low]) => (high + low) / 2);
+    const ez = Math.min(...bounds.map(([high, low], k) => -(high - low) / 2 / slopes[k]));
+    const middle = at.reduce((sum, p) => sum + p[2], 0) / at.length;
+    this.distance = middle - ez;
+    this.target = [0, 1, 2].map((i) => ex * axes[0][i] + ey * axes[1][i] + middle * axes[2][i]);
   }
 
   position() {

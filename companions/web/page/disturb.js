@@ -27,7 +27,7 @@ function begin(key) {
   Object.assign(disturb, { key, push: null, errors: [], events: [], owed: 0, ticks: 0, worst: 0 });
   if (state.robot.key !== key) state.select(key);
   const shown = tick(1);
-  state.view.show(state.robot.about, shown.poses);
+  state.view.show(state.robot.about, [shown.poses]);
   by("fault-joint").replaceChildren(...state.robot.about.joints.map((joint, i) => element("option", { value: i }, joint.name)));
   by("fault-joint").value = Math.min(2, state.robot.about.joints.length - 1);
   const recorded = state.data.scenes[state.scenes.get(key)];
@@ -64,12 +64,12 @@ export function disturbFrame(seconds) {
   disturb.errors.push(...shown.errors);
   if (disturb.errors.length > SHOWN) disturb.errors.splice(0, disturb.errors.length - SHOWN);
   state.view.place(shown.poses, shown.torque.map((torque, i) => torque / shown.limits[i]));
-  for (const [at, mode, fault] of shown.events) disturb.events.unshift(`${(at / 1000).toFixed(3)} s: ${mode}${fault ? `, ${fault}` : ""}`);
+  for (const [at, mode, fault] of shown.events) disturb.events.unshift(`${(at / 1000).toFixed(3)} s: ${mode}${fault ? `, ${named(fault)}` : ""}`);
   state.shown = shown;
   chart();
   write(by("mode"), shown.mode);
   by("mode").dataset.mode = shown.mode;
-  write(by("fault"), shown.fault ?? "no fault");
+  write(by("fault"), shown.fault ? named(shown.fault) : "no fault");
   write(by("brake"), shown.brake ? "holds" : "open");
   if (performance.now() - disturb.text > 150) {
     disturb.text = performance.now();
@@ -82,6 +82,9 @@ export function disturbFrame(seconds) {
     }
   }
 }
+
+/// A fault with its joint's name in place of the number.
+const named = (fault) => fault.replace(/joint (\d+)/, (number, i) => state.robot.about.joints[i]?.name ?? number);
 
 /// The tracking error of the last seconds, on a logarithmic scale.
 function chart() {
@@ -103,7 +106,7 @@ function chart() {
   context.strokeStyle = disturb.colour("track");
   for (let power = low; power <= high; power++) {
     context.beginPath();
-    context.moveTo(58, y(10 ** power));
+    context.moveTo(66, y(10 ** power));
     context.lineTo(width, y(10 ** power));
     context.stroke();
     if (power % 2 === 0) context.fillText(`${10 ** power} mrad`, 0, y(10 ** power) + 4);
@@ -111,14 +114,14 @@ function chart() {
   context.strokeStyle = disturb.colour("accent");
   context.lineWidth = 1.5;
   context.beginPath();
-  const step = (width - 60) / SHOWN;
+  const step = (width - 66) / SHOWN;
   const from = SHOWN - disturb.errors.length;
   // As many points as pixels: each the largest of its ticks.
   const each = Math.max(1, Math.floor(1 / step));
   for (let i = 0; i < disturb.errors.length; i += each) {
     let most = 0;
     for (let j = i; j < Math.min(i + each, disturb.errors.length); j++) most = Math.max(most, disturb.errors[j]);
-    context.lineTo(60 + (from + i) * step, y(1000 * most));
+    context.lineTo(66 + (from + i) * step, y(1000 * most));
   }
   context.stroke();
 }

@@ -61,10 +61,11 @@ export class Gl {
   take({ parts }) {
     const { gl } = this.renderer;
     this.root = new ogl.Transform();
-    this.meshes = parts.map(({ kind }) => {
+    this.meshes = parts.map(({ kind, mesh: given }) => {
+      const own = given && new ogl.Geometry(gl, { position: { size: 3, data: given.positions }, normal: { size: 3, data: given.normals } });
       const uniforms = { colour: { value: [0, 0, 0] }, eye: { value: [0, 0, 0] } };
       const program = new ogl.Program(gl, { vertex: VERTEX, fragment: FRAGMENT, uniforms, cullFace: false });
-      const mesh = new ogl.Mesh(gl, { geometry: this.geometries[kind === "ball" ? "ball" : "cylinder"], program, frustumCulled: false });
+      const mesh = new ogl.Mesh(gl, { geometry: own ?? this.geometries[kind === "ball" ? "ball" : "cylinder"], program, frustumCulled: false });
       mesh.matrixAutoUpdate = false;
       mesh.setParent(this.root);
       return mesh;
@@ -77,13 +78,14 @@ export class Gl {
     this.camera.position.set(...eye);
     this.camera.lookAt(orbit.target);
     parts.forEach((part, i) => {
-      const { a, b, r, kind, visible } = part;
+      const { a, b, r, kind, visible, axes } = part;
       const mesh = this.meshes[i];
       mesh.visible = visible;
       if (!visible) return;
       mesh.program.uniforms.eye.value = eye;
       mesh.program.uniforms.colour.value = tint(part, colours);
       if (kind === "ball") return void mesh.matrix.set(r, 0, 0, 0, 0, r, 0, 0, 0, 0, r, 0, ...a, 1);
+      if (axes) return void mesh.matrix.set(...axes.slice(0, 3), 0, ...axes.slice(3, 6), 0, ...axes.slice(6), 0, ...a, 1);
       const [x, y, z] = along(a, b);
       const l = length(minus(b, a));
       const m = a.map((p, k) => (p + b[k]) / 2);

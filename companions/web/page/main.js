@@ -3,9 +3,9 @@ import { Library, unpacked } from "./library.js";
 import { Gl } from "./gl.js";
 import { Soft } from "./soft.js";
 import { View } from "./view.js";
-import { state } from "./state.js";
+import { say, state } from "./state.js";
 import { by, element } from "./words.js";
-import { frame, load, reach, select, start, compute } from "./move.js";
+import { frame, load, look, reach, select, start } from "./move.js";
 import { disturbFrame, open, pull, startDisturb } from "./disturb.js";
 import { openCases, runCase, startCases } from "./cases.js";
 import { connect, serialFrame, startSerial } from "./serial.js";
@@ -16,6 +16,7 @@ function show(tab) {
   const before = state.tab;
   state.tab = tab;
   document.body.dataset.tab = tab;
+  say("");
   for (const name of TABS) {
     const chosenTab = name === tab;
     by(`tab-${name}`).setAttribute("aria-selected", String(chosenTab));
@@ -25,7 +26,7 @@ function show(tab) {
   if (tab === "disturb") open();
   if (tab === "hard") openCases();
   if (tab === "real" && state.robot.key !== "so101") select("so101");
-  if (before === "disturb" && tab === "move") state.view.show(state.robot.about, compute().poses);
+  if (before === "disturb" && tab === "move") look();
 }
 
 function tabs() {

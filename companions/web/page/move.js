@@ -1,8 +1,10 @@
 // The tab "Move": joints, effects, torques, the front of accuracy, costs and Rust.
 import { Bars } from "./bars.js";
-import { front, price, wayAbout, wayInWords } from "./recorded.js";
+import { CLOCK, drawFront } from "./front.js";
+import { MOST_FILES, base, placed, triangles, visuals } from "./meshes.js";
+import { everyWay, front, price, wayAbout, wayInWords } from "./recorded.js";
 import { rust } from "./rust.js";
-import { EFFECTS, chosen, has, motion, posture, range, say, state } from "./state.js";
+import { EFFECTS, chosen, enter, entered, has, motion, posture, range, say, state } from "./state.js";
 import { by, colours, digits, element, grouped, write } from "./words.js";
 
 const move = { bars: null, inputs: [], numbers: [], way: null, quantity: "q", text: 0, shown: 0, colour: null };
@@ -22,12 +24,22 @@ export function take(robot) {
   state.qd = state.q.map(() => 0);
   state.qdd = state.q.map(() => 0);
   state.clock = 0;
+  state.friction = { ...Object.fromEntries(["viscous", "coulomb", "armature"].map((name) => [name, about.joints.map(() => 0)])), width: 0.05, ...about.friction };
+  state.load = { mass: about.bodies.reduce((sum, body) => sum + body.mass, 0) < 5 ? 0.2 : 1, at: [0, 0, 0] };
   move.way = front()?.find((way) => way.key === "default") ?? null;
-  state.view.show(about, compute().poses);
+  look();
   joints();
   effects();
   ways();
   code();
+}
+
+/// Shows the robot with all that its swing reaches in twenty seconds.
+export function look() {
+  const { clock } = state;
+  const at = (time) => ((state.clock = time), compute().poses);
+  state.view.show(state.robot.about, Array.from({ length: 40 }, (_, i) => at(clock + i / 2)), state.robot.meshes);
+  at(clock);
 }
 
 /// Computes the state of now.
@@ -88,18 +100,25 @@ export function reach(body, target) {
   state.qdd = state.q.map(() => 0);
 }
 
+/// A number that the user enters.
+function field(label, value, step, take) {
+  const input = element("input", { type: "number", "aria-label": label, min: step > 0 ? 0 : null, step: Math.abs(step), value: Number(value.toPrecision(4)) });
+  return changed(input, "input", () => take(Math.min(1e4, Math.max(step > 0 ? 0 : -1e4, Number(input.value)))));
+}
+
+function changed(input, event, take) {
+  input.addEventListener(event, () => (take(), code()));
+  return input;
+}
+
 function effects() {
-  by("effects").replaceChildren(...EFFECTS.map(({ name, title, about }) => {
-    const there = has(name);
-    const input = element("input", { type: "checkbox", id: `effect-${name}`, checked: state.on[name] && there, disabled: !there });
-    input.addEventListener("change", () => {
-      state.on[name] = input.checked;
-      code();
-    });
-    const words = there ? about : "no numbers of this robot in the repository";
-    return element("div", { class: "effect" }, input,
+  by("effects").replaceChildren(...EFFECTS.map(({ name, title, about, unit, step }) => {
+    const input = element("input", { type: "checkbox", id: `effect-${name}`, checked: state.on[name] });
+    const fields = unit ? [field(`${title}, ${unit}`, entered(name), step, (x) => enter(name, x)), unit] : [];
+    if (name === "payload") fields.push(" at ", ...["x", "y", "z"].map((axis, i) => field(`Payload, ${axis}, m`, 0, -0.01, (x) => (state.load.at[i] = x))), "m");
+    return element("div", { class: "effect" }, changed(input, "change", () => (state.on[name] = input.checked)),
       element("label", { for: `effect-${name}` }, element("span", { class: `swatch of-${name}`, "aria-hidden": "true" }), title),
-      element("span", { class: "note" }, words));
+      element("span", { class: "entered" }, ...fields), element("span", { class: "note" }, about));
   }));
 }
 
@@ -112,6 +131,8 @@ function ways() {
   const slider = by("way");
   slider.max = all.length - 1;
   slider.value = Math.max(0, all.indexOf(move.way));
+  by("ways").replaceChildren(...everyWay().map((way) => element("tr", {}, element("th", { scope: "row" }, wayInWords(way)),
+    ...[grouped(way.cycles), digits(way.cycles / CLOCK), digits(way.error)].map((cell) => element("td", {}, cell)))));
   chose();
 }
 
@@ -123,19 +144,9 @@ function chose() {
   by("way").setAttribute("aria-valuetext", `${words}, ${move.way.cycles} cycles`);
   write(by("way-name"), words);
   write(by("way-about"), wayAbout(move.way));
-  write(by("way-cycles"), grouped(move.way.cycles));
+  write(by("way-cycles"), `${grouped(move.way.cycles)}: ${digits(move.way.cycles / CLOCK)} µs`);
   write(by("way-error"), `${digits(move.way.error)} N·m`);
-  const most = Math.log(all.at(-1).cycles);
-  const least = Math.log(all[0].cycles);
-  const errors = all.map((way) => Math.log(way.error));
-  const [low, high] = [Math.min(...errors), Math.max(...errors)];
-  const dots = all.map((way, i) => {
-    const x = 36 + (250 * (Math.log(way.cycles) - least)) / (most - least || 1);
-    const y = 74 - (62 * (Math.log(way.error) - low)) / (high - low || 1);
-    const chosenOne = way === move.way;
-    return `<circle cx="${x.toFixed(1)}" cy="${y.toFixed(1)}" r="${chosenOne ? 6 : 3.5}" class="${chosenOne ? "chosen" : "dot"}"/>`;
-  });
-  by("front-picture").innerHTML = `<text x="4" y="11">error</text><text x="296" y="80" text-anchor="end">cycles</text>${dots.join("")}`;
+  drawFront(by("front-picture"), all, move.way);
   code();
 }
 
@@ -148,7 +159,7 @@ function code() {
   write(by("cycles"), found.why ? "not recorded" : grouped(found.cycles));
   write(by("flash"), found.why || found.code === null ? "not recorded" : `${grouped(found.code)} B`);
   const sum = found.added > 0 ? `, the sum of a rigid body's cost and of ${found.added} recorded prices` : "";
-  const share = found.why ? "" : ` ${digits(found.cycles / 168, 3)} µs at 168 MHz.`;
+  const share = found.why ? "" : ` ${digits(found.cycles / CLOCK)} µs at 168 MHz.`;
   const estimate = estimates?.cycles ? ` The importer estimates ${grouped(estimates.cycles)} cycles and ${grouped(estimates.flash ?? 0)} B.` : "";
   write(by("cost-note"), found.why ? found.why + estimate : `Modelled Cortex-M4F, worst of the recorded states, sines included; from ${found.from.join(" and ")}${sum}.${share}`);
 }
@@ -216,8 +227,8 @@ export function select(key) {
 export function load(name, text) {
   const before = state.robot;
   try {
-    const found = state.library.call({ op: "import", text });
-    take({ key: null, title: found.name, type: found.type, about: found.about, source: found.source, estimates: { cycles: found.cycles, flash: found.flash } });
+    const found = state.library.call({ op: "import", text, date: new Date().toISOString().slice(0, 10) });
+    take({ key: null, title: found.name, type: found.type, about: found.about, source: found.source, estimates: { cycles: found.cycles, flash: found.flash }, links: found.links, visuals: visuals(text), files: new Map() });
     const option = by("robot").querySelector("[value='']") ?? by("robot").appendChild(element("option", { value: "" }));
     option.textContent = `${found.name} (your file)`;
     by("robot").value = "";
@@ -231,14 +242,37 @@ export function load(name, text) {
   }
 }
 
+/// Shows the meshes that the file's robot names, of files with their names.
+async function dress(given) {
+  const { robot } = state;
+  const { visuals: all = [], files: there, about, title } = robot;
+  const wanted = new Set(all.map(({ file }) => file));
+  try {
+    for (const file of given.filter(({ name }) => wanted.has(base(name)))) {
+      if (file.size > MOST_BYTES) throw new Error(`${file.name}: ${file.size} bytes are too many.`);
+      there.delete(base(file.name));
+      there.set(base(file.name), triangles(file.name, await file.arrayBuffer(), [...there.values()]));
+    }
+  } catch (error) {
+    return say(error.message, true);
+  }
+  if (given.length && !given.some(({ name }) => wanted.has(base(name)))) return say(`${given[0].name}: ${title} does not name it.`, true);
+  if (all.length === 0 || state.robot !== robot) return;
+  const links = new Map(robot.links.map(([link, ...place]) => [link, place]));
+  robot.meshes = all.filter(({ link, file }) => links.has(link) && there.has(file)).map((one) => placed(there.get(one.file), one, ...links.get(one.link)));
+  look();
+  const missing = [...wanted].filter((file) => !there.has(file));
+  say(`${title}: ${about.joints.length} joints, ${robot.meshes.length} of ${all.length} meshes.${missing.length ? ` Drop ${missing.slice(0, 4).join(", ")}${missing[4] ? " …" : ""} too, as STL or OBJ.` : ""}`);
+}
+
 /// The largest file that is read, bytes: above the importer's own bound.
 const MOST_BYTES = 64 << 20;
 
+/// A robot's file, the meshes of one, or both.
 async function files(list) {
-  const [file] = list;
-  if (!file) return;
-  if (file.size > MOST_BYTES) return say(`${file.name}: ${file.size} bytes are too many.`, true);
-  load(file.name, await file.text());
+  const file = [...list].find(({ name }) => !/\.(stl|obj|dae)$/i.test(name));
+  if (file?.size > MOST_BYTES) return say(`${file.name}: ${file.size} bytes are too many.`, true);
+  if (!file || load(file.name, await file.text())) await dress([...list].filter(({ name }) => /\.(stl|obj)$/i.test(name)).slice(0, MOST_FILES));
 }
 
 export function start() {
@@ -251,6 +285,7 @@ export function start() {
   });
   by("amount").addEventListener("input", () => (state.amount = Number(by("amount").value)));
   by("home").addEventListener("click", () => {
+    state.view.home();
     rest();
     state.q = posture(state.robot);
     state.qd = state.q.map(() => 0);
@@ -279,4 +314,5 @@ export function start() {
     event.preventDefault();
     files(event.dataTransfer.files);
   });
+  new ResizeObserver(() => front() && drawFront(by("front-picture"), front(), move.way)).observe(by("front"));
 }

@@ -4,8 +4,10 @@ import { state } from "./state.js";
 /// The rows of docs/costs.md by which of gravity, inertia and velocity products act.
 const RIGID = { "gravity inertia coriolis": "full", "gravity coriolis": "bias", gravity: "gravity", "gravity inertia": "no_coriolis" };
 
-/// The ways of the robot's front that this page can compute.
-export const front = () => (state.robot?.key && state.data.fronts[state.robot.key]) || null;
+/// The ways of the robot's front that its picture has; in double precision a microcontroller
+/// computes a hundred times as long: the table has it.
+export const front = () => everyWay()?.filter((way) => way.axes.arith !== "f64") ?? null;
+export const everyWay = () => (state.robot?.key && state.data.fronts[state.robot.key]) || null;
 
 /// Cycles and code of the effects that are on, with where they are from; null where something is
 /// not recorded.
@@ -21,10 +23,11 @@ export function price(on, way) {
     base = { cycles: costs.full.cycles - prices.gravity.cycles, code: costs.full.code - prices.gravity.code };
     from.push("docs/effects.md");
   }
-  if (way && way.key !== "default") {
-    if (rigid !== "gravity inertia coriolis") return { why: "The ways of the front are recorded with all three rigid-body effects." };
-    base = { cycles: way.cycles, code: null };
+  if (way && rigid === "gravity inertia coriolis") {
+    base = { cycles: way.cycles, code: way.key === "default" ? base.code : null };
     from[0] = "docs/accuracy.md";
+  } else if (way && way.key !== "default") {
+    return { why: "The ways of the front are recorded with all three rigid-body effects." };
   }
   if (!base) return { why: "This combination of rigid-body effects is not recorded." };
   let { cycles, code } = base;
@@ -48,9 +51,7 @@ export function wayInWords(way) {
     if (axis === "trig" && (value === "table3" || way.axes.arith === "f64")) return "";
     return names[axis]?.[value]?.name ?? "";
   });
-  if (way.axes.model === "no_coriolis" || way.axes.model === "gravity") words.push("");
-  const text = words.filter(Boolean).join(", ") || "the library's default";
-  return way.opt === "3" ? text : `${text}, compiled at opt-level ${way.opt}`;
+  return words.filter(Boolean).join(", ") || "the library's default";
 }
 
 /// Sentences that say what a way of computing gives up.

@@ -1,5 +1,5 @@
 // The Rust for what is chosen.
-import { state, PAYLOAD, EFFECTS, has } from "./state.js";
+import { state, EFFECTS, has } from "./state.js";
 
 /// A number as f32 in Rust: with a point, and with the fewest digits that are the same f32.
 function real(x) {
@@ -20,16 +20,18 @@ const list = (numbers) => {
 
 /// The type and the value of each effect.
 function tuple(on, about) {
-  const { friction } = about;
+  const { friction, load } = state;
   const v = about.sizes[2];
+  // Coordinates of a free base come first, and have neither friction nor rotors.
+  const all = (numbers) => list([...Array(v - numbers.length).fill(0), ...numbers]);
   const forms = {
     gravity: ["Gravity", "Gravity::EARTH"],
     inertia: ["Inertia", "Inertia"],
     coriolis: ["Coriolis", "Coriolis"],
-    payload: [`Payload<f32, ${about.bodies.length - 1}>`, `Payload::from_inertia(BodyInertia { mass: ${real(PAYLOAD)}, com: [0.0; 3], inertia: [0.0; 6] })`],
-    viscous: friction && [`Viscous<f32, ${v}>`, `Viscous(${list(friction.viscous)})`],
-    coulomb: friction && [`Coulomb<f32, ${v}>`, `Coulomb { torque: ${list(friction.coulomb)}, width: Width::f32(${real(friction.width)}) }`],
-    armature: friction && [`Armature<f32, ${v}>`, `Armature(${list(friction.armature)})`],
+    payload: [`Payload<f32, ${about.bodies.length - 1}>`, `Payload::from_inertia(BodyInertia { mass: ${real(load.mass)}, com: ${list(load.at)}, inertia: [0.0; 6] })`],
+    viscous: [`Viscous<f32, ${v}>`, `Viscous(${all(friction.viscous)})`],
+    coulomb: [`Coulomb<f32, ${v}>`, `Coulomb { torque: ${all(friction.coulomb)}, width: Width::f32(${real(friction.width)}) }`],
+    armature: [`Armature<f32, ${v}>`, `Armature(${all(friction.armature)})`],
   };
   return EFFECTS.filter(({ name }) => on[name] && has(name)).map(({ name }) => forms[name]);
 }

@@ -90,6 +90,7 @@ export function startSerial() {
   by("connect").disabled = !there;
   by("no-serial").hidden = there;
   by("connect").addEventListener("click", async () => {
+    write(by("serial-state"), "Choose the arm's port in the browser's list; where the list is empty, no arm is plugged in.");
     try {
       await connect(await navigator.serial.requestPort());
     } catch (error) {

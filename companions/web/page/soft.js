@@ -1,8 +1,8 @@
 // The picture by the processor alone, where there is no graphics processor: convex faces with a
 // depth for each sample, four samples for each pixel. A browser's software for WebGL takes ten
 // times as long.
-import { along, dot, minus, plus, scaled, unit } from "./camera.js";
-import { tint } from "./shape.js";
+import { along, cross, dot, minus, plus, scaled, unit } from "./camera.js";
+import { inFrame, tint } from "./shape.js";
 import { inMemory } from "./words.js";
 
 /// Faces around a cylinder, and around and along a ball.
@@ -55,7 +55,8 @@ export class Soft {
     for (const part of parts) {
       if (!part.visible) continue;
       this.tint = tint(part, colours);
-      if (part.kind === "ball") this.ball(part);
+      if (part.mesh) this.mesh(part);
+      else if (part.kind === "ball") this.ball(part);
       else this.cylinder(part);
     }
     this.show();
@@ -94,6 +95,14 @@ export class Soft {
     });
     this.face(low, () => this.lit(scaled(y, -1), half));
     this.face(high.reverse(), () => this.lit(y, half));
+  }
+
+  mesh({ a, axes, mesh }) {
+    const half = this.half(a);
+    for (const corners of mesh.coarse) {
+      const [p, q, r] = corners.map((corner) => inFrame(a, axes, corner));
+      this.face([p, q, r].map((corner) => this.point(corner)), () => this.lit(unit(cross(minus(q, p), minus(r, p))), half));
+    }
   }
 
   ball({ a, r }) {

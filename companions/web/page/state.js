@@ -6,12 +6,11 @@ export const EFFECTS = [
   { name: "gravity", title: "Gravity", about: "the weight of the links" },
   { name: "inertia", title: "Inertia", about: "M(q) q̈" },
   { name: "coriolis", title: "Coriolis", about: "Coriolis and centrifugal torques" },
-  { name: "payload", title: "Payload", about: "a point mass of 1 kg at the last body's origin" },
-  { name: "viscous", title: "Viscous", about: "friction that grows with speed" },
-  { name: "coulomb", title: "Coulomb", about: "friction of constant size" },
-  { name: "armature", title: "Armature", about: "inertia of the motors' rotors" },
+  { name: "payload", title: "Payload", about: "a point mass", unit: "kg", step: 0.1 },
+  { name: "viscous", title: "Viscous", about: "friction that grows with speed", unit: "N·m·s/rad", step: 0.01 },
+  { name: "coulomb", title: "Coulomb", about: "friction of constant size", unit: "N·m", step: 0.01 },
+  { name: "armature", title: "Armature", about: "inertia of the motors' rotors", unit: "kg·m²", step: 0.001 },
 ];
-export const PAYLOAD = 1;
 
 export const state = {
   library: null,
@@ -23,6 +22,9 @@ export const state = {
   q: [],
   qd: [],
   qdd: [],
+  /// Friction and rotors by joint, and the load: its mass, kg, and its place in the last body, m.
+  friction: {},
+  load: null,
   on: { gravity: true, inertia: true, coriolis: true, viscous: true, coulomb: true, armature: true, payload: false },
   /// Whether the joints swing, by what share of what they may, and since when, s.
   swinging: false,
@@ -85,15 +87,28 @@ export function motion() {
   return moved;
 }
 
-/// The request's form of the effects.
-export const chosen = () => ({ ...state.on, payload: state.on.payload ? PAYLOAD : 0 });
+/// The number of an effect that the user enters: of joints the largest.
+export const entered = (name) => (name === "payload" ? state.load.mass : Math.max(...(state.friction[name] ?? [1])));
 
-/// Whether the robot has numbers for an effect.
-export const has = (name) => !["viscous", "coulomb", "armature"].includes(name) || state.robot?.about.friction != null;
+/// Enters it: joints keep the proportions that the repository or the file gives them.
+export function enter(name, x) {
+  if (name === "payload") return void (state.load.mass = x);
+  const given = state.robot.about.friction?.[name] ?? [];
+  const most = Math.max(0, ...given);
+  state.friction[name] = state.friction[name].map((_, i) => (most > 0 ? (given[i] / most) * x : x));
+}
+
+/// The request's form of the effects.
+export const chosen = () => ({ ...state.on, payload: state.on.payload ? state.load.mass : 0, at: state.load.at, friction: state.friction });
+
+/// Whether an effect has a number.
+export const has = (name) => entered(name) > 0;
 
 /// Says something that a screen reader reads, too.
 export const say = (text, wrong = false) => {
   const at = by("said");
+  clearTimeout(state.saying);
+  if (!wrong) state.saying = setTimeout(() => (at.hidden = true), 6000);
   at.textContent = text;
   at.classList.toggle("wrong", wrong);
   at.hidden = text === "";

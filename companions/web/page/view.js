@@ -1,6 +1,6 @@
 // The view of the robot: it draws, turns, and says which body a pointer or the keyboard drags
 // where.
-import { Orbit, length, minus } from "./camera.js";
+import { Orbit, length } from "./camera.js";
 import { Gl, hasGraphics } from "./gl.js";
 import { Ground } from "./ground.js";
 import { Shape, palette } from "./shape.js";
@@ -59,23 +59,37 @@ export class View {
   resize() {
     const { clientWidth, clientHeight } = this.at;
     this.size = [clientWidth, clientHeight];
-    if (clientWidth === 0) return;
+    if (clientWidth * clientHeight === 0) return;
+    if (this.whole) this.frame();
     this.picture.size(clientWidth, clientHeight, this.ratio);
     this.stale = true;
   }
 
-  /// Takes a robot in a pose.
-  show(about, poses) {
-    const points = [[0, 0, 0], ...poses.map((p) => [p[0], p[1], p[2]])];
-    const low = [0, 1, 2].map((i) => Math.min(...points.map((p) => p[i])));
-    const high = [0, 1, 2].map((i) => Math.max(...points.map((p) => p[i])));
-    this.extent = Math.max(0.2, length(minus(high, low)));
-    this.orbit.frame(low.map((x, i) => (x + high[i]) / 2), this.extent);
-    this.shape = new Shape(about, this.extent);
+  /// Takes a robot, with the poses between which it moves, from that of now on; the meshes of its
+  /// bodies, where there are any.
+  show(about, motion, meshes) {
+    const [poses] = motion;
+    const spans = [0, 1, 2].map((i) => Math.max(0, ...poses.map((p) => p[i])) - Math.min(0, ...poses.map((p) => p[i])));
+    this.extent = Math.max(0.2, length(spans));
+    this.shape = new Shape(about, this.extent, meshes);
     this.picture.take(this.shape);
     this.hand = this.shape.hand;
     this.drag = null;
+    this.balls = motion.flatMap((poses) => (this.shape.place(poses, []), this.shape.balls()));
     this.place(poses, []);
+    this.home();
+  }
+
+  /// Looks at all of the robot, wherever it moves, until someone turns the view.
+  home() {
+    this.orbit.front();
+    this.whole = true;
+    if (this.size?.[1]) this.frame();
+  }
+
+  frame() {
+    this.orbit.frame(this.balls, this.size, this.extent);
+    this.stale = true;
   }
 
   place(poses, loads) {
@@ -110,10 +124,16 @@ export class View {
   }
 
   render() {
-    if (!this.stale || !this.poses || !this.size?.[0]) return;
+    if (!this.stale || !this.poses || !this.size?.[1]) return;
     this.stale = false;
     this.ground.draw(this.orbit, this.extent, this.size);
     this.shape.place(this.poses, this.loads, this.drag && [this.point(this.drag.body), this.drag.to]);
+    // What moves, is dragged or pushed out of the picture is brought back.
+    const balls = this.whole && !this.drag ? this.shape.balls() : [];
+    if (balls.some(([p]) => this.orbit.project(p, ...this.size).slice(0, 2).some((x, k) => x < 0 || x > this.size[k]))) {
+      this.balls.push(...balls);
+      this.frame();
+    }
     this.picture.draw(this.shape, this.orbit, this.palette);
   }
 
@@ -142,6 +162,7 @@ export class View {
       this.pointers.set(event.pointerId, [x, y]);
       const body = this.pointers.size === 1 ? this.under(x, y, event.pointerType) : null;
       if (body !== null) this.begin(body);
+      else this.whole = false;
     });
     view.addEventListener("pointermove", (event) => {
       const [x, y] = at(event);
@@ -177,8 +198,9 @@ export class View {
     view.addEventListener("wheel", (event) => {
       event.preventDefault();
       this.orbit.zoomed(Math.exp(event.deltaY * 0.001));
-      this.stale = true;
+      [this.whole, this.stale] = [false, true];
     }, { passive: false });
+    view.addEventListener("dblclick", () => this.home());
     view.addEventListener("keydown", (event) => this.key(event));
     view.addEventListener("keyup", (event) => event.key.startsWith("Arrow") && this.drag?.keys && this.end());
     view.addEventListener("blur", () => this.drag?.keys && this.end());
@@ -204,7 +226,7 @@ export class View {
   }
 
   /// Arrows move the hand across the view, with shift away from it; plus, minus and the letters a
-  /// and d turn and zoom.
+  /// and d turn and zoom, 0 shows the whole arm.
   key(event) {
     const ways = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
     const way = ways[event.key];
@@ -222,9 +244,12 @@ export class View {
       this.orbit.zoomed(event.key === "+" ? 0.9 : 1.1);
     } else if (event.key === "a" || event.key === "d") {
       this.orbit.turned(event.key === "a" ? 20 : -20, 0);
+    } else if (event.key === "0") {
+      this.home();
     } else {
       return;
     }
+    this.whole &&= Boolean(way) || event.key === "0";
     this.stale = true;
   }
 }

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use robot_import::description::Kind;
+use robot_import::error::ImportError;
 use robot_import::inertia::MassProperties;
 use robot_import::model::arm;
 use robot_import::number::Attitude;
@@ -22,6 +23,9 @@ pub struct Imported {
     /// The importer's estimate of inverse dynamics, where it has one: cycles and bytes.
     pub cycles: Option<u64>,
     pub flash: Option<u64>,
+    /// The links that are part of a body, or of the base (none): origin and axes of each in its
+    /// frame, as in `Computed::poses`.
+    pub links: Vec<(String, Option<usize>, [f64; 12])>,
 }
 
 /// Speed at which Coulomb friction of a file is full, rad/s: that of the scenes.
@@ -31,8 +35,12 @@ const WIDTH: f64 = 0.05;
 ///
 /// # Errors
 /// The importer's, with line and element; more joints than the page has sizes for.
-pub fn import(text: &str) -> Result<Imported, String> {
-    let words = |error: robot_import::error::ImportError| error.to_string();
+pub fn import(text: &str, date: String) -> Result<Imported, String> {
+    // The page has no options of a command line.
+    let words = |error: ImportError| {
+        let text = error.to_string();
+        text.split("`--").next().unwrap_or_default().trim_end_matches([' ', ':', ';']).to_owned()
+    };
     let robot = source::parse(text, Path::new("")).map_err(words)?;
     let selected = Selection::default().of(&robot).map_err(words)?;
     let tree = Tree::of(&robot, &selected, Numbers::Exact).map_err(words)?;
@@ -47,11 +55,18 @@ pub fn import(text: &str) -> Result<Imported, String> {
     let origin = write::Origin {
         file: "a file dropped on the page".to_owned(),
         licence: robot.licence.clone(),
-        date: String::new(),
+        date,
         notes: Vec::new(),
     };
+    let links = robot.links.iter().zip(&tree.links).filter_map(|(link, place)| {
+        let (body, pose) = (*place)?;
+        let (p, axes) = (pose.position.to_array(), pose.rotation.to_cols_array());
+        let pose = std::array::from_fn(|i| if i < 3 { p[i] } else { axes[i - 3] });
+        Some((link.name.clone(), body, pose))
+    });
     Ok(Imported {
         machine,
+        links: links.collect(),
         source: write::source(&tree, &name, &type_name, &origin),
         cycles: estimate::cycles(&tree),
         flash: estimate::flash(&tree),

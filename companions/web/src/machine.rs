@@ -32,7 +32,6 @@ pub struct JointAbout {
 /// A body, for a drawing.
 #[derive(Clone, Debug, Serialize)]
 pub struct BodyAbout {
-    pub name: String,
     /// The index of its parent; none is the base.
     pub parent: Option<usize>,
     /// The axis of its joint in its frame; zero if it has none.
@@ -57,7 +56,7 @@ pub struct About {
 }
 
 /// Friction and rotors of the joints.
-#[derive(Clone, Debug, Default, Serialize)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Friction {
     pub viscous: Vec<f64>,
     pub coulomb: Vec<f64>,
@@ -67,7 +66,7 @@ pub struct Friction {
 }
 
 /// The effects that act on a robot.
-#[derive(Clone, Copy, Debug, Default, Deserialize)]
+#[derive(Clone, Debug, Default, Deserialize)]
 #[serde(default)]
 pub struct On {
     pub gravity: bool,
@@ -76,8 +75,11 @@ pub struct On {
     pub viscous: bool,
     pub coulomb: bool,
     pub armature: bool,
-    /// The load on the last body, kg.
+    /// The load on the last body, kg, and where it is in its frame, m.
     pub payload: f64,
+    pub at: [f64; 3],
+    /// Friction and rotors of the joints with a slider.
+    pub friction: Friction,
 }
 
 impl On {
@@ -87,7 +89,7 @@ impl On {
 
     /// The effect of this number alone; the load is measured by the difference that it makes.
     fn alone(&self, number: usize) -> Self {
-        let mut on = Self::default();
+        let mut on = Self { friction: self.friction.clone(), ..Self::default() };
         match number {
             0 => on.gravity = self.gravity,
             1 => on.inertia = self.inertia,
@@ -209,7 +211,7 @@ impl<const B: usize, const Q: usize, const V: usize> Sized<B, Q, V> {
             GravityVector(R::Vec3::new(o, o, R::from_f64(-g))),
             Inertia,
             Coriolis,
-            OnLast::new(mass, [o; 3], [o; 6]),
+            OnLast::new(mass, on.at.map(R::from_f64), [o; 6]),
         );
         let at = State {
             q,
@@ -218,30 +220,9 @@ impl<const B: usize, const Q: usize, const V: usize> Sized<B, Q, V> {
         };
         let mut tau = rnea(model, &at, &rigid);
         for (number, (_, _, v)) in self.joints().enumerate() {
-            tau[v] += self.friction_of(number, state.qd[v], state.qdd[v], on);
+            tau[v] += friction_of(number, [state.qd[v], state.qdd[v]], on);
         }
         tau
-    }
-
-    /// The torque of friction and rotor of a joint. They are the same on every robot: a joint
-    /// without mass has them too, so that one instance of inverse dynamics serves all.
-    fn friction_of<R: Real>(&self, number: usize, qd: f64, qdd: f64, on: &On) -> R {
-        let Some(friction) = &self.friction else {
-            return R::ZERO;
-        };
-        let of = |values: &[f64], on: bool| match on {
-            true => [R::from_f64(values[number])],
-            false => [R::ZERO],
-        };
-        let effects = (
-            Viscous(of(&friction.viscous, on.viscous)),
-            Coulomb {
-                torque: of(&friction.coulomb, on.coulomb),
-                width: Width::new(R::from_f64(friction.width)),
-            },
-            Armature(of(&friction.armature, on.armature)),
-        );
-        friction_alone([qd, qdd].map(R::from_f64), &effects)
     }
 
     /// A coordinate within its joint's limits.
@@ -259,12 +240,25 @@ impl Robot<1, 1, 1> for OneJoint {
         Model::new("joint", [Body::new("joint", BASE, Joint::revolute([0.0, 0.0, 1.0]))]);
 }
 
-type OfJoint<R> = (Viscous<R, 1>, Coulomb<R, 1>, Armature<R, 1>);
-
+/// The torque of friction and rotor of a joint. They are the same on every robot: a joint without
+/// mass has them too, so that one instance of inverse dynamics serves all.
 #[inline(never)]
-fn friction_alone<R: Real>([qd, qdd]: [R; 2], effects: &OfJoint<R>) -> R {
-    let state = State { q: [R::ZERO], qd: [qd], qdd: [qdd] };
-    let [tau] = rnea(model::<R, OneJoint, 1, 1, 1>(), &state, effects);
+fn friction_of<R: Real>(number: usize, rates: [f64; 2], on: &On) -> R {
+    let of = |values: &[f64], on: bool| match values.get(number) {
+        Some(&value) if on => [R::from_f64(value)],
+        _ => [R::ZERO],
+    };
+    let On { friction, .. } = on;
+    let effects = (
+        Viscous(of(&friction.viscous, on.viscous)),
+        Coulomb {
+            torque: of(&friction.coulomb, on.coulomb),
+            width: Width::new(R::from_f64(friction.width)),
+        },
+        Armature(of(&friction.armature, on.armature)),
+    );
+    let [qd, qdd] = rates.map(|rate| [R::from_f64(rate)]);
+    let [tau] = rnea(model::<R, OneJoint, 1, 1, 1>(), &State { q: [R::ZERO], qd, qdd }, &effects);
     tau
 }
 
@@ -286,7 +280,6 @@ where
                 false => DVec3::ZERO,
             };
             BodyAbout {
-                name: self.names[i - self.fillers].clone(),
                 parent: link.parent.checked_sub(self.fillers).filter(|&p| p < B),
                 axis: link.joint.axis.to_array(),
                 com: com.to_array(),
@@ -329,7 +322,7 @@ where
             std::array::from_fn(|i| if i < 3 { p[i] } else { axes[i - 3] })
         });
         let double = self.torques(&self.exact, &state, on);
-        let without = self.torques(&self.exact, &state, &On { payload: 0.0, ..*on });
+        let without = self.torques(&self.exact, &state, &On { payload: 0.0, ..on.clone() });
         let parts = (0..On::NAMES.len()).map(|number| match number {
             3 => self.of_joints(&std::array::from_fn::<f64, V, _>(|i| double[i] - without[i])),
             _ => self.of_joints(&self.torques(&self.exact, &state, &on.alone(number))),

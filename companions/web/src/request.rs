@@ -28,6 +28,7 @@ enum Request {
     /// Takes the robot of a file.
     Import {
         text: String,
+        date: String,
     },
     /// The torques of a state.
     Compute {
@@ -106,12 +107,13 @@ impl Session {
                 let machine = self.machine.insert((listed.make)());
                 value(machine.about())
             }
-            Request::Import { text } => {
-                let imported = import::import(&text)?;
+            Request::Import { text, date } => {
+                let imported = import::import(&text, date)?;
                 let machine = self.machine.insert(imported.machine);
                 Ok(json!({
                     "about": machine.about(), "name": imported.name, "type": imported.type_name,
                     "source": imported.source, "cycles": imported.cycles, "flash": imported.flash,
+                    "links": imported.links,
                 }))
             }
             Request::Compute { motion, on } => value(self.machine()?.compute(&motion, &on)),

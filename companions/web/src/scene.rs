@@ -58,13 +58,10 @@ pub enum Injected {
 pub struct Shown {
     /// The poses of the bodies, as in `Computed`.
     pub poses: Vec<[f32; 12]>,
-    pub q: Vec<f32>,
-    pub reference: Vec<f32>,
     pub torque: Vec<f32>,
     pub limits: Vec<f32>,
     pub mode: String,
     pub fault: Option<String>,
-    pub limited: bool,
     pub brake: bool,
     pub tick: u32,
     /// The largest tracking error of a joint in each of the ticks that passed, rad.
@@ -335,11 +332,9 @@ where
             let fault = status.fault.map(|fault| fault.to_string());
             shown.events.push((self.tick, mode(status.mode), fault));
         }
-        shown.reference = telemetry.reference.to_vec();
         shown.torque = telemetry.torque.to_vec();
         shown.mode = mode(status.mode);
         shown.fault = status.fault.map(|fault| fault.to_string());
-        shown.limited |= status.limited;
     }
 }
 
@@ -382,7 +377,6 @@ where
                 std::array::from_fn(|i| if i < 3 { p[i] } else { axes[i - 3] })
             })
             .collect();
-        shown.q = self.plant.state.q.to_vec();
         shown.limits = self.limits.to_vec();
         shown.brake = self.brake.0.get();
         shown.tick = self.tick;

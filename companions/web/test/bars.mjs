@@ -104,6 +104,19 @@ export function narrow(excess, where) {
   miss(excess <= 0, `the page is ${excess} px wider than the screen, ${where}`);
 }
 
+/// Whether all points are in a picture of this size.
+export function whole(points, [width, height], where) {
+  const out = points.filter(([x, y]) => !(x >= 0 && y >= 0 && x <= width && y <= height));
+  miss(points.length > 0 && out.length === 0, `${out.length} of ${points.length} points of the robot are outside the picture, ${where}`);
+}
+
+/// Whether no label covers another one or a dot: boxes as the browser gives them.
+export function apart(labels, dots, where) {
+  const cover = (a, b) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
+  const covered = labels.filter((a, i) => [...labels.slice(i + 1), ...dots].some((b) => cover(a, b)));
+  miss(labels.length > 8 && dots.length > 4 && covered.length === 0, `${labels.length} labels; covered: ${covered.map(({ words }) => words)}, ${where}`);
+}
+
 /// Fails unless a check fails.
 export function refused(name, check) {
   let failed = false;

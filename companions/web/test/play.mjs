@@ -5,7 +5,7 @@ import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
 import { build, root, target } from "../build.mjs";
-import { accessible, alike, alone, calm, cheap, excess, fluent, narrow, ownBits, prompt, refused, sameBits, small, steady } from "./bars.mjs";
+import { accessible, alike, alone, apart, calm, cheap, excess, fluent, narrow, ownBits, prompt, refused, sameBits, small, steady, whole } from "./bars.mjs";
 import { bits, hostBits, pageBits } from "./bits.mjs";
 import { packages } from "./packages.mjs";
 import { during, measurable } from "./processor.mjs";
@@ -210,6 +210,50 @@ const tests = {
     await page.close();
   },
 
+  /// The first view has the whole arm wherever it swings; the front has numbers at its axes.
+  async looks({ browser, file, say }) {
+    const so101 = readFileSync(join(root, "tools/robot-import/tests/urdf/so101.urdf"), "utf8");
+    for (const screen of [{ width: 1280, height: 800 }, PHONE]) {
+      const { page, problems } = await opened(browser, file, { screen });
+      const seen = (key, nearer = 1) => page.evaluate(async (key, text, nearer) => {
+        const { state, times, work } = play;
+        const { view } = state;
+        times.measuring = true;
+        if (text) play.load(key, text);
+        else play.select(key);
+        [view.whole, state.swinging] = [false, true];
+        view.orbit.distance *= nearer;
+        const found = [];
+        for (state.clock = 0; state.clock < 20; state.clock += 0.8) {
+          await work(1);
+          found.push(...[[0, 0, 0], ...state.computed.poses].map((p) => view.orbit.project(p.slice(0, 3), ...view.size)));
+        }
+        return [found, view.size];
+      }, key, key === "so101.urdf" ? so101 : "", nearer);
+      for (const key of [...(await page.evaluate(() => play.state.listed.map(({ key }) => key))), "so101.urdf"]) whole(...(await seen(key)), `${key}, ${screen.width}`);
+      const cut = await seen("ur5e", 0.5);
+      refused("whole", () => whole(...cut, ""));
+      const picture = () => page.$eval("#front-picture", (svg) => ["text", "circle"].map((kind) => [...svg.querySelectorAll(kind)].map((at) =>
+        ({ ...at.getBoundingClientRect().toJSON(), words: at.textContent, font: parseFloat(getComputedStyle(at).fontSize) }))));
+      const [labels, dots] = await picture();
+      apart(labels, dots, `${screen.width}`);
+      must(labels.every(({ font }) => font >= 12) && labels.filter(({ words }) => /\d/.test(words)).length > 8, `labels of the front: ${labels.map(({ words }) => words)}`);
+      await page.$eval("#front-picture", (svg) => svg.querySelector("text").setAttribute("y", svg.querySelectorAll("text")[9].getAttribute("y")));
+      const [moved] = await picture();
+      refused("apart", () => apart([moved[9], ...moved], dots, ""));
+      // A message moves nothing, and ends with its tab.
+      const message = () => page.evaluate(() => [document.getElementById("view").getBoundingClientRect().top, document.getElementById("said").hidden].join());
+      const before = await message();
+      await page.evaluate(() => document.getElementById("copy").click());
+      await page.waitForFunction(() => !document.getElementById("said").hidden);
+      must(before.replace("true", "false") === (await message()), "a message pushes the page");
+      await page.click("#tab-real");
+      must((await message()).endsWith("true"), "a message stays on another tab");
+      await closed(page, problems);
+    }
+    say("looks", "every robot is whole at 1280 and 390, wherever it swings");
+  },
+
   /// Sliders by keyboard, effects, every robot, the front.
   async moves({ browser, file, say }) {
     const { page, problems } = await opened(browser, file);
@@ -255,6 +299,7 @@ const tests = {
     const dragged = await hand();
     must(Math.hypot(...dragged.map((x, i) => x - start[i])) > 0.05, "the pointer does not drag the hand");
     const keys = await page.evaluate(() => play.state.listed.map(({ key }) => key));
+    const [ways, fronts] = [[], []];
     for (const key of keys) {
       await page.select("#robot", key);
       await settled(page);
@@ -262,12 +307,6 @@ const tests = {
       must(single.length > 0 && single.every(Number.isFinite), `${key} has no torques`);
       const scale = Math.max(1, ...double.map(Math.abs));
       must(single.every((x, i) => Math.abs(x - double[i]) < 1e-4 * scale), `${key}: f32 ${single} f64 ${double}`);
-    }
-    const ways = [];
-    const fronts = [];
-    for (const key of keys) {
-      await page.select("#robot", key);
-      await settled(page);
       if (await page.$eval("#front", (front) => front.hidden)) continue;
       fronts.push(key);
       const found = await page.evaluate(async () => {
@@ -285,6 +324,15 @@ const tests = {
       must(found.length > 5 && found.every(([, now]) => now.endsWith("N·m")), `${key}: ways without an error of now: ${found.join("; ")}`);
       ways.push(...found);
     }
+    // Numbers of one's own, on a robot for which nothing is recorded.
+    await page.select("#robot", "iiwa14");
+    await page.click("#effect-payload");
+    for (const [label, x] of [["Payload, kg", 3], ["Payload, z, m", 0.2], ["Viscous, N·m·s/rad", 0.7]]) await page.$eval(`[aria-label="${label}"]`, (at, x) => void ((at.value = x), at.dispatchEvent(new Event("input"))), x);
+    await page.evaluate(() => void (play.state.qd = play.state.q.map(() => 2)));
+    await settled(page);
+    const own = await page.evaluate(() => ({ parts: play.state.computed.parts, rust: document.getElementById("rust").textContent }));
+    must(Math.abs(own.parts[3][1]) > 5 && own.parts[4].every((x) => Math.abs(x - 1.4) < 1e-9), `parts of payload and friction: ${own.parts.slice(3, 5).join("; ")}`);
+    must(/Viscous\(\[0\.7; 7\]\)/.test(own.rust) && own.rust.includes("mass: 3.0, com: [0.0, 0.0, 0.2]"), own.rust);
     must(fronts.includes("ur5e") && fronts.length > 1, `robots with a front: ${fronts.join(", ")}`);
     say("moves", `${keys.length} robots, ${ways.length} ways on the fronts of ${fronts.join(", ")}, keyboard and pointer`);
     await closed(page, problems);
@@ -296,11 +344,11 @@ const tests = {
     const link = (name) => `<link name="${name}"><inertial><mass value="1"/><origin xyz="0 0 0.2"/><inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.001"/></inertial></link>`;
     const joint = (a, b) => `<joint name="${a}-${b}" type="revolute"><parent link="${a}"/><child link="${b}"/><origin xyz="0 0 0.3"/><axis xyz="0 1 0"/><limit lower="-2" upper="2" effort="50" velocity="3"/><dynamics damping="0.5" friction="0.2"/></joint>`;
     const arm = `<robot name="dropped">${["base", "one", "two"].map(link).join("")}${joint("base", "one")}${joint("one", "two")}</robot>`;
-    const drop = (name, text) => page.evaluate((name, text) => {
+    const drop = (name, text, more = {}) => page.evaluate((all) => {
       const data = new DataTransfer();
-      data.items.add(new File([text], name));
+      for (const [name, text] of all) data.items.add(new File([typeof text === "string" ? text : new Uint8Array(text)], name));
       document.dispatchEvent(new DragEvent("drop", { dataTransfer: data, cancelable: true, bubbles: true }));
-    }, name, text);
+    }, Object.entries({ [name]: text, ...more }));
     const said = async (pattern) => {
       await page.waitForFunction((source) => new RegExp(source).test(document.getElementById("said").textContent), { timeout: 10_000 }, pattern);
       return page.$eval("#said", (at) => at.textContent);
@@ -311,6 +359,36 @@ const tests = {
     const { single, rust } = await page.evaluate(() => ({ single: play.state.computed.single, rust: document.getElementById("rust").textContent }));
     must(single.length === 2 && single.every(Number.isFinite), "the dropped arm has no torques");
     must(rust.includes("impl Robot<2, 2, 2> for Dropped"), "the dropped arm has no Rust");
+    must(/Imported on \d{4}-\d\d-\d\d by/.test(rust), "the file's Rust has no date");
+    // The same four triangles as each kind of file, one on a fixed link, with its own scale.
+    const corners = [[0, 0, 0], [0.1, 0, 0], [0, 0.1, 0], [0, 0, 0.2]];
+    const faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
+    const binary = Buffer.alloc(84 + 50 * faces.length);
+    binary.writeUInt32LE(faces.length, 80);
+    faces.forEach((face, i) => face.forEach((k, j) => corners[k].forEach((x, c) => binary.writeFloatLE(x, 96 + 50 * i + 12 * j + 4 * c))));
+    const text = `solid a\n${faces.map((face) => `facet normal 0 0 0\nouter loop\n${face.map((k) => `vertex ${corners[k].join(" ")}`).join("\n")}\nendloop\nendfacet\n`).join("")}endsolid`;
+    const obj = `${corners.map((p) => `v ${p.join(" ")}\n`).join("")}${faces.map((face) => `f ${face.map((k) => `${k + 1}//1`).join(" ")}\n`).join("")}`;
+    const visual = (name, scale) => `<visual><origin xyz="0 0 0.5" rpy="0 0 1.5707963267948966"/><geometry><mesh filename="package://a/${name}" scale="${scale} ${scale} ${scale}"/></geometry></visual></link>`;
+    const meshed = arm.replace("</robot>", '<link name="tool"></link><joint name="t" type="fixed"><parent link="two"/><child link="tool"/><origin xyz="1 0 0"/></joint></robot>').split("</link>");
+    const named = meshed.map((part, i) => (i < 4 ? part + (i === 0 ? "</link>" : visual(["", "A.stl", "b.stl", "c.obj"][i], i)) : part)).join("");
+    await drop("meshed.urdf", named, { "a.stl": [...binary], "b.stl": text });
+    await said("2 of 3 meshes.*c.obj");
+    await drop("C.obj", obj);
+    await said("3 of 3 meshes");
+    await settled(page);
+    const shown = await page.evaluate(() => play.state.view.shape.parts.filter(({ mesh }) => mesh).map(({ from, mesh }) => [from.body, mesh.positions.length, mesh.corners.at(-1)]));
+    // The corner that is farthest along each axis, after scale, a quarter turn and the fixed joint.
+    const right = shown.every(([body, size, corner], i) => body === [0, 1, 1][i] && size === 9 * faces.length && [i === 2 ? 1 : 0, 0.1 * (i + 1), 0.5 + 0.2 * (i + 1)].every((x, k) => Math.abs(x - corner[k]) < 1e-6));
+    must(shown.length === 3 && right, `meshes: ${JSON.stringify(shown)}`);
+    const drawn = await page.evaluate(() => [false, true].map((hidden) => {
+      const { view } = play.state;
+      if (hidden) for (const { mesh } of view.shape.parts) if (mesh) mesh.coarse = [];
+      view.picture.draw(view.shape, view.orbit, view.palette);
+      return view.canvas.toDataURL();
+    }));
+    must(drawn[0] !== drawn[1], "meshes are not drawn");
+    const wrong = { "a.stl": [[...binary.subarray(0, 200)], "no triangles"], "b.stl": [text.replace("0.2", "1e400"), "no numbers"], "c.obj": [obj.replace("f 1", "f 9"), "no numbers"], "d.stl": [text, "does not name"] };
+    for (const [name, [bytes, words]] of Object.entries(wrong)) await drop(name, bytes).then(() => said(`^${name}: .*${words}`));
     const deep = `${"<a>".repeat(200_000)}${"</a>".repeat(200_000)}`;
     const hostile = {
       "nonsense.urdf": ["}{ not xml", "XML"],
@@ -347,6 +425,7 @@ const tests = {
     await page.evaluate(() => void (play.times.measuring = true));
     for (const key of ["ur5e", "panda", "scara"]) {
       await page.select("#scene-robot", key);
+      must(/ \d+\.\d %/.test(await page.$eval("#scene-cost", (at) => at.textContent)), `${key}: no share of the period`);
       const quiet = await run(1500);
       const calm = await shown();
       must(calm.mode === "Full" && calm.fault === null, `${key} does not run: ${calm.mode}, ${calm.fault}`);
@@ -466,15 +545,21 @@ const tests = {
     await page.click("#tab-hard");
     await page.waitForSelector("#cases tr");
     await page.click("#all-cases");
-    const files = await page.$$eval("#cases tr", (all) => all.length);
+    const files = await page.evaluate(() => play.cases().length);
     await page.waitForFunction((files) => document.getElementById("case-sum").textContent.startsWith(`${files} of`), { timeout: 60_000 }, files);
     const sum = await page.$eval("#case-sum", (at) => at.textContent);
     const beyond = await page.$$eval("#cases .beyond", (all) => all.map((one) => one.closest("tr").querySelector("th").firstChild.textContent));
     must(files >= 60, `${files} cases`);
+    // The numbers are those of README.md and docs/hard-cases.md.
+    const readme = readFileSync(join(root, "README.md"), "utf8");
+    const count = await page.$eval("#case-count", (at) => at.textContent);
+    const [, cases, within, naive] = /^(\d+) cases: (\d+) figures within their bounds, 0 beyond; (\d+) failures/.exec(count) ?? [];
+    must(readme.includes(`${cases} cases in f32`) && readme.includes(`${within} figures are within`) && readme.includes(`${naive} naive methods`), `not as in README.md: ${count}`);
+    must((await page.$$eval("#cases .naive", (all) => all.length)) > 10, "naive ways are not shown");
     must(beyond.length === 1 && beyond[0].startsWith("87."), `beyond their bounds: ${beyond.join(", ")}; companions/hard-case-suite/results.md knows case 87 alone`);
     const why = await page.$eval("#cases .beyond", (at) => at.closest("tr").querySelector("th").textContent);
     must(why.includes("forward_dynamics"), `the row does not say why it is beyond: ${why}`);
-    must(sum.includes("1 beyond: case 87"), sum);
+    must(sum.includes("1 beyond: q̈ aba of case 87 in f32"), sum);
     await page.screenshot({ path: join(pictures, "gallery.png") });
     // An answer that is wrong in its sixth digit is found.
     const wrong = await page.evaluate(() => {

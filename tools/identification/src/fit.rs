@@ -13,6 +13,7 @@ use dynamics_core::model::RobotModel;
 use dynamics_core::state::State;
 use nalgebra::DMatrix;
 
+use crate::columns::padded;
 use crate::gears::{DEFLECTIONS, Moving};
 use crate::physical::most_probable;
 use crate::reduced::{Filters, Reduced};
@@ -107,6 +108,8 @@ pub struct Fitted<const V: usize> {
 pub struct Comparison<const V: usize> {
     /// s since the start of the recording.
     pub times: Vec<f64>,
+    /// The speeds of the joints, rad/s or m/s.
+    pub speeds: Vec<[f64; V]>,
     /// The measured torques, N·m or N.
     pub measured: Vec<[f64; V]>,
     /// Those of each model.
@@ -125,6 +128,16 @@ impl Fit {
     #[must_use]
     pub fn new(tick: f64) -> Self {
         Self { cutoff: 10.0, delay: 0.5 * tick, prior: 0.5 }
+    }
+
+    /// The highest [`cutoff`](Self::cutoff) for ticks of this length, s.
+    ///
+    /// ```
+    /// assert_eq!(identification::Fit::highest(4e-3).floor(), 8.0);
+    /// ```
+    #[must_use]
+    pub fn highest(tick: f64) -> f64 {
+        Filters::highest(tick)
     }
 
     /// The base parameters by a recording and a `nominal` set of them, of which those that are
@@ -265,8 +278,9 @@ impl Fit {
     {
         let filters = Filters::new(self.cutoff, self.delay, recording.tick())?;
         let width = models.len() + 1;
-        let moving =
-            |(_, gears): &Modelled<'_, V>| gears.map(|of| Moving::new(of, arm.width.get()));
+        let moving = |(_, gears): &Modelled<'_, V>| {
+            gears.map(|of| Moving::new(of, arm.friction.width.get()))
+        };
         let mut moving: Vec<_> = models.iter().map(moving).collect();
         let reduced = filters.reduce(recording, |state, start| {
             let rows = arm.rows(state);
@@ -290,6 +304,7 @@ impl Fit {
         Ok(Comparison {
             measured: column(models.len()),
             modelled: (0..models.len()).map(column).collect(),
+            speeds: reduced.states.iter().map(|state| state.qd).collect(),
             times: reduced.times,
         })
     }
@@ -309,7 +324,7 @@ impl Fit {
         E: Effect<f64, B, V>,
     {
         let (p, extra) = (estimate.len(), gears.map_or(0, |gears| gears.each() * V));
-        let mut moving = gears.map(|gears| Moving::new(gears, arm.width.get()));
+        let mut moving = gears.map(|gears| Moving::new(gears, arm.friction.width.get()));
         let mut reduced = filters.reduce(recording, |state: &State<f64, V, V>, start| {
             let mut rows = arm.rows(state);
             if let Some(moving) = &mut moving {
@@ -431,17 +446,17 @@ impl<const V: usize> Fitted<V> {
     /// # Errors
     /// [`IdentificationError::ImpossibleBody`] names a nominal body without a positive definite
     /// pseudo-inertia.
-    pub fn physical<D, E, const B: usize>(
+    pub fn physical<D, E, const B: usize, const N: usize>(
         &self,
         arm: &BaseModel<D, E, B, V>,
         bodies: &[[f64; 10]; B],
-        joints: &[[f64; 4]; V],
+        joints: &[[f64; N]; V],
         share: f64,
     ) -> Result<PhysicalSet<B, V>, IdentificationError>
     where
         D: RobotModel<f64, B, V, V>,
         E: Effect<f64, B, V>,
     {
-        most_probable(&self.base, &self.root, arm, bodies, joints, share)
+        most_probable(&self.base, &self.root, arm, bodies, &padded(joints), share)
     }
 }

@@ -83,7 +83,7 @@ mod ticks;
 
 pub use base::BaseModel;
 pub use batch::Batch;
-pub use columns::{OfJoint, Parameter};
+pub use columns::{Friction, OF_JOINT, OfJoint, Parameter};
 pub use error::IdentificationError;
 pub use fit::{Comparison, Fit, Fitted, Modelled};
 pub use fourier::{FourierMotion, PeriodicReference};

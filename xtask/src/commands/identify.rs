@@ -8,13 +8,12 @@ use crate::kit::host_bin::SIMULATED;
 use crate::kit::shell;
 use crate::kit::workspace::Workspace;
 
-/// A recording, and options of the package `identification`.
+/// A recording, and options of the program `identify`, whose `--help` lists them.
 #[derive(clap::Args)]
+#[command(disable_help_flag = true)]
 pub struct Args {
-    /// The record of `cargo xtask watch`, --robot FILE, and other options: --name, --effects,
-    /// --validate, --width, --cutoff, --out, --picture, --json, and those of `import` that select
-    /// joints
-    #[arg(value_name = "CSV", required = true, num_args = 1.., trailing_var_arg = true, allow_hyphen_values = true)]
+    /// A record, --robot FILE, and other options: --help lists them
+    #[arg(value_name = "FILE", trailing_var_arg = true, allow_hyphen_values = true)]
     pub arguments: Vec<String>,
 }
 

@@ -7,8 +7,10 @@
 
 use crate::{Fit, Fitted, IdentificationError};
 
-/// The distance of the three values, s; a tick if that is longer.
+/// The distance of the three values, s; a tick if that is longer. So many of them on either side
+/// are compared first: residuals of another kind of friction are no parabola.
 const STEP: f64 = 5e-3;
+const AROUND: i32 = 8;
 /// The farthest that one parabola reaches, s.
 const REACH: f64 = 20e-3;
 /// The largest number of parabolas.
@@ -26,6 +28,7 @@ type Fits<const V: usize> = Result<Fitted<V>, IdentificationError>;
 /// another one.
 pub fn least<const V: usize>(
     fit: &mut Fit,
+    tick: f64,
     torque: &[f64; V],
     run: impl Fn(&Fit) -> Fits<V>,
 ) -> Fits<V> {
@@ -35,8 +38,15 @@ pub fn least<const V: usize>(
         shares.map(|(noise, torque)| (noise / torque).powi(2)).sum()
     };
     let first = at(fit.delay)?;
-    let step = STEP.max(2.0 * fit.delay);
+    let step = STEP.max(tick);
     let (mut best, mut delay) = (first.clone(), fit.delay);
+    for place in (-AROUND..=AROUND).step_by(2) {
+        let at_place = fit.delay + f64::from(place) * STEP;
+        match at(at_place) {
+            Ok(found) if score(&found) < score(&best) => (best, delay) = (found, at_place),
+            _ => {}
+        }
+    }
     for _ in 0..PARABOLAS {
         let beside = [at(delay - step), at(delay + step)];
         // A recording too short for a later time says nothing of it.
@@ -56,7 +66,7 @@ pub fn least<const V: usize>(
             break;
         }
     }
-    let is_shown = (delay - fit.delay).abs() > 2.0 * fit.delay;
+    let is_shown = (delay - fit.delay).abs() > if fit.delay > 0.0 { tick } else { 0.5 * tick };
     let share = match first.gears {
         Some(_) => SHARE_WITH_GEARS,
         None => SHARE,

@@ -61,7 +61,7 @@ pub(crate) fn explains<const V: usize>(
 ) -> Option<Mistake> {
     let after = |correction: Correction<V>| {
         let [whole, part] = [whole, part].map(|recording| correction.of(recording));
-        let corrected = task.attempt(&whole, &part, Some(attempt.fit.delay));
+        let corrected = task.attempt(&whole, &part, Some(attempt));
         // Nothing is explained by a zero that leads beyond the joint's limits.
         corrected.map_or(f64::INFINITY, |corrected| corrected.residual)
     };

@@ -3,9 +3,12 @@
 //!
 //! | module | what |
 //! |---|---|
-//! | [`recorded`] | the ticks of a CSV that `cargo xtask watch` has recorded |
+//! | [`recorded`] | the ticks of a CSV, an MCAP or arrays |
+//! | [`map`] | which columns these are, and in which units |
+//! | [`resample`] | rows at uneven times |
 //! | [`robot`] | the robot of a URDF or MJCF, and its parameters |
 //! | [`run`] | the fit, its comparison with held-out ticks, and the physical set |
+//! | [`kinds`] | the kinds of friction that the model lacks and the recording carries |
 //! | [`mistakes`] | a unit, a sign or a zero that explains what no robot does |
 //! | [`report`] | what was found, as text and as JSON |
 //! | [`picture`] | the torques by time |
@@ -14,14 +17,19 @@
 mod attempt;
 mod delay;
 pub mod error;
+pub mod kinds;
+pub mod map;
+mod messages;
 mod mistake;
 pub mod mistakes;
 pub mod paste;
 pub mod picture;
 pub mod recorded;
 pub mod report;
+pub mod resample;
 pub mod robot;
 pub mod run;
+mod table;
 
 /// The most joints that a robot may have: its size is known to the compiler.
 pub const MOST_JOINTS: usize = 12;

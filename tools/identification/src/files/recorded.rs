@@ -1,24 +1,23 @@
-//! The ticks of a CSV that `cargo xtask watch` has recorded. Nothing in the file is believed.
+//! Positions and torques of a record at even times: of a CSV, of an MCAP, or of arrays. Nothing in
+//! a file is believed.
 
 use std::fs::File;
-use std::io::Read;
+use std::io::{Cursor, Read};
 use std::path::Path;
-
-use csv::{ErrorKind, ReaderBuilder, StringRecord};
 
 use crate::TickRecording;
 
-use super::MOST_JOINTS;
 use super::error::{Error, Problem, Result};
+use super::map::{Columns, Map, recognised};
+use super::resample::{self, Sampling};
+use super::{messages, table};
 
-/// The longest line that is read in any case, bytes; one of twice as many is refused.
-const LONGEST: usize = 16 * 1024;
 /// The most ticks: an hour at 1 kHz.
 const MOST_TICKS: usize = 3_600_000;
 /// The largest number that a position or a torque of an arm may be.
 const LARGEST: f64 = 1e6;
-/// By how much of a tick a time may be off: it has six digits after the point.
-const OFF: f64 = 0.01;
+/// The largest time, s: years after 1970.
+const LATEST: f64 = 1e11;
 
 /// The ticks of a file in which the controller made the torque.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,148 +28,111 @@ pub struct Recorded {
     pub tick: f64,
     /// Positions and torques of consecutive ticks, joint by joint.
     pub stretches: Vec<Vec<Row>>,
-    /// Ticks that were left out: on hold, stopped, or before the machine had said how long a tick
-    /// is.
-    pub left_out: usize,
-    /// Gaps between ticks: dropped ones and restarts of the trajectory.
-    pub gaps: usize,
+    pub sampling: Sampling,
+    /// Whether a torque is held until the next tick; otherwise it is that of its position.
+    pub held: bool,
 }
 
-/// Estimated positions and commanded torques of a tick.
+/// Positions and torques of a tick.
 pub type Row = (Vec<f64>, Vec<f64>);
 
-/// The places of the columns.
-struct Columns {
-    names: Vec<String>,
-    number: usize,
-    tick: usize,
-    mode: usize,
-    time: usize,
-    estimates: Vec<usize>,
-    torques: Vec<usize>,
-}
-
-/// A tick of the file.
-struct Line {
-    number: u32,
-    tick: u32,
-    full: bool,
-    time: Option<f64>,
-    row: Row,
+/// Rows as they come.
+#[derive(Default)]
+struct Rows {
+    times: Vec<f64>,
+    rows: Vec<Row>,
+    breaks: Vec<usize>,
+    left_out: usize,
+    /// The count of the row before, if there is one.
+    count: Option<i64>,
 }
 
 impl Recorded {
-    /// Reads a file.
+    /// Reads a file of a robot with these joints; by its titles, if there is no map.
     ///
     /// # Errors
-    /// [`Error`] names the line and the column.
-    pub fn read(path: &Path) -> Result<Self> {
+    /// [`Error`] names the line and the column, and all columns that are missing.
+    pub fn read(path: &Path, joints: &[String], map: Option<&Map>) -> Result<Self> {
         let read = |source| Error::Read { path: path.to_owned(), source };
-        Self::from(path, File::open(path).map_err(read)?)
+        Self::from(path, File::open(path).map_err(read)?, joints, map)
     }
 
     /// Reads a text that is called `path`.
     ///
     /// # Errors
     /// As [`Recorded::read`].
-    pub fn from(path: &Path, text: impl Read) -> Result<Self> {
+    pub fn from(
+        path: &Path,
+        mut text: impl Read,
+        joints: &[String],
+        map: Option<&Map>,
+    ) -> Result<Self> {
+        let failed = |source| Error::Read { path: path.to_owned(), source };
         let whole = |problem| Error::Recording { path: path.to_owned(), problem };
-        let mut rows =
-            ReaderBuilder::new().has_headers(false).flexible(true).from_reader(text.take(0));
-        let mut line = 0;
-        let mut next = || {
-            line += 1;
-            rows.get_mut().set_limit(2 * LONGEST as u64);
-            let mut fields = StringRecord::new();
-            let read = rows.read_record(&mut fields);
-            let problem = match read.map_err(csv::Error::into_kind) {
-                _ if rows.get_ref().limit() == 0 => Problem::LongLine(LONGEST),
-                Ok(is_row) => return Ok(is_row.then_some(fields)),
-                Err(ErrorKind::Io(source)) => {
-                    let path = path.to_owned();
-                    return Err(Error::Read { path, source });
-                }
-                Err(_) => Problem::NoText,
-            };
-            let path = path.to_owned();
-            Err(Error::Line { path, line, problem })
+        let of = |titles: &[String]| match map {
+            Some(map) => map.columns(titles, joints),
+            None => recognised(titles, joints),
         };
-        let titles = next()?.ok_or_else(|| whole(Problem::Empty))?;
-        let columns = Columns::of(&titles).map_err(whole)?;
-        let mut found = Self {
-            joints: columns.estimates.len(),
-            tick: 0.0,
-            stretches: Vec::new(),
-            left_out: 0,
-            gaps: 0,
-        };
-        let (mut before, mut timed): (Option<Line>, Option<(u32, f64)>) = (None, None);
-        let (mut ticks, mut number) = (0, 1);
-        while let Some(fields) = next()? {
-            number += 1;
-            let wrong = |problem| Error::Line { path: path.to_owned(), line: number, problem };
-            let line = columns.line(&fields).map_err(wrong)?;
-            ticks += 1;
-            if ticks > MOST_TICKS {
-                return Err(wrong(Problem::TooLong(MOST_TICKS)));
+        let mut start = Vec::new();
+        text.by_ref().take(mcap::MAGIC.len() as u64).read_to_end(&mut start).map_err(failed)?;
+        let is_mcap = start == mcap::MAGIC;
+        let mut text = Cursor::new(start).chain(text);
+        let (mut columns, mut rows): (Option<Columns>, _) = (None, Rows::default());
+        if is_mcap {
+            let mut bytes = Vec::new();
+            text.take(messages::LARGEST_FILE + 1).read_to_end(&mut bytes).map_err(failed)?;
+            if bytes.len() as u64 > messages::LARGEST_FILE {
+                return Err(whole(Problem::Mcap("the file has more than 1 GiB".to_owned())));
             }
-            if let Some(before) = before.as_ref().filter(|last| last.number >= line.number) {
-                let (number, before) = (line.number, before.number);
-                return Err(wrong(Problem::Order { number, before }));
-            }
-            if let Some(time) = line.time {
-                found.time(line.number, time, &mut timed).map_err(wrong)?;
-            }
-            found.take(&line, before.as_ref());
-            before = Some(line);
+            let topic = map.and_then(Map::topic);
+            let read = messages::read(&bytes, topic, |message| {
+                let found = match &mut columns {
+                    Some(found) => found,
+                    none => {
+                        let titles: Vec<_> =
+                            message.iter().map(|(title, _)| title.clone()).collect();
+                        none.insert(of(&titles)?)
+                    }
+                };
+                let field = |at: usize| {
+                    let title = &found.titles[at];
+                    let own = message.get(at).filter(|(own, _)| own == title);
+                    let own = own.or_else(|| message.iter().find(|(own, _)| own == title));
+                    own.map_or("", |(_, text)| text)
+                };
+                rows.add(found, field)
+            });
+            read.map_err(whole)?;
+        } else {
+            table::read(path, &mut text, |titles, fields| match (fields, &columns) {
+                (Some(fields), Some(columns)) => rows.add(columns, |at| &fields[at]),
+                _ => of(titles).map(|found| columns = Some(found)),
+            })?;
         }
-        if found.tick <= 0.0 {
-            return Err(whole(Problem::NoTick));
-        }
-        match found.stretches.is_empty() {
-            true => Err(whole(Problem::NoTicks)),
-            false => Ok(found),
-        }
+        let columns = columns.ok_or_else(|| whole(Problem::NoTick))?;
+        rows.even(joints.len(), &columns).map_err(whole)
     }
 
-    /// The length of a tick by the first two times, and that the others agree with it.
-    fn time(
-        &mut self,
-        number: u32,
-        time: f64,
-        timed: &mut Option<(u32, f64)>,
-    ) -> std::result::Result<(), Problem> {
-        let (first, start) = *timed.get_or_insert((number, time));
-        let ticks = f64::from(number - first);
-        if number > first && self.tick == 0.0 {
-            self.tick = (time - start) / ticks;
+    /// Of arrays: times, s, positions, rad or m, and torques, N·m or N, row by row.
+    ///
+    /// # Errors
+    /// [`Error`] names the row.
+    pub fn of(path: &Path, times: Vec<f64>, rows: Vec<Row>) -> Result<Self> {
+        let joints = rows.first().map_or(0, |row| row.0.len());
+        let is_one = |(time, (q, tau)): &(&f64, &Row)| {
+            let all = q.iter().chain(tau).all(|x| x.abs() <= LARGEST);
+            all && time.abs() <= LATEST && [q.len(), tau.len()] == [joints; 2]
+        };
+        let line = times.iter().zip(&rows).position(|row| !is_one(&row));
+        if let Some(line) = line.or((times.len() != rows.len()).then_some(times.len())) {
+            let problem =
+                Problem::Map("its numbers are not finite, or not as many as before".to_owned());
+            return Err(Error::Line { path: path.to_owned(), line, problem });
         }
-        let tick = self.tick;
-        let expected = start + ticks * tick;
-        let is_off = (time - expected).abs() > OFF * tick.max(1e-4) * (1.0 + 1e-3 * ticks);
-        if is_off || (number > first && tick <= 0.0) {
-            return Err(Problem::Time { found: time, expected, tick });
-        }
-        Ok(())
-    }
-
-    fn take(&mut self, line: &Line, before: Option<&Line>) {
-        if !line.full || line.time.is_none() {
-            self.left_out += 1;
-            return;
-        }
-        // When the trajectory begins again, a simulated arm is put back.
-        let follows = before.is_some_and(|before| {
-            let taken = before.full && before.time.is_some();
-            taken && line.number == before.number + 1 && line.tick == before.tick.wrapping_add(1)
-        });
-        if !follows {
-            self.gaps += usize::from(!self.stretches.is_empty());
-            self.stretches.push(Vec::new());
-        }
-        if let Some(stretch) = self.stretches.last_mut() {
-            stretch.push(line.row.clone());
-        }
+        let first = times.first().copied().unwrap_or(0.0);
+        let times = times.into_iter().map(|time| time - first).collect();
+        let whole = |problem| Error::Recording { path: path.to_owned(), problem };
+        Rows { times, rows, ..Rows::default() }.made(joints, false).map_err(whole)
     }
 
     /// As a recording of V joints.
@@ -188,78 +150,80 @@ impl Recorded {
     }
 }
 
-impl Columns {
-    fn of(titles: &StringRecord) -> std::result::Result<Self, Problem> {
-        let names: Vec<String> = titles.iter().map(str::to_owned).collect();
-        let find = |name: &str| -> std::result::Result<usize, Problem> {
-            let mut places = (0..names.len()).filter(|&at| names[at] == name);
-            match (places.next(), places.next()) {
-                (Some(at), None) => Ok(at),
-                (Some(_), Some(_)) => Err(Problem::Twice(name.to_owned())),
-                _ => Err(Problem::NoColumn(name.to_owned())),
-            }
-        };
-        let joints = names.iter().filter(|name| name.starts_with("torque_")).count();
-        if joints > MOST_JOINTS {
-            return Err(Problem::TooManyJoints(joints));
-        }
-        let all = |what: &str| {
-            let each = (0..joints.max(1)).map(|joint| find(&format!("{what}_{joint}")));
-            each.collect::<std::result::Result<Vec<_>, _>>()
-        };
-        Ok(Self {
-            number: find("number")?,
-            tick: find("tick")?,
-            mode: find("mode")?,
-            time: find("time_s")?,
-            estimates: all("estimate")?,
-            torques: all("torque")?,
-            names,
-        })
-    }
-
-    fn line(&self, fields: &StringRecord) -> std::result::Result<Line, Problem> {
-        let (found, expected) = (fields.len(), self.names.len());
-        if found != expected {
-            return Err(Problem::Columns { found, expected });
+impl Rows {
+    /// Takes a row; one that lacks a number ends a stretch.
+    fn add<'a>(
+        &mut self,
+        columns: &Columns,
+        field: impl Fn(usize) -> &'a str,
+    ) -> std::result::Result<(), Problem> {
+        if self.times.len() + self.left_out >= MOST_TICKS {
+            return Err(Problem::TooLong(MOST_TICKS));
         }
         let wrong = |at: usize, expected| Problem::Value {
-            column: self.names[at].clone(),
-            text: shortened(&fields[at]),
+            column: columns.titles[at].clone(),
+            text: shortened(field(at)),
             expected,
         };
-        let whole = |at: usize| {
-            let number = fields[at].parse::<u32>();
-            number.map_err(|_| wrong(at, "a whole number"))
+        let real = |at: usize, largest: f64| match field(at) {
+            "" | "nan" | "NaN" => Ok(None),
+            text => match text.parse::<f64>().ok().filter(|x| x.abs() <= largest) {
+                Some(number) => Ok(Some(number)),
+                None => {
+                    Err(wrong(at, "a number with a decimal point that is finite and below 10⁶"))
+                }
+            },
         };
-        let real = |at: usize| {
-            let number = fields[at].parse::<f64>().ok();
-            let number = number.filter(|x| x.abs() <= LARGEST);
-            number.ok_or_else(|| wrong(at, "a number that is finite and below 10⁶"))
-        };
-        let reals = |places: &[usize]| -> std::result::Result<Vec<f64>, Problem> {
-            places.iter().map(|&at| real(at)).collect()
-        };
-        let full = match &fields[self.mode] {
-            "full" => true,
-            "hold" | "stopped" => false,
-            _ => return Err(wrong(self.mode, "`full`, `hold` or `stopped`")),
-        };
-        let time = match &fields[self.time] {
-            "" => None,
-            _ => Some(real(self.time)?),
-        };
-        Ok(Line {
-            number: whole(self.number)?,
-            tick: whole(self.tick)?,
-            full,
-            time,
-            row: (reals(&self.estimates)?, reals(&self.torques)?),
-        })
+        let time = real(columns.time.0, LATEST / columns.time.1)?;
+        let mut row = (Vec::new(), Vec::new());
+        for of in &columns.joints {
+            let [q, tau] = [real(of.position, LARGEST)?, real(of.torque, LARGEST)?];
+            row.0.extend(q.map(|q| of.angle * (q - of.zero)));
+            row.1.extend(tau.map(|tau| of.unit * tau));
+        }
+        let counts = columns.rows.as_ref().is_none_or(|(at, is)| field(*at) == is);
+        let is_whole = [&row.0, &row.1].iter().all(|all| all.len() == columns.joints.len());
+        if let Some(at) = columns.follows {
+            let count = field(at).parse::<i64>().map_err(|_| wrong(at, "a whole number"))?;
+            if self.count.replace(count).is_some_and(|last| last.checked_add(1) != Some(count)) {
+                self.breaks.push(self.times.len());
+            }
+        }
+        match time.filter(|_| counts && is_whole) {
+            Some(time) => {
+                self.times.push(time * columns.time.1);
+                self.rows.push(row);
+            }
+            None => {
+                self.left_out += 1;
+                // Where single rows lack a number, such as one that another topic has, the rows
+                // about them are a stretch all the same.
+                if !counts {
+                    self.breaks.push(self.times.len());
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn even(self, joints: usize, columns: &Columns) -> std::result::Result<Recorded, Problem> {
+        match &columns.rows {
+            Some((at, is)) if self.rows.is_empty() => {
+                Err(Problem::NoRows { column: columns.titles[*at].clone(), is: is.clone() })
+            }
+            _ => self.made(joints, columns.held),
+        }
+    }
+
+    fn made(self, joints: usize, held: bool) -> std::result::Result<Recorded, Problem> {
+        let mut sampling = Sampling { left_out: self.left_out, ..Sampling::default() };
+        let (tick, stretches) =
+            resample::even(&self.times, self.rows, &self.breaks, &mut sampling)?;
+        Ok(Recorded { joints, tick, stretches, sampling, held })
     }
 }
 
 /// A field for a message.
-fn shortened(field: &str) -> String {
+pub(crate) fn shortened(field: &str) -> String {
     robot_import::text::visible(&field.chars().take(40).collect::<String>())
 }

@@ -20,7 +20,7 @@ fn pasted(found: &Found) -> Robot {
     for ((body, own), joint) in bodies.iter_mut().zip(&found.bodies).zip(&found.joints) {
         body.inertia =
             MassProperties { mass: own.after.mass, com: own.after.com, inertia: own.after.inertia };
-        [body.damping, body.friction, body.armature, _] = joint.after;
+        [body.damping, body.friction, body.armature, ..] = joint.after;
     }
     robot
 }

@@ -80,6 +80,8 @@ mod reduced;
 mod search;
 mod solved;
 mod ticks;
+#[cfg(feature = "files")]
+mod trial;
 
 pub use base::BaseModel;
 pub use batch::Batch;

@@ -6,9 +6,9 @@
 
 use serde::Serialize;
 
-use crate::{Comparison, TickRecording};
+use crate::TickRecording;
 
-use super::attempt::{Attempt, Estimate, JointEffect, SPEEDS, Task, possible};
+use super::attempt::{Attempt, JointEffect, SPEEDS, Task, bell};
 
 /// A kind is reported that leaves less than this of the residuals,
 const LEFT: f64 = 0.9;
@@ -34,55 +34,49 @@ pub(crate) fn carried<const V: usize>(
     attempt: &Attempt<V>,
     names: &[String],
 ) -> Vec<Carried> {
+    use JointEffect::{Asymmetric, Load, Offset, Preslide, Stribeck};
     let effects = &task.options.effects;
-    let with = |effect: Option<JointEffect>, stribeck: Option<f64>| -> Option<[f64; V]> {
-        let all: Vec<JointEffect> = effects.iter().copied().chain(effect).collect();
-        let found = task.estimate([whole, part], &all, stribeck, Some(attempt.fit.delay)).ok()?;
-        residuals(&found, held)
+    let speeds = SPEEDS.map(|times| (Stribeck, Some(times * task.options.width)));
+    let all = speeds.into_iter().chain([Asymmetric, Load, Offset].map(|effect| (effect, None)));
+    let is_new = |(effect, _): &(JointEffect, Option<f64>)| {
+        !effects.contains(effect) && !(*effect == Load && effects.contains(&Preslide))
     };
-    let Some(before) = with(None, attempt.stribeck).filter(|_| held.ticks() > 0) else {
+    let kinds: Vec<(JointEffect, Option<f64>)> = all.filter(is_new).collect();
+    let delay = Some(attempt.fit.delay);
+    let Ok(estimate) = task.estimate([whole, part], effects, attempt.stribeck, delay) else {
         return Vec::new();
     };
-    let speeds = SPEEDS.map(|times| (JointEffect::Stribeck, Some(times * task.options.width)));
-    let others = [JointEffect::Asymmetric, JointEffect::Load, JointEffect::Offset];
-    let all = speeds.into_iter().chain(others.map(|effect| (effect, attempt.stribeck)));
-    let is_new = |(effect, _): &(JointEffect, Option<f64>)| {
-        let is_gear = *effect == JointEffect::Load && effects.contains(&JointEffect::Preslide);
-        !is_gear && !effects.contains(effect)
-    };
-    let mut found: Vec<Carried> = Vec::new();
-    for (effect, speed) in all.filter(is_new) {
-        let Some(after) = with(Some(effect), speed) else { continue };
-        for (j, joint) in names.iter().enumerate() {
-            let residuals = [before[j], after[j]];
-            if after[j] < LEFT * before[j] && before[j] - after[j] > LOWERED {
-                let speed = speed.filter(|_| effect == JointEffect::Stribeck);
-                found.push(Carried { joint: joint.clone(), effect, residuals, speed });
-            }
-        }
-    }
-    let place = |one: &Carried| names.iter().position(|name| *name == one.joint);
-    found.sort_by(|a, b| (place(a).cmp(&place(b))).then(a.residuals[1].total_cmp(&b.residuals[1])));
-    // Of a kind at several speeds the best one.
-    let mut seen = Vec::new();
-    found.retain(|one| {
-        let own = (one.joint.clone(), one.effect);
-        let is_first = !seen.contains(&own);
-        seen.push(own);
-        is_first
+    let left = estimate.further([part, held], |_, sign, qd, tau| {
+        let column = |(effect, speed): &(JointEffect, Option<f64>)| match (effect, speed) {
+            (_, Some(speed)) => bell(sign, qd, *speed),
+            (Asymmetric, _) => sign * sign,
+            (Load, _) => sign * tau.abs(),
+            _ => 1.0,
+        };
+        kinds.iter().map(column).collect()
     });
+    // A part of the recording itself may be too short for the filter.
+    let Ok([before, after @ ..]) = left.as_deref() else { return Vec::new() };
+    let extremes = held.extremes();
+    let mut found = Vec::new();
+    for (j, joint) in names.iter().enumerate() {
+        let share = |left: &[f64; V]| left[j] / extremes[j][2].max(1e-9);
+        let of = |((effect, speed), after): (&(JointEffect, Option<f64>), &[f64; V])| Carried {
+            joint: joint.clone(),
+            effect: *effect,
+            residuals: [before, after].map(share),
+            speed: *speed,
+        };
+        let mut own: Vec<Carried> = kinds.iter().zip(after).map(of).collect();
+        own.retain(|one| {
+            let [before, after] = one.residuals;
+            after < LEFT * before && before - after > LOWERED
+        });
+        own.sort_by(|a, b| a.residuals[1].total_cmp(&b.residuals[1]));
+        // Of Stribeck's effect the best speed.
+        let mut first = true;
+        own.retain(|one| one.speed.is_none() || std::mem::take(&mut first));
+        found.extend(own);
+    }
     found
-}
-
-/// Of each joint what an estimate leaves of the torques, RMS, relative to the largest one.
-fn residuals<const V: usize>(of: &Estimate<V>, held: &TickRecording<V>) -> Option<[f64; V]> {
-    let model = [(&of.found.base[..], possible(&of.found))];
-    let Comparison { measured, modelled, .. } = of.fit.compare(&of.arm, held, &model).ok()?;
-    let share = |j: usize| {
-        let pairs = measured.iter().zip(&modelled[0]);
-        let square = pairs.map(|(a, b)| (a[j] - b[j]).powi(2)).sum::<f64>();
-        let largest = measured.iter().map(|tau| tau[j].abs()).fold(1e-9, f64::max);
-        (square / measured.len() as f64).sqrt() / largest
-    };
-    Some(std::array::from_fn(share))
 }

@@ -9,22 +9,8 @@ use serde_json::{Map as Table, Value};
 
 use super::error::{Error, Problem, Result};
 
-/// Layouts of records that are recognised by their titles, as maps. A unit that such a record does
-/// not state is left out: it is asked for.
-const LAYOUTS: [&str; 8] = [
-    "time='time_s'\ntime_unit='s'\nposition='estimate_{index}'\nposition_unit='rad'\ntorque='torque_{index}'\n\
-     torque_unit='Nm'\nrows={column='mode', is='full'}\nfollows='tick'\nheld=true", // cargo xtask watch, CSV
-    "time='log_time'\ntime_unit='ns'\nposition='joints[{index}].estimate'\nposition_unit='rad'\ntorque='joints[{index}].torque'\n\
-     torque_unit='Nm'\nrows={column='mode', is='full'}\nfollows='tick'\nheld=true", // and MCAP
-    "time='stamp'\ntime_unit='s'\nposition='{joint}/position'\nposition_unit='rad'\ntorque='{joint}/effort'\ntorque_unit='Nm'", // JointState
-    "time='__time'\ntime_unit='s'\nposition='/joint_states/{joint}/position'\nposition_unit='rad'\n\
-     torque='/joint_states/{joint}/effort'\ntorque_unit='Nm'", // the same by PlotJuggler
-    "time='timestamp'\ntime_unit='s'\nposition='{joint}.pos'\ntorque='{joint}.torque'", // LeRobot
-    "time='timestamp'\nposition='{joint}.pos'\ntorque='{joint}.current_mA'\ntorque_unit='mA'", // with currents
-    "time='timestamp'\ntime_unit='s'\nposition='actual_q_{index}'\nposition_unit='rad'\ntorque='actual_current_{index}'\n\
-     torque_unit='A'", // RTDE's record.py
-    "time='time'\nposition='q[{index}]'\nposition_unit='rad'\ntorque='tau_J[{index}]'\ntorque_unit='Nm'", // libfranka
-];
+/// Layouts of records that are recognised by their titles.
+const LAYOUTS: &str = include_str!("layouts.toml");
 /// The names of the units, and what they are in s, rad or m, and N·m or N.
 const TIMES: [(&str, f64); 4] = [("s", 1.0), ("ms", 1e-3), ("us", 1e-6), ("ns", 1e-9)];
 const ANGLES: [(&str, f64); 6] = [
@@ -138,10 +124,13 @@ impl Map {
     /// # Errors
     /// What is wrong in it.
     pub fn of(text: &str) -> std::result::Result<Self, String> {
+        Self::from(toml_edit::de::from_str(text).map_err(|error| error.to_string())?)
+    }
+
+    fn from(map: Value) -> std::result::Result<Self, String> {
         const ALL: [&str; 8] =
             ["time", "time_unit", "topic", "joints", "joint", "rows", "follows", "held"];
-        let mut each: Table<String, Value> =
-            toml_edit::de::from_str(text).map_err(|error| error.to_string())?;
+        let Value::Object(mut each) = map else { return Err("no table".to_owned()) };
         let all = ALL.iter().filter_map(|key| Some(((*key).to_owned(), each.remove(*key)?)));
         let all: OfAll = serde_json::from_value(Value::Object(all.collect()))
             .map_err(|error| error.to_string())?;
@@ -237,7 +226,8 @@ pub(crate) fn recognised(
     joints: &[String],
 ) -> std::result::Result<Columns, Problem> {
     let all: HashSet<&str> = titles.iter().map(String::as_str).collect();
-    let maps = LAYOUTS.iter().map(|text| Map::of(text).expect("a map"));
+    let maps: Table<String, Value> = toml_edit::de::from_str(LAYOUTS).expect("layouts");
+    let maps = maps.into_iter().map(|(_, map)| Map::from(map).expect("a map"));
     let share = |map: &Map| -> usize {
         let of = map.joint("").expect("a layout");
         let names = [of.position, of.torque, map.all.follows.clone()].into_iter().flatten();

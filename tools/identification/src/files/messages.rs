@@ -153,9 +153,6 @@ fn flat(path: &str, value: &Value, into: &mut Message) -> Checked<()> {
                     )?,
                 }
             }
-            if let Some([seconds, rest]) = stamp(value) {
-                into.push(("stamp".to_owned(), format!("{seconds}.{rest:09}")));
-            }
         }
         Value::Array(all) => {
             for (index, value) in all.iter().enumerate() {
@@ -167,13 +164,6 @@ fn flat(path: &str, value: &Value, into: &mut Message) -> Checked<()> {
         other => into.push((path.to_owned(), other.to_string())),
     }
     Ok(())
-}
-
-/// The stamp of a header, as ROS 2 and as ROS 1 have it.
-fn stamp(value: &Value) -> Option<[u64; 2]> {
-    let stamp = value.pointer("/header/stamp")?;
-    let of = |names: [&str; 2]| names.iter().find_map(|name| stamp.get(name)?.as_u64());
-    Some([of(["sec", "secs"])?, of(["nanosec", "nsecs"])?])
 }
 
 /// Stamp, names, positions, velocities and efforts.

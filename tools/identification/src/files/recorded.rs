@@ -208,7 +208,7 @@ impl Rows {
 
     fn even(self, joints: usize, columns: &Columns) -> std::result::Result<Recorded, Problem> {
         match &columns.rows {
-            Some((at, is)) if self.rows.is_empty() => {
+            Some((at, is)) if self.rows.is_empty() && self.left_out > 0 => {
                 Err(Problem::NoRows { column: columns.titles[*at].clone(), is: is.clone() })
             }
             _ => self.made(joints, columns.held),

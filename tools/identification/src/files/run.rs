@@ -7,7 +7,7 @@ use dynamics_core::effects::smooth_sign;
 use dynamics_core::model::BodyInertia;
 use dynamics_core::spatial::SpatialInertia;
 
-use super::attempt::{Attempt, Task, own, possible};
+use super::attempt::{Attempt, Task, bell, own, possible};
 pub use super::attempt::{JointEffect, Options};
 use super::error::{Error, Result};
 use super::kinds;
@@ -151,8 +151,8 @@ fn of_size<const V: usize>(
     let curve = |j: usize, qd: f64| {
         let [viscous, coulomb, _, _, excess, asymmetry] = pasted[j];
         let s = smooth_sign(qd / options.width);
-        let bell = attempt.stribeck.map_or(0.0, |speed| (-(qd / speed).powi(2)).exp());
-        viscous * qd + s * (coulomb + excess * bell + asymmetry * s)
+        let excess = excess * attempt.stribeck.map_or(0.0, |speed| bell(s, qd, speed));
+        viscous * qd + s * (coulomb + asymmetry * s) + excess
     };
     Ok(Found {
         robot: robot.imported.name.clone(),

@@ -63,7 +63,7 @@ fn the_text_has_what_is_pasted() {
     let found = identified(&record(|t| swing(t, SIZE, RATES), 4_000)).expect("parameters");
     let text = found.text();
     let svg = picture::svg(&found.traces);
-    for part in ["shoulder, torque", "elbow, torque", "by what was found", "height=\"600\""] {
+    for part in ["shoulder, torque", "elbow, torque", "by what was found", "height=\"520\""] {
         assert!(svg.contains(part), "{part}");
     }
     let mass = format!("{:?}", found.bodies[1].after.mass);

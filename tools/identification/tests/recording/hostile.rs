@@ -47,10 +47,13 @@ fn a_file_that_is_no_record_is_refused() {
     for (text, why) in [
         (String::new(), "it has no titles"),
         ("a,b\n1,2\n".to_owned(), "no layout that is known has these columns: give --columns"),
-        (without("time_s"), "it lacks `time_s`; it has number, tick"),
+        (without("time_s"), "it lacks `time_s` (did you mean `tick`?); it has number, tick"),
         (without("estimate_1"), "it lacks `estimate_1` (did you mean `estimate_0`?)"),
         (good().replacen("reference_0", "tick", 1), "it lacks `tick`, which is there twice"),
-        (titles.clone() + ",torque_2\n", "it has the column `torque_2`, but the robot has the joints"),
+        (
+            titles.clone() + ",torque_2\n",
+            "it has the column `torque_2`, but the robot has the joints",
+        ),
         (titles.clone(), "it has no two rows with a time"),
         (good().replace("full", "hold"), "no row has `mode` = `full`"),
         (long, "line 2: the line has more than"),
@@ -61,7 +64,8 @@ fn a_file_that_is_no_record_is_refused() {
     }
     let bytes = [titles.as_bytes(), b"\n\xff\xfe,\n"].concat();
     let names = described().joints();
-    let error = Recorded::from(Path::new("run.csv"), &bytes[..], &names, None).expect_err("no text");
+    let error =
+        Recorded::from(Path::new("run.csv"), &bytes[..], &names, None).expect_err("no text");
     assert!(error.to_string().contains("line 2: the line is no text"), "{error}");
 }
 

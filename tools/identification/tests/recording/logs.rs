@@ -21,11 +21,11 @@ use crate::arm::OPTIONS;
 
 pub const V: usize = 6;
 /// The arm's frictions and rotors, which its description lacks.
-pub const VISCOUS: [f64; V] = [0.05, 0.06, 0.05, 0.04, 0.03, 0.03];
+const VISCOUS: [f64; V] = [0.05, 0.06, 0.05, 0.04, 0.03, 0.03];
 pub const COULOMB: [f64; V] = [0.06, 0.07, 0.06, 0.05, 0.04, 0.04];
 const ARMATURE: [f64; V] = [0.012, 0.012, 0.012, 0.006, 0.004, 0.004];
 /// Torque of a joint per ampere: the motor's constant times its gear.
-pub const PER_AMPERE: f64 = 0.0088 * 345.0;
+const PER_AMPERE: f64 = 0.0088 * 345.0;
 /// A count of an encoder, rad, and noise of the torque, N·m.
 const COUNT: f64 = TAU / 4096.0;
 const NOISE: f64 = 0.02;
@@ -238,7 +238,11 @@ fn cdr(nanos: u64, joints: Vec<(&str, f64, f64)>) -> Vec<u8> {
     text(&mut body, "base");
     word(&mut body, joints.len());
     joints.iter().for_each(|(name, ..)| text(&mut body, name));
-    for numbers in [joints.iter().map(|j| j.1).collect(), Vec::new(), joints.iter().map(|j| j.2).collect::<Vec<f64>>()] {
+    for numbers in [
+        joints.iter().map(|j| j.1).collect(),
+        Vec::new(),
+        joints.iter().map(|j| j.2).collect::<Vec<f64>>(),
+    ] {
         word(&mut body, numbers.len());
         for x in &numbers {
             body.resize(body.len().next_multiple_of(8), 0);
@@ -253,8 +257,8 @@ pub fn read(bytes: &[u8], map: Option<&str>) -> Result<Recorded> {
     Recorded::from(Path::new("log"), bytes, &so101().joints(), map.as_ref())
 }
 
-pub fn options() -> Options {
-    OPTIONS()
+pub fn tried(recorded: &Recorded) -> Result<Found> {
+    run::identify(&so101(), (Path::new("log"), recorded), None, &OPTIONS())
 }
 
 pub fn identified(recorded: &Recorded, options: &Options) -> Found {

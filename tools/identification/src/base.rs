@@ -118,12 +118,6 @@ where
         Self { robot, scene, friction, limits, selected, grouping, scale }
     }
 
-    /// The speed below which Coulomb friction fades, rad/s or m/s.
-    #[must_use]
-    pub fn width(&self) -> f64 {
-        self.friction.width.get()
-    }
-
     /// The number of base parameters.
     #[must_use]
     #[expect(clippy::len_without_is_empty, reason = "every joint has friction")]

@@ -349,7 +349,7 @@ impl Fit {
         Ok(reduced)
     }
 
-    pub(crate) fn too_short<const V: usize>(
+    fn too_short<const V: usize>(
         &self,
         recording: &TickRecording<V>,
     ) -> IdentificationError {

@@ -7,7 +7,7 @@ use crate::{
     BaseModel, ExcitationLimits, Fit, Fitted, Friction, Gears, IdentificationError, OF_JOINT,
     OfJoint, Parameter, PhysicalSet, TickRecording,
 };
-use dynamics_core::effects::{Coriolis, Gravity, Inertia, RIGID_BODY, Width, smooth_sign};
+use dynamics_core::effects::{Coriolis, Gravity, Inertia, RIGID_BODY, Width};
 use dynamics_core::model::ArmModel;
 
 use super::delay;
@@ -165,14 +165,14 @@ impl Task<'_> {
         if !effects.contains(&JointEffect::Stribeck) {
             return Ok(None);
         }
-        let without = self.estimate(parts, effects, None, None)?;
-        let left = without.further([parts[1]; 2], |_, s, qd, _| {
-            SPEEDS.map(|times| bell(s, qd, times * self.options.width)).to_vec()
+        let first = self.estimate(parts, effects, None, None)?;
+        let each = SPEEDS.map(|times| {
+            let speed = times * self.options.width;
+            let found = self.estimate(parts, effects, Some(speed), Some(first.fit.delay))?.found;
+            Ok((found.noise.iter().map(|noise| noise.ln()).sum::<f64>(), speed))
         });
-        let left = left.map_err(|source| self.failed(source))?;
-        let sum = |at: &usize| left[1 + at].iter().map(|left| left.ln()).sum::<f64>();
-        let least = (0..SPEEDS.len()).min_by(|a, b| sum(a).total_cmp(&sum(b)));
-        Ok(least.map(|at| SPEEDS[at] * self.options.width))
+        let each = each.into_iter().collect::<Result<Vec<_>>>()?;
+        Ok(each.into_iter().min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, speed)| speed))
     }
 
     /// The fit of a part of a recording, with the delay and the speed of another fit.
@@ -217,24 +217,6 @@ impl Task<'_> {
         let residual = pairs.map(square).sum::<f64>() / compared.measured.len() as f64;
         let stribeck = speed;
         Ok(Attempt { arm, joints, nominal, known, fit, found, set, residual, stribeck })
-    }
-}
-
-impl<const V: usize> Estimate<V> {
-    /// As [`Fit::further`], with columns by the joint, the smooth sign of its speed, the speed, and
-    /// the torque of the estimate.
-    pub fn further(
-        &self,
-        parts: [&TickRecording<V>; 2],
-        columns: impl Fn(usize, f64, f64, f64) -> Vec<f64>,
-    ) -> std::result::Result<Vec<[f64; V]>, IdentificationError> {
-        let Self { arm, nominal, found, fit, .. } = self;
-        let prior: Vec<_> = nominal.iter().copied().zip(found.prior.iter().copied()).collect();
-        fit.further(arm, parts, &found.noise, &prior, |j, state, row| {
-            let tau: f64 = row.iter().zip(&found.base).map(|(y, beta)| y * beta).sum();
-            let qd = state.qd[j];
-            columns(j, smooth_sign(qd / arm.width()), qd, tau)
-        })
     }
 }
 

@@ -115,7 +115,7 @@ impl<F: FnMut(Message) -> Checked<()>> Reader<'_, F> {
                         other => {
                             return Err(wrong(format!(
                                 "compressed by {}; `mcap compress --compression zstd` writes what is read",
-                                super::recorded::shortened(other)
+                                super::reading::shortened(other)
                             )));
                         }
                     }

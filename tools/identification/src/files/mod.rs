@@ -18,17 +18,24 @@ mod attempt;
 mod delay;
 pub mod error;
 pub mod kinds;
+#[cfg(feature = "files")]
 pub mod map;
+#[cfg(feature = "files")]
 mod messages;
 mod mistake;
 pub mod mistakes;
+#[cfg(feature = "files")]
 pub mod paste;
+#[cfg(feature = "files")]
 pub mod picture;
+#[cfg(feature = "files")]
+mod reading;
 pub mod recorded;
 pub mod report;
 pub mod resample;
 pub mod robot;
 pub mod run;
+#[cfg(feature = "files")]
 mod table;
 
 /// The most joints that a robot may have: its size is known to the compiler.

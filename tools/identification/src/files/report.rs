@@ -432,8 +432,7 @@ impl Found {
             let (name, word) = match one.effect {
                 JointEffect::Stribeck => ("Stribeck's effect", "stribeck"),
                 JointEffect::Asymmetric => ("friction that differs with direction", "asymmetric"),
-                JointEffect::Load => ("friction that grows with the load", "load"),
-                _ => ("a constant torque", "offset"),
+                _ => ("friction that grows with the load", "load"),
             };
             let [from, to] = one.residuals.map(|share| 100.0 * share);
             let at = one

@@ -38,6 +38,11 @@ pub fn identify(
         let reason = "gears have one kind of friction: --effects with load or with preslide";
         return Err(Error::Unsuitable { path: robot.path.clone(), reason: reason.to_owned() });
     }
+    let joints = [Some(recording), other].map(|all| all.map_or(names.len(), |(_, all)| all.joints));
+    if let Some(joints) = joints.into_iter().find(|joints| *joints != names.len()) {
+        let reason = format!("{joints} joints were recorded, but it has {}", names.join(", "));
+        return Err(Error::Unsuitable { path: robot.path.clone(), reason });
+    }
     if let Some((path, recorded)) = other {
         let (own, other) = (recording.1.tick, recorded.tick);
         if (own - other).abs() > 1e-3 * own {
@@ -87,9 +92,9 @@ fn of_size<const V: usize>(
         Err(IdentificationError::TooShort { .. }) if other.is_none() => None,
         validated => Some(validated.map_err(|source| task.failed(source))?),
     };
-    let kinds = match mistake {
-        None => kinds::carried(&task, [&whole, &fitted_part, &held], &attempt, &names),
-        Some(_) => Vec::new(),
+    let kinds = match (&mistake, &validated) {
+        (None, Some(held)) => kinds::carried(options, [&own_part, held], &names),
+        _ => Vec::new(),
     };
     let own_of = |j: usize, of: OfJoint| {
         let at = own(arm, j, of)?;

@@ -24,7 +24,7 @@ use crate::error::Exception;
 /// are compared up to `cutoff`, Hz, or the highest frequency that the rate allows. The dict is the
 /// JSON of `cargo xtask identify`.
 ///
-/// Raises IdentificationError.
+/// Raises IdentificationError; of a robot of more than eight joints, too.
 #[pyfunction]
 #[pyo3(signature = (robot_file, time, q, tau, *, joints = None, effects = vec!["viscous".into(), "coulomb".into(), "armature".into(), "offset".into()], width = 0.02, cutoff = None))]
 #[allow(clippy::too_many_arguments, reason = "they are those of Python, most by name")]
@@ -41,7 +41,8 @@ pub fn identify<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let failed = |text: String| Exception::new(py, "IdentificationError", text).build();
     let kinds = effects.iter().map(|name| JointEffect::from_str(name, false));
-    let effects = kinds.collect::<Result<_, _>>().map_err(|error| failed(format!("effects: {error}")))?;
+    let effects =
+        kinds.collect::<Result<_, _>>().map_err(|error| failed(format!("effects: {error}")))?;
     if ![width, cutoff.unwrap_or(1.0)].iter().all(|x| *x > 0.0 && x.is_finite()) {
         return Err(failed("`width` and `cutoff` are positive".to_owned()));
     }

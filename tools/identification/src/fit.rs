@@ -349,10 +349,7 @@ impl Fit {
         Ok(reduced)
     }
 
-    fn too_short<const V: usize>(
-        &self,
-        recording: &TickRecording<V>,
-    ) -> IdentificationError {
+    fn too_short<const V: usize>(&self, recording: &TickRecording<V>) -> IdentificationError {
         IdentificationError::TooShort { seconds: recording.tick() * recording.ticks() as f64 }
     }
 }

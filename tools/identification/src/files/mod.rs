@@ -38,5 +38,6 @@ pub mod run;
 #[cfg(feature = "files")]
 mod table;
 
-/// The most joints that a robot may have: its size is known to the compiler.
-pub const MOST_JOINTS: usize = 12;
+/// The most joints that a robot may have: its size is known to the compiler, which takes seconds for
+/// each. Without files, as in a wheel, they are those of an arm with a gripper.
+pub const MOST_JOINTS: usize = if cfg!(feature = "files") { 12 } else { 8 };

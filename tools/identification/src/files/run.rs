@@ -61,7 +61,10 @@ pub fn identify(
             }
         };
     }
-    sized!(1 2 3 4 5 6 7 8 9 10 11 12)
+    #[cfg(feature = "files")]
+    return sized!(1 2 3 4 5 6 7 8 9 10 11 12);
+    #[cfg(not(feature = "files"))]
+    sized!(1 2 3 4 5 6 7 8)
 }
 
 fn of_size<const V: usize>(

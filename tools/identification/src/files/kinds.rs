@@ -41,7 +41,7 @@ pub(crate) fn carried<const V: usize>(
     let all = speeds.into_iter().chain([(Asymmetric, None), (Load, None)]);
     let is_known = |effect| options.effects.contains(&effect);
     let kinds =
-        all.filter(|(effect, _)| !is_known(*effect) && !(*effect == Load && is_known(Preslide)));
+        all.filter(|(effect, _)| !(is_known(*effect) || *effect == Load && is_known(Preslide)));
     let kinds: Vec<(JointEffect, Option<f64>)> = kinds.collect();
     let mut found = Vec::new();
     for (j, joint) in names.iter().enumerate() {

@@ -167,7 +167,7 @@ impl Map {
                 joints.join(", ")
             )));
         }
-        for name in self.all.joint.keys().filter(|name| !own.contains(name)) {
+        if let Some(name) = self.all.joint.keys().find(|name| !own.contains(name)) {
             let like = most_similar(name, own.iter().map(String::as_str));
             let like = like.map_or(String::new(), |like| format!("; did you mean `{like}`?"));
             return Err(Problem::Map(format!(

@@ -134,7 +134,10 @@ fn rows(
     text + "\n"
 }
 
-fn titles(first: &str, separator: &str, each: &[&dyn Fn(usize, &str) -> String]) -> String {
+/// A title of a joint by its number and name.
+type Title<'a> = &'a dyn Fn(usize, &str) -> String;
+
+fn titles(first: &str, separator: &str, each: &[Title<'_>]) -> String {
     let names = so101().joints();
     let all = each.iter().flat_map(|of| names.iter().enumerate().map(move |(j, name)| of(j, name)));
     first.to_owned() + separator + &all.collect::<Vec<_>>().join(separator)

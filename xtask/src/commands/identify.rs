@@ -1,8 +1,6 @@
 //! `cargo xtask identify`: the parameters of a robot's file from a recording, by the package
 //! `identification`.
 
-use std::process::ExitCode;
-
 use crate::kit::error::Result;
 use crate::kit::host_bin::SIMULATED;
 use crate::kit::shell;
@@ -17,10 +15,10 @@ pub struct Args {
     pub arguments: Vec<String>,
 }
 
-pub fn run(arguments: &[String]) -> Result<ExitCode> {
+pub fn run(arguments: &[String]) -> Result<std::process::ExitCode> {
     // By the profile in which its equations are solved within a second.
     let mut program = SIMULATED.program(&Workspace::find()?, "identify")?;
     let status = shell::run_for_user(program.args(arguments))?;
     // It has printed its error.
-    Ok(ExitCode::from(u8::from(!status.success())))
+    Ok(u8::from(!status.success()).into())
 }

@@ -209,6 +209,42 @@ fn what_is_missing_is_named_at_once_and_no_unit_is_guessed() {
     );
 }
 
+/// The first chunk of a file, compressed by zstd under a name, as the only one.
+fn compressed(whole: &[u8], name: &str) -> Vec<u8> {
+    let number = |at: usize| u64::from_le_bytes(whole[at..at + 8].try_into().expect("8")) as usize;
+    let mut at = mcap::MAGIC.len();
+    let mut out = whole[..at + 9 + number(at + 1)].to_vec();
+    while at + 9 < whole.len() {
+        let (op, length) = (whole[at], number(at + 1));
+        if op == mcap::records::op::CHUNK {
+            // Times, size, checksum, no name of a compression, and the length of the records.
+            let records = &whole[at + 9 + 40..at + 9 + length];
+            let level = ruzstd::encoding::CompressionLevel::Fastest;
+            let small = ruzstd::encoding::compress_to_vec(records, level);
+            let named = [&(name.len() as u32).to_le_bytes(), name.as_bytes()].concat();
+            let body = [
+                &whole[at + 9..at + 37],
+                &[0; 0],
+                &named,
+                &(small.len() as u64).to_le_bytes(),
+                &small,
+            ];
+            // Without a checksum.
+            let mut body = body.concat();
+            body[24..28].fill(0);
+            out.push(op);
+            out.extend((body.len() as u64).to_le_bytes());
+            out.extend(body);
+        } else if [mcap::records::op::DATA_END, mcap::records::op::FOOTER].contains(&op) {
+            let mut own = whole[at..at + 9 + length].to_vec();
+            own[9..].fill(0);
+            out.extend(own);
+        }
+        at += 9 + length;
+    }
+    [&out[..], &mcap::MAGIC[..]].concat()
+}
+
 #[test]
 fn a_file_of_mcap_that_is_damaged_or_compressed_is_read_or_refused() {
     let whole = bag(&samples(even(200.0, 20.0), RIGHT));
@@ -222,6 +258,10 @@ fn a_file_of_mcap_that_is_damaged_or_compressed_is_read_or_refused() {
         (0..20).for_each(|_| damaged[rng.usize(..whole.len() / 50)] = rng.u8(..));
         let _ = read(&damaged, None);
     }
+    let zstd = compressed(&whole, "zstd");
+    assert_eq!(read(&zstd, None).expect("a bag"), read(&whole, None).expect("a bag"));
+    let error = read(&compressed(&whole, "lz4"), None).expect_err("another way").to_string();
+    assert!(error.contains("compressed by lz4; `mcap compress --compression zstd`"), "{error}");
     let error = read(&whole, Some("topic = \"/other\"")).expect_err("no such topic").to_string();
     assert!(error.contains("no topic `/other`") && error.contains("/joint_states"), "{error}");
 }

@@ -242,7 +242,7 @@ fn compressed(whole: &[u8], name: &str) -> Vec<u8> {
         }
         at += 9 + length;
     }
-    [&out[..], &mcap::MAGIC[..]].concat()
+    [&out, mcap::MAGIC].concat()
 }
 
 #[test]

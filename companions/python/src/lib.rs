@@ -10,6 +10,7 @@ mod error;
 mod failure;
 mod flexible;
 mod goal;
+mod identify;
 mod library;
 mod linkages;
 mod loops;
@@ -47,6 +48,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<robot::tip::PyTipMotion>()?;
     module.add_class::<sensor::PySensorLoad>()?;
     module.add_class::<thermal::PyThermalLimit>()?;
+    module.add_function(wrap_pyfunction!(identify::identify, module)?)?;
     module.add_function(wrap_pyfunction!(robots, module)?)?;
     module.add_function(wrap_pyfunction!(threads, module)?)?;
     linkages::register(module)?;

@@ -5,13 +5,13 @@
 //! the base inertial parameters of robots" (1991). The selection takes columns in their order, so
 //! that a parameter that cannot be distinguished is a part of those of bodies nearer to the base.
 
-use dynamics_core::effects::{Effect, Width};
+use dynamics_core::effects::Effect;
 use dynamics_core::model::RobotModel;
 use dynamics_core::state::State;
 use nalgebra::{DMatrix, DVector};
 
 use crate::columns::{OF_JOINT, columns};
-use crate::{ExcitationLimits, Parameter};
+use crate::{ExcitationLimits, Friction, Parameter};
 
 /// States whose columns decide which parameters are independent: three rows for each parameter of
 /// any arm here.
@@ -27,8 +27,8 @@ const ROUNDING: f64 = 1e-9;
 /// bodies is distinguishable.
 ///
 /// The model of the torques, linear in the parameters: rigid bodies under the effects of the scene,
-/// and of each joint viscous and Coulomb friction with a smooth sign, the armature, and the offset
-/// of its torque.
+/// and of each joint viscous and Coulomb friction with a smooth sign, the armature, the offset of
+/// its torque, and what else its [`Friction`] has.
 ///
 /// # Example
 /// ```
@@ -51,7 +51,7 @@ const ROUNDING: f64 = 1e-9;
 pub struct BaseModel<D, E, const B: usize, const V: usize> {
     pub(crate) robot: D,
     pub(crate) scene: E,
-    pub(crate) width: Width<f64>,
+    pub(crate) friction: Friction,
     pub(crate) limits: ExcitationLimits<V>,
     /// The selected columns.
     selected: Vec<usize>,
@@ -75,14 +75,20 @@ where
     /// # Panics
     /// If the limits are [impossible](ExcitationLimits::are_possible).
     #[must_use]
-    pub fn new(robot: D, scene: E, width: Width<f64>, limits: ExcitationLimits<V>) -> Self {
+    pub fn new(
+        robot: D,
+        scene: E,
+        friction: impl Into<Friction>,
+        limits: ExcitationLimits<V>,
+    ) -> Self {
+        let friction = friction.into();
         assert!(limits.are_possible(), "limits: {limits:?}");
         let mut rng = fastrand::Rng::with_seed(1);
         let n = 10 * B + OF_JOINT * V;
         let mut rows = DMatrix::zeros(STATES * V, n);
         for k in 0..STATES {
             let state = random_state(&limits, &mut rng);
-            for (j, row) in columns(&robot, &scene, width, &state).iter().enumerate() {
+            for (j, row) in columns(&robot, &scene, friction, &state).iter().enumerate() {
                 for (i, y) in row.iter().enumerate() {
                     rows[(k * V + j, i)] = y / limits.torque[j];
                 }
@@ -109,7 +115,7 @@ where
             selected.len(),
             selected.iter().map(|&at| norms[at] * per_state),
         );
-        Self { robot, scene, width, limits, selected, grouping, scale }
+        Self { robot, scene, friction, limits, selected, grouping, scale }
     }
 
     /// The number of base parameters.
@@ -130,7 +136,7 @@ where
     /// The torque of each joint per unit of each base parameter.
     #[must_use]
     pub fn rows(&self, state: &State<f64, V, V>) -> [Vec<f64>; V] {
-        columns(&self.robot, &self.scene, self.width, state)
+        columns(&self.robot, &self.scene, self.friction, state)
             .map(|row| self.selected.iter().map(|&at| row[at]).collect())
     }
 
@@ -141,10 +147,15 @@ where
         self.rows(state).map(dot)
     }
 
-    /// The base parameters of a set of all parameters, ten of each body and
-    /// [`OfJoint`](crate::OfJoint) of each joint.
+    /// The base parameters of a set of all parameters, ten of each body and of each joint the first
+    /// N of [`OfJoint`](crate::OfJoint).
     #[must_use]
-    pub fn of_all(&self, bodies: &[[f64; 10]; B], joints: &[[f64; 4]; V]) -> Vec<f64> {
+    pub fn of_all<const N: usize>(
+        &self,
+        bodies: &[[f64; 10]; B],
+        joints: &[[f64; N]; V],
+    ) -> Vec<f64> {
+        let joints = crate::columns::padded(joints);
         let all = bodies.as_flattened().iter().chain(joints.as_flattened());
         let all = DVector::from_iterator(10 * B + OF_JOINT * V, all.copied());
         (&self.grouping * all).iter().copied().collect()

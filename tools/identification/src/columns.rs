@@ -1,4 +1,4 @@
-//! The columns of the regression: ten parameters of each body, four of each joint.
+//! The columns of the regression: ten parameters of each body, six of each joint.
 
 use std::fmt;
 
@@ -7,16 +7,43 @@ use dynamics_core::effects::{Effect, Width};
 use dynamics_core::model::RobotModel;
 use dynamics_core::state::State;
 
-/// The parameters of a joint: viscous and Coulomb friction, armature, and the offset of its torque.
-pub const OF_JOINT: usize = 4;
+/// The parameters of a joint: viscous and Coulomb friction, armature, the offset of its torque,
+/// Stribeck's excess and the asymmetry of Coulomb friction.
+pub const OF_JOINT: usize = 6;
+
+/// The friction of joints in a model, which is linear in its parameters.
+///
+/// ```
+/// use dynamics_core::effects::Width;
+/// use identification::Friction;
+/// let friction: Friction = Width::new(0.02).into();
+/// assert_eq!(friction.stribeck, None);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Friction {
+    /// The speed w below which Coulomb friction fades, rad/s or m/s.
+    pub width: Width<f64>,
+    /// The speed v_s of [`Stribeck`](dynamics_core::effects::Stribeck), rad/s or m/s; without it
+    /// the model lacks this friction.
+    pub stribeck: Option<f64>,
+    /// Whether Coulomb friction may differ with direction, as in
+    /// [`AsymmetricCoulomb`](dynamics_core::effects::AsymmetricCoulomb).
+    pub asymmetric: bool,
+}
+
+impl From<Width<f64>> for Friction {
+    fn from(width: Width<f64>) -> Self {
+        Self { width, stribeck: None, asymmetric: false }
+    }
+}
 
 /// A parameter of an arm.
 ///
 /// ```
 /// use identification::{OfJoint, Parameter};
 /// let armature = Parameter::Joint { joint: 2, of: OfJoint::Armature };
-/// assert_eq!(armature.column(6), 60 + 2 * 4 + 2);
-/// assert_eq!(Parameter::at(70, 6), armature);
+/// assert_eq!(armature.column(6), 60 + 2 * 6 + 2);
+/// assert_eq!(Parameter::at(74, 6), armature);
 /// assert_eq!(Parameter::at(13, 6).to_string(), "body 1 m c_z");
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,10 +76,21 @@ pub enum OfJoint {
     Armature,
     /// The torque that is measured without any, N·m or N.
     Offset,
+    /// Friction at rest in excess of Coulomb friction, N·m or N.
+    Stribeck,
+    /// Half of the difference of Coulomb friction forward and backward, N·m or N.
+    Asymmetry,
 }
 
 impl OfJoint {
-    const ALL: [Self; OF_JOINT] = [Self::Viscous, Self::Coulomb, Self::Armature, Self::Offset];
+    pub(crate) const ALL: [Self; OF_JOINT] = [
+        Self::Viscous,
+        Self::Coulomb,
+        Self::Armature,
+        Self::Offset,
+        Self::Stribeck,
+        Self::Asymmetry,
+    ];
 }
 
 impl Parameter {
@@ -87,6 +125,8 @@ impl fmt::Display for Parameter {
                     OfJoint::Coulomb => "Coulomb friction",
                     OfJoint::Armature => "armature",
                     OfJoint::Offset => "offset",
+                    OfJoint::Stribeck => "Stribeck's excess",
+                    OfJoint::Asymmetry => "asymmetry",
                 };
                 write!(out, "joint {joint} {name}")
             }
@@ -95,11 +135,12 @@ impl fmt::Display for Parameter {
 }
 
 /// The torque of each joint per unit of each parameter: the regressor of the bodies, and q̇,
-/// s(q̇/w), q̈ and 1 of each joint.
+/// s = s(q̇/w), q̈, 1, e^{−(q̇/v_s)²} s and s² of each joint. A friction that the model lacks has a
+/// column of zeros, which is no base parameter.
 pub(crate) fn columns<D, E, const B: usize, const V: usize>(
     robot: &D,
     scene: &E,
-    width: Width<f64>,
+    friction: Friction,
     state: &State<f64, V, V>,
 ) -> [Vec<f64>; V]
 where
@@ -107,13 +148,24 @@ where
     E: Effect<f64, B, V>,
 {
     let bodies = regressor(robot, state, scene);
-    let friction = friction_regressor(&state.qd, width);
+    let columns = friction_regressor(&state.qd, friction.width);
     std::array::from_fn(|j| {
         let mut row = bodies[j].as_flattened().to_vec();
         row.resize(10 * B + OF_JOINT * V, 0.0);
-        let own = [friction[j][0], friction[j][1], state.qdd[j], 1.0];
+        let [viscous, sign] = columns[j];
+        let bell = |speed: f64| sign * (-(state.qd[j] / speed).powi(2)).exp();
+        let stribeck = friction.stribeck.map_or(0.0, bell);
+        let asymmetry = if friction.asymmetric { sign * sign } else { 0.0 };
+        let own = [viscous, sign, state.qdd[j], 1.0, stribeck, asymmetry];
         let at = 10 * B + OF_JOINT * j;
         row[at..at + OF_JOINT].copy_from_slice(&own);
         row
     })
+}
+
+/// The numbers of joints, with zeros for the last ones.
+pub(crate) fn padded<const N: usize, const V: usize>(
+    joints: &[[f64; N]; V],
+) -> [[f64; OF_JOINT]; V] {
+    joints.map(|own| std::array::from_fn(|k| own.get(k).copied().unwrap_or(0.0)))
 }

@@ -63,7 +63,7 @@ pub enum IdentificationError {
     /// The frequency up to which torques are compared is not positive, or too high for the ticks.
     #[error(
         "torques cannot be compared up to {cutoff} Hz: the ticks of the recording allow at most \
-         {most:.1} Hz"
+         {most:.1} Hz; a lower --cutoff, or none, which takes the highest up to 10 Hz"
     )]
     Cutoff {
         /// The frequency, Hz.

@@ -13,6 +13,7 @@ use dynamics_core::model::RobotModel;
 use dynamics_core::state::State;
 use nalgebra::DMatrix;
 
+use crate::columns::padded;
 use crate::gears::{DEFLECTIONS, Moving};
 use crate::physical::most_probable;
 use crate::reduced::{Filters, Reduced};
@@ -107,6 +108,8 @@ pub struct Fitted<const V: usize> {
 pub struct Comparison<const V: usize> {
     /// s since the start of the recording.
     pub times: Vec<f64>,
+    /// The speeds of the joints, rad/s or m/s.
+    pub speeds: Vec<[f64; V]>,
     /// The measured torques, N·m or N.
     pub measured: Vec<[f64; V]>,
     /// Those of each model.
@@ -125,6 +128,16 @@ impl Fit {
     #[must_use]
     pub fn new(tick: f64) -> Self {
         Self { cutoff: 10.0, delay: 0.5 * tick, prior: 0.5 }
+    }
+
+    /// The highest [`cutoff`](Self::cutoff) for ticks of this length, s.
+    ///
+    /// ```
+    /// assert_eq!(identification::Fit::highest(4e-3).floor(), 8.0);
+    /// ```
+    #[must_use]
+    pub fn highest(tick: f64) -> f64 {
+        Filters::highest(tick)
     }
 
     /// The base parameters by a recording and a `nominal` set of them, of which those that are
@@ -174,9 +187,9 @@ impl Fit {
         for tried in gears.iter().flat_map(Gears::scan).collect::<Vec<_>>() {
             let reduced = self.columns(&filters, arm, recording, nominal, Some(tried))?;
             let equations = Equations::of(&reduced, &target);
-            let residuals = equations.residuals(&equations.solve(&noise, &ridge).estimate);
+            let found = equations.solve(&noise, &ridge).estimate;
             for (j, least) in least.iter_mut().enumerate() {
-                let square = equations.joint(&residuals, j).iter().map(|x| x * x).sum::<f64>();
+                let square = equations.square(&found, j);
                 if square < *least {
                     *least = square;
                     let of = |gears: Gears<V>| {
@@ -190,12 +203,10 @@ impl Fit {
         let (mut solved, mut equations) = (None, Equations::of(&reduced, &target));
         for pass in 0..PASSES {
             let found = equations.solve(&noise, &ridge);
-            let residuals = equations.residuals(&found.estimate);
             let mut change = 0.0_f64;
             for (j, noise) in noise.iter_mut().enumerate() {
-                let own = equations.joint(&residuals, j);
-                let free = own.len() as f64 - equations.of_joint(&found.leverages, j);
-                let square = own.iter().map(|x| x * x).sum::<f64>() / free.max(1.0);
+                let free = equations.count as f64 - equations.of_joint(&found.leverages, j);
+                let square = equations.square(&found.estimate, j) / free.max(1.0);
                 let new = square.sqrt().max(LEAST * arm.limits.torque[j]);
                 change = change.max((new / *noise - 1.0).abs());
                 *noise = new;
@@ -207,18 +218,16 @@ impl Fit {
                 reduced = self.columns(&filters, arm, recording, base, gears)?;
                 equations = Equations::of(&reduced, &target);
             }
-            solved = Some((found, residuals));
+            solved = Some(found);
             if done {
                 break;
             }
         }
-        let (solved, residuals) = solved.expect("a pass");
+        let solved = solved.expect("a pass");
         let lags = (CORRELATED / (filters.seconds(recording.tick()))).ceil() as usize;
-        let mut squares = vec![1.0; ridge.len() + residuals.len()];
-        for j in 0..V {
-            let own = equations.joint(&residuals, j);
-            let count = own.len();
-            squares[j * count..(j + 1) * count].fill(inflation(own, lags));
+        let mut squares = vec![1.0; equations.rows.nrows()];
+        for (j, squares) in squares.chunks_mut(equations.each).take(V).enumerate() {
+            squares.fill(inflation(&residuals(&reduced, &solved.estimate, j), lags));
         }
         let root = solved.deviations(&squares);
         // The bodies that go with these gears: what is known of them if the gears are.
@@ -265,8 +274,9 @@ impl Fit {
     {
         let filters = Filters::new(self.cutoff, self.delay, recording.tick())?;
         let width = models.len() + 1;
-        let moving =
-            |(_, gears): &Modelled<'_, V>| gears.map(|of| Moving::new(of, arm.width.get()));
+        let moving = |(_, gears): &Modelled<'_, V>| {
+            gears.map(|of| Moving::new(of, arm.friction.width.get()))
+        };
         let mut moving: Vec<_> = models.iter().map(moving).collect();
         let reduced = filters.reduce(recording, |state, start| {
             let rows = arm.rows(state);
@@ -290,6 +300,7 @@ impl Fit {
         Ok(Comparison {
             measured: column(models.len()),
             modelled: (0..models.len()).map(column).collect(),
+            speeds: reduced.states.iter().map(|state| state.qd).collect(),
             times: reduced.times,
         })
     }
@@ -309,7 +320,7 @@ impl Fit {
         E: Effect<f64, B, V>,
     {
         let (p, extra) = (estimate.len(), gears.map_or(0, |gears| gears.each() * V));
-        let mut moving = gears.map(|gears| Moving::new(gears, arm.width.get()));
+        let mut moving = gears.map(|gears| Moving::new(gears, arm.friction.width.get()));
         let mut reduced = filters.reduce(recording, |state: &State<f64, V, V>, start| {
             let mut rows = arm.rows(state);
             if let Some(moving) = &mut moving {
@@ -355,31 +366,32 @@ fn inflation(residuals: &[f64], lags: usize) -> f64 {
     (1.0 + 2.0 * sum).max(1.0)
 }
 
-/// The filtered rows of all joints, and those of the prior below them.
+/// The filtered rows of all joints, and those of the prior below them. Those of a joint, which have
+/// one weight, are reduced to the factor R of [rows, torques] = Q R: sums of squares remain.
 struct Equations {
     rows: DMatrix<f64>,
     right: DMatrix<f64>,
-    /// Rows of a joint.
+    /// Rows of a joint, and those before.
     each: usize,
+    count: usize,
 }
 
 impl Equations {
     fn of<const V: usize>(reduced: &Reduced<V>, target: &[f64]) -> Self {
-        let (each, p) = (reduced.times.len(), target.len());
+        let (count, p) = (reduced.times.len(), target.len());
+        let each = count.min(p + 1);
         let mut rows = DMatrix::zeros(V * each + p, p);
         let mut right = DMatrix::zeros(V * each + p, 1);
         for (j, all) in reduced.rows.iter().enumerate() {
-            for (k, row) in all.chunks_exact(p + 1).enumerate() {
-                let at = j * each + k;
-                row[..p].iter().enumerate().for_each(|(i, y)| rows[(at, i)] = *y);
-                right[(at, 0)] = row[p];
-            }
+            let factor = DMatrix::from_row_slice(count, p + 1, all).qr().r();
+            rows.view_mut((j * each, 0), (each, p)).copy_from(&factor.columns(0, p));
+            right.view_mut((j * each, 0), (each, 1)).copy_from(&factor.columns(p, 1));
         }
         for (i, value) in target.iter().enumerate() {
             rows[(V * each + i, i)] = 1.0;
             right[(V * each + i, 0)] = *value;
         }
-        Self { rows, right, each }
+        Self { rows, right, each, count }
     }
 
     /// With the noise of each joint, and the deviation of each prior.
@@ -391,20 +403,27 @@ impl Equations {
         })
     }
 
-    /// Residuals of the measured rows, N·m or N.
-    fn residuals(&self, estimate: &nalgebra::DVector<f64>) -> Vec<f64> {
-        let measured = self.rows.nrows() - self.rows.ncols();
-        let all = &self.right - &self.rows * estimate;
-        all.as_slice()[..measured].to_vec()
-    }
-
-    fn joint<'a>(&self, all: &'a [f64], joint: usize) -> &'a [f64] {
-        &all[joint * self.each..(joint + 1) * self.each]
+    /// The sum of the squares of a joint's residuals, N·m or N.
+    fn square(&self, estimate: &nalgebra::DVector<f64>, joint: usize) -> f64 {
+        let own = |of: &DMatrix<f64>| of.rows(joint * self.each, self.each).into_owned();
+        (own(&self.right) - own(&self.rows) * estimate).norm_squared()
     }
 
     fn of_joint(&self, all: &nalgebra::DVector<f64>, joint: usize) -> f64 {
-        self.joint(all.as_slice(), joint).iter().sum()
+        all.rows(joint * self.each, self.each).sum()
     }
+}
+
+/// The residuals of a joint's rows, N·m or N.
+fn residuals<const V: usize>(
+    reduced: &Reduced<V>,
+    estimate: &nalgebra::DVector<f64>,
+    joint: usize,
+) -> Vec<f64> {
+    let p = estimate.len();
+    let row =
+        |row: &[f64]| row[p] - row.iter().zip(estimate).map(|(y, beta)| y * beta).sum::<f64>();
+    reduced.rows[joint].chunks_exact(p + 1).map(row).collect()
 }
 
 impl<const V: usize> Fitted<V> {
@@ -431,17 +450,17 @@ impl<const V: usize> Fitted<V> {
     /// # Errors
     /// [`IdentificationError::ImpossibleBody`] names a nominal body without a positive definite
     /// pseudo-inertia.
-    pub fn physical<D, E, const B: usize>(
+    pub fn physical<D, E, const B: usize, const N: usize>(
         &self,
         arm: &BaseModel<D, E, B, V>,
         bodies: &[[f64; 10]; B],
-        joints: &[[f64; 4]; V],
+        joints: &[[f64; N]; V],
         share: f64,
     ) -> Result<PhysicalSet<B, V>, IdentificationError>
     where
         D: RobotModel<f64, B, V, V>,
         E: Effect<f64, B, V>,
     {
-        most_probable(&self.base, &self.root, arm, bodies, joints, share)
+        most_probable(&self.base, &self.root, arm, bodies, &padded(joints), share)
     }
 }

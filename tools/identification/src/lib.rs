@@ -10,7 +10,7 @@
 //! | base parameters with standard deviations | [`Batch`], [`Identified`] |
 //! | the same from ticks of any motion | [`TickRecording`], [`Fit`], [`Fitted`] |
 //! | parameters of each body that are possible | [`PhysicalSet`] |
-//! | the parameters of a robot's file, from a record of `cargo xtask watch` | module `files`, with the feature of this name |
+//! | the parameters of a robot's file, from a record of `cargo xtask watch` | module `files`, with the feature of this name; from arrays, with the feature `arrays` |
 //!
 //! The recursive estimator for the tick is `motion_control::ParameterEstimator`.
 //!
@@ -64,7 +64,7 @@ mod batch;
 mod columns;
 mod error;
 mod export;
-#[cfg(feature = "files")]
+#[cfg(feature = "arrays")]
 #[allow(missing_docs, reason = "the program `identify` and its tests call it")]
 pub mod files;
 mod fit;
@@ -83,7 +83,7 @@ mod ticks;
 
 pub use base::BaseModel;
 pub use batch::Batch;
-pub use columns::{OfJoint, Parameter};
+pub use columns::{Friction, OF_JOINT, OfJoint, Parameter};
 pub use error::IdentificationError;
 pub use fit::{Comparison, Fit, Fitted, Modelled};
 pub use fourier::{FourierMotion, PeriodicReference};

@@ -7,6 +7,7 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use identification::files::error::{Error, Result};
+use identification::files::map::Map;
 use identification::files::recorded::Recorded;
 use identification::files::robot::Robot;
 use identification::files::run::{self, JointEffect, Options};
@@ -15,12 +16,15 @@ use identification::files::{paste, picture};
 /// The parameters of a robot's file from a recording of its ticks
 #[derive(Parser)]
 struct Args {
-    /// The recording: `cargo xtask watch --record FILE.csv`
-    #[arg(value_name = "CSV")]
+    /// The recording: of `cargo xtask watch --record FILE`, or any CSV or MCAP with --columns
+    #[arg(value_name = "FILE")]
     recording: PathBuf,
     /// The description of the robot, URDF or MJCF
     #[arg(long, value_name = "FILE")]
     robot: PathBuf,
+    /// Which columns of the recording are what, in which units; of a known layout not needed
+    #[arg(long, value_name = "TOML")]
+    columns: Option<PathBuf>,
     /// The robot's name in its Rust file: that of the project's folder; that of the description if
     /// not given
     #[arg(long, value_name = "NAME")]
@@ -34,21 +38,22 @@ struct Args {
     )]
     effects: Vec<JointEffect>,
     /// Compare with this recording of another path, instead of with the last part of the first one
-    #[arg(long, value_name = "CSV")]
+    #[arg(long, value_name = "FILE")]
     validate: Option<PathBuf>,
     /// The speed below which Coulomb friction fades, rad/s or m/s
     #[arg(long, value_name = "W", default_value = "0.02", value_parser = positive)]
     width: f64,
-    /// Compare torques up to this frequency, Hz
-    #[arg(long, value_name = "HZ", default_value = "10", value_parser = positive)]
-    cutoff: f64,
+    /// Compare torques up to this frequency, Hz; the highest that the ticks allow, at most 10, if
+    /// not given
+    #[arg(long, value_name = "HZ", value_parser = positive)]
+    cutoff: Option<f64>,
     /// Write the robot's Rust file with what was found
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
     /// Print JSON instead of text
     #[arg(long)]
     json: bool,
-    /// Draw the torques into this file; beside the recording, with the ending .torques.svg, if not
+    /// Draw torques, residuals and friction into this file; beside the recording, with the ending .torques.svg, if not
     /// given
     #[arg(long, value_name = "SVG")]
     picture: Option<PathBuf>,
@@ -83,14 +88,18 @@ fn main() -> ExitCode {
 fn run(args: &Args) -> Result<(String, Option<Error>)> {
     let beside = || args.recording.with_extension("torques.svg");
     let picture = args.picture.clone().unwrap_or_else(beside);
-    let inputs = [&args.recording, &args.robot].into_iter().chain(&args.validate);
+    let inputs =
+        [&args.recording, &args.robot].into_iter().chain(&args.validate).chain(&args.columns);
     let inputs: Vec<&Path> = inputs.map(PathBuf::as_path).collect();
     let outputs: Vec<&Path> = args.out.iter().chain([&picture]).map(PathBuf::as_path).collect();
     robot_import::outputs::are_apart(&inputs, &outputs)
         .map_err(|error| Error::Output(error.into()))?;
-    let recorded = Recorded::read(&args.recording)?;
-    let other = args.validate.as_deref().map(Recorded::read).transpose()?;
+    let map = args.columns.as_deref().map(Map::read).transpose()?;
     let robot = Robot::read(&args.robot, args.name.as_deref(), &args.options)?;
+    let names = robot.joints();
+    let read = |path: &Path| Recorded::read(path, &names, map.as_ref());
+    let recorded = read(&args.recording)?;
+    let other = args.validate.as_deref().map(read).transpose()?;
     let options = Options {
         effects: args.effects.clone(),
         width: args.width,

@@ -13,7 +13,7 @@ use dynamics_core::effects::Effect;
 use dynamics_core::model::RobotModel;
 use nalgebra::{DMatrix, DVector, Matrix4};
 
-use crate::columns::OF_JOINT;
+use crate::columns::{OF_JOINT, padded};
 use crate::{BaseModel, IdentificationError, Identified};
 
 /// The share of the nominal pseudo-inertia and friction that remains in all directions: more than
@@ -26,8 +26,9 @@ const LEAST: f64 = 1e-5;
 const STEPS: usize = 20_000;
 /// The change of a step, in relative units, from which on the set is final.
 const FINAL: f64 = 1e-9;
-/// Offsets may be this times the torque of a joint.
+/// Offsets and asymmetries may be this times the torque of a joint, and of either sign.
 const OFFSETS: f64 = 0.1;
+const FREE: [usize; 2] = [3, 5];
 
 /// Parameters that an arm can have: its bodies' pseudo-inertias are positive definite and its
 /// frictions positive.
@@ -37,7 +38,7 @@ pub struct PhysicalSet<const B: usize, const V: usize> {
     /// [`inertial_parameters`](dynamics_core::algorithms::inertial_parameters).
     pub bodies: [[f64; 10]; B],
     /// Those of each joint, in the order of [`OfJoint`](crate::OfJoint).
-    pub joints: [[f64; 4]; V],
+    pub joints: [[f64; OF_JOINT]; V],
     /// The root mean square of the differences from the estimate, in standard deviations: far above
     /// one if no possible arm has the estimate, for example because the friction of the model is
     /// another one than the arm's.
@@ -50,23 +51,24 @@ impl<const V: usize> Identified<V> {
     ///
     /// Parameters that the motion does not distinguish remain as near to the nominal numbers as the
     /// estimate allows. A body without mass and a viscous friction, a Coulomb friction or an
-    /// armature of zero remains so; an offset is free.
+    /// armature of zero remains so; an offset is free. Each joint has the first N of
+    /// [`OfJoint`](crate::OfJoint).
     ///
     /// # Errors
     /// [`IdentificationError::ImpossibleBody`] names a nominal body without a positive definite
     /// pseudo-inertia.
-    pub fn physical<D, E, const B: usize>(
+    pub fn physical<D, E, const B: usize, const N: usize>(
         &self,
         arm: &BaseModel<D, E, B, V>,
         bodies: &[[f64; 10]; B],
-        joints: &[[f64; 4]; V],
+        joints: &[[f64; N]; V],
         share: f64,
     ) -> Result<PhysicalSet<B, V>, IdentificationError>
     where
         D: RobotModel<f64, B, V, V>,
         E: Effect<f64, B, V>,
     {
-        most_probable(&self.base, &self.root, arm, bodies, joints, share)
+        most_probable(&self.base, &self.root, arm, bodies, &padded(joints), share)
     }
 }
 
@@ -76,7 +78,7 @@ pub(crate) fn most_probable<D, E, const B: usize, const V: usize>(
     deviations: &DMatrix<f64>,
     arm: &BaseModel<D, E, B, V>,
     bodies: &[[f64; 10]; B],
-    joints: &[[f64; 4]; V],
+    joints: &[[f64; OF_JOINT]; V],
     share: f64,
 ) -> Result<PhysicalSet<B, V>, IdentificationError>
 where
@@ -182,7 +184,7 @@ fn numbers(matrix: &Matrix4<f64>) -> [f64; 10] {
 /// offset a share of the torque.
 fn units<const B: usize, const V: usize>(
     roots: &[Option<Matrix4<f64>>; B],
-    joints: &[[f64; 4]; V],
+    joints: &[[f64; OF_JOINT]; V],
     torque: &[f64; V],
 ) -> DMatrix<f64> {
     let n = 10 * B + OF_JOINT * V;
@@ -198,8 +200,9 @@ fn units<const B: usize, const V: usize>(
         }
     }
     for (joint, (nominal, torque)) in joints.iter().zip(torque).enumerate() {
-        let [viscous, coulomb, armature, _] = *nominal;
-        let own = [viscous, coulomb, armature, OFFSETS * torque];
+        let [viscous, coulomb, armature, _, stribeck, _] = *nominal;
+        let free = OFFSETS * torque;
+        let own = [viscous, coulomb, armature, free, stribeck, free];
         for (k, unit) in own.into_iter().enumerate() {
             let at = 10 * B + OF_JOINT * joint + k;
             units[(at, at)] = unit;
@@ -210,14 +213,15 @@ fn units<const B: usize, const V: usize>(
 
 fn nominal<const B: usize, const V: usize>(
     roots: &[Option<Matrix4<f64>>; B],
-    joints: &[[f64; 4]; V],
+    joints: &[[f64; OF_JOINT]; V],
     units: &DMatrix<f64>,
 ) -> DVector<f64> {
     let one = numbers(&Matrix4::identity());
     let bodies = roots.iter().flat_map(|_| one);
-    let own = joints.iter().enumerate().flat_map(|(joint, [.., offset])| {
+    let own = joints.iter().enumerate().flat_map(|(joint, [_, _, _, offset, _, asymmetry])| {
         let at = 10 * B + OF_JOINT * joint + 3;
-        [1.0, 1.0, 1.0, offset / units[(at, at)]]
+        let free = units[(at, at)];
+        [1.0, 1.0, 1.0, offset / free, 1.0, asymmetry / free]
     });
     DVector::from_iterator(units.ncols(), bodies.chain(own))
 }
@@ -236,7 +240,7 @@ fn possible<const B: usize>(x: &DVector<f64>) -> DVector<f64> {
         nearest.rows_mut(10 * body, 10).copy_from_slice(&clipped);
     }
     for (k, value) in nearest.iter_mut().enumerate().skip(10 * B) {
-        if (k - 10 * B) % OF_JOINT != 3 {
+        if !FREE.contains(&((k - 10 * B) % OF_JOINT)) {
             *value = value.max(MARGIN);
         }
     }

@@ -35,14 +35,18 @@ impl Filters {
     pub fn new(cutoff: f64, delay: f64, tick: f64) -> Result<Self, IdentificationError> {
         let width = LowPass::width(POSITIONS * cutoff * tick);
         if !(width >= NARROWEST && width.is_finite()) {
-            let most = LowPass::width(POSITIONS * tick) / NARROWEST;
-            return Err(IdentificationError::Cutoff { cutoff, most });
+            return Err(IdentificationError::Cutoff { cutoff, most: Self::highest(tick) });
         }
         Ok(Self {
             positions: LowPass::new(width, delay / tick),
             rows: LowPass::new(LowPass::width(cutoff * tick), 0.0),
             step: (1.0 / (ROWS * cutoff * tick)).floor().max(1.0) as usize,
         })
+    }
+
+    /// The highest frequency for such ticks, Hz.
+    pub fn highest(tick: f64) -> f64 {
+        LowPass::width(POSITIONS * tick) / NARROWEST
     }
 
     /// The time from one row to the next, s.

@@ -263,7 +263,7 @@ pub(crate) fn index_of<'a>(
 
 /// The name that differs by the fewest letters, if that is at most a third of them; otherwise the
 /// one with the longest common beginning, if that is more than one letter.
-pub(crate) fn most_similar<'a>(
+pub fn most_similar<'a>(
     name: &str,
     names: impl Iterator<Item = &'a str> + Clone,
 ) -> Option<&'a str> {

@@ -73,6 +73,17 @@ RIGID_BODY: Scene
 
 def _robot(numbers: str) -> Robot: ...
 def _scene(effects: str) -> Scene: ...
+def identify(
+    robot_file: str | os.PathLike[str],
+    time: npt.NDArray[Any],
+    q: npt.NDArray[Any],
+    tau: npt.NDArray[Any],
+    *,
+    joints: Sequence[str] | None = None,
+    effects: Sequence[str] = ...,
+    width: float = 0.02,
+    cutoff: float | None = None,
+) -> dict[str, Any]: ...
 def robots() -> list[str]: ...
 def threads() -> int: ...
 @final

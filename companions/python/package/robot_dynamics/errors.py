@@ -14,6 +14,7 @@ __all__ = [
     "DescriptionError",
     "DtypeError",
     "EffectError",
+    "IdentificationError",
     "LinkageError",
     "LoopModelError",
     "LoopOpen",
@@ -120,6 +121,10 @@ class EffectError(RobotDynamicsError, ValueError):
     """An effect that a scene or a robot cannot have."""
 
     effect: str
+
+
+class IdentificationError(RobotDynamicsError, ValueError):
+    """A robot or a recording from which no parameters follow."""
 
 
 class NotPositiveDefinite(RobotDynamicsError, ArithmeticError):

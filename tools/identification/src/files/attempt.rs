@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 use std::path::Path;
 
 use crate::{
-    BaseModel, ExcitationLimits, Fit, Fitted, Gears, IdentificationError, OfJoint, Parameter,
-    PhysicalSet, TickRecording,
+    BaseModel, ExcitationLimits, Fit, Fitted, Friction, Gears, IdentificationError, OF_JOINT,
+    OfJoint, Parameter, PhysicalSet, TickRecording,
 };
 use dynamics_core::effects::{Coriolis, Gravity, Inertia, RIGID_BODY, Width};
 use dynamics_core::model::ArmModel;
@@ -16,6 +16,10 @@ use super::robot::Robot;
 
 /// The trust in the numbers of a description: a relative standard deviation.
 const BELIEVED: f64 = 0.3;
+/// The share of the highest frequency of the ticks up to which torques are compared.
+const UNDER: f64 = 0.999;
+/// The speeds of Stribeck's effect that are tried, relative to the width of the smooth sign.
+pub(crate) const SPEEDS: [f64; 5] = [2.0, 4.0, 8.0, 16.0, 32.0];
 /// The range of a joint without limits, rad, and the least speed and acceleration that are
 /// compared, rad/s and rad/s².
 const TURN: f64 = PI;
@@ -36,14 +40,16 @@ pub struct Options {
     pub effects: Vec<JointEffect>,
     /// The width of the smooth sign of Coulomb friction, rad/s or m/s.
     pub width: f64,
-    /// The frequency up to which torques are compared, Hz.
-    pub cutoff: f64,
+    /// The frequency up to which torques are compared, Hz; if not given, 10 Hz or the highest one
+    /// that the ticks allow.
+    pub cutoff: Option<f64>,
     /// The share of the ticks that is held out, where there is no other recording.
     pub hold_out: f64,
 }
 
 /// An effect at joints.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum, serde::Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum JointEffect {
     /// Viscous friction
     Viscous,
@@ -57,6 +63,10 @@ pub enum JointEffect {
     Preslide,
     /// A constant torque
     Offset,
+    /// Friction that falls from rest to sliding
+    Stribeck,
+    /// Coulomb friction that differs with direction
+    Asymmetric,
 }
 
 pub(crate) type Base<const V: usize> =
@@ -74,16 +84,31 @@ pub(crate) struct Attempt<const V: usize> {
     /// The mean squares of what the set leaves of the torques, relative to the joints' largest
     /// torques, summed.
     pub residual: f64,
+    /// The speed of Stribeck's effect, rad/s or m/s.
+    pub stribeck: Option<f64>,
 }
 
-/// Viscous and Coulomb friction, armature and offset of a joint.
-type OfOneJoint = [f64; 4];
+/// The parameters of a joint in the order of [`OfJoint`].
+pub(crate) type OfOneJoint = [f64; OF_JOINT];
 
 /// A robot, the file of its recording, and what is identified.
 pub(crate) struct Task<'a> {
     pub robot: &'a Robot,
     pub path: &'a Path,
     pub options: &'a Options,
+    /// Whether torques are held for a tick.
+    pub held: bool,
+}
+
+/// The estimate of a part of a recording.
+pub(crate) struct Estimate<const V: usize> {
+    pub arm: Base<V>,
+    pub bodies: [[f64; 10]; V],
+    pub joints: [OfOneJoint; V],
+    pub nominal: Vec<f64>,
+    pub known: Vec<bool>,
+    pub fit: Fit,
+    pub found: Fitted<V>,
 }
 
 impl Task<'_> {
@@ -92,23 +117,32 @@ impl Task<'_> {
         Error::Identification { path, source }
     }
 
-    /// The fit of a part of a recording, with torques so long after the positions, s; estimated if
-    /// not given.
-    pub fn attempt<const V: usize>(
+    /// The estimate with these effects and this speed of Stribeck's effect, with torques so long
+    /// after the positions, s; estimated if not given.
+    pub fn estimate<const V: usize>(
         &self,
-        whole: &TickRecording<V>,
-        part: &TickRecording<V>,
+        [whole, part]: [&TickRecording<V>; 2],
+        effects: &[JointEffect],
+        stribeck: Option<f64>,
         delay: Option<f64>,
-    ) -> Result<Attempt<V>> {
+    ) -> Result<Estimate<V>> {
         let options = self.options;
         let (model, bodies, joints) = self.robot.model::<V>()?;
         let limits = limits(self.robot, self.path, whole)?;
         let largest = limits.torque;
-        let arm = Base::<V>::new(model, RIGID_BODY, Width::new(options.width), limits);
+        let asymmetric = effects.contains(&JointEffect::Asymmetric);
+        let friction = Friction { width: Width::new(options.width), stribeck, asymmetric };
+        let arm = Base::<V>::new(model, RIGID_BODY, friction, limits);
         let nominal = arm.of_all(&bodies, &joints);
-        let known = known(&arm, &options.effects);
-        let mut fit = Fit { cutoff: options.cutoff, ..Fit::new(part.tick()) };
-        let gears = options.effects.iter().find_map(|effect| match effect {
+        let known = known(&arm, effects);
+        let tick = part.tick();
+        let own = Fit::new(tick);
+        let cutoff = options.cutoff.unwrap_or(own.cutoff.min(UNDER * Fit::highest(tick)));
+        let mut fit = Fit { cutoff, ..own };
+        if !self.held {
+            fit.delay = 0.0;
+        }
+        let gears = effects.iter().find_map(|effect| match effect {
             JointEffect::Load => Some(Gears::Load([[0.0; 2]; V])),
             JointEffect::Preslide => Some(Gears::Presliding([[0.0; 3]; V])),
             _ => None,
@@ -119,9 +153,44 @@ impl Task<'_> {
                 fit.delay = delay;
                 run(&fit)
             }
-            None => delay::least(&mut fit, &largest, run),
+            None => delay::least(&mut fit, tick, &largest, run),
         }
         .map_err(|source| self.failed(source))?;
+        Ok(Estimate { arm, bodies, joints, nominal, known, fit, found })
+    }
+
+    /// The speed of Stribeck's effect that leaves the least of the torques, if it is identified.
+    fn stribeck<const V: usize>(&self, parts: [&TickRecording<V>; 2]) -> Result<Option<f64>> {
+        let effects = &self.options.effects;
+        if !effects.contains(&JointEffect::Stribeck) {
+            return Ok(None);
+        }
+        let first = self.estimate(parts, effects, None, None)?;
+        let each = SPEEDS.map(|times| {
+            let speed = times * self.options.width;
+            let found = self.estimate(parts, effects, Some(speed), Some(first.fit.delay))?.found;
+            Ok((found.noise.iter().map(|noise| noise.ln()).sum::<f64>(), speed))
+        });
+        let each = each.into_iter().collect::<Result<Vec<_>>>()?;
+        Ok(each.into_iter().min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, speed)| speed))
+    }
+
+    /// The fit of a part of a recording, with the delay and the speed of another fit.
+    pub fn attempt<const V: usize>(
+        &self,
+        whole: &TickRecording<V>,
+        part: &TickRecording<V>,
+        like: Option<&Attempt<V>>,
+    ) -> Result<Attempt<V>> {
+        let options = self.options;
+        let speed = match like {
+            Some(like) => like.stribeck,
+            None => self.stribeck([whole, part])?,
+        };
+        let delay = like.map(|like| like.fit.delay);
+        let estimate = self.estimate([whole, part], &options.effects, speed, delay)?;
+        let Estimate { arm, bodies, joints, nominal, known, fit, found } = estimate;
+        let largest = limits(self.robot, self.path, whole)?.torque;
         let believed = believed(&arm, &found, &nominal, &joints, &options.effects);
         let mut set = found
             .physical(&arm, &bodies, &believed, BELIEVED)
@@ -146,8 +215,14 @@ impl Task<'_> {
             (0..V).map(share).sum()
         };
         let residual = pairs.map(square).sum::<f64>() / compared.measured.len() as f64;
-        Ok(Attempt { arm, joints, nominal, known, fit, found, set, residual })
+        let stribeck = speed;
+        Ok(Attempt { arm, joints, nominal, known, fit, found, set, residual, stribeck })
     }
+}
+
+/// Stribeck's effect per excess.
+pub(crate) fn bell(sign: f64, qd: f64, speed: f64) -> f64 {
+    sign * (-(qd / speed).powi(2)).exp()
 }
 
 /// The friction of the gears that a gear can have.
@@ -229,6 +304,8 @@ fn known<const V: usize>(arm: &Base<V>, effects: &[JointEffect]) -> Vec<bool> {
             OfJoint::Coulomb => JointEffect::Coulomb,
             OfJoint::Armature => JointEffect::Armature,
             OfJoint::Offset => JointEffect::Offset,
+            OfJoint::Stribeck => JointEffect::Stribeck,
+            OfJoint::Asymmetry => JointEffect::Asymmetric,
         }),
     };
     let all = 0..arm.len();
@@ -241,14 +318,15 @@ fn believed<const V: usize>(
     arm: &Base<V>,
     found: &Fitted<V>,
     nominal: &[f64],
-    joints: &[[f64; 4]; V],
+    joints: &[OfOneJoint; V],
     effects: &[JointEffect],
-) -> [[f64; 4]; V] {
+) -> [OfOneJoint; V] {
     let mut believed = *joints;
     let kinds = [
         (OfJoint::Viscous, JointEffect::Viscous),
         (OfJoint::Coulomb, JointEffect::Coulomb),
         (OfJoint::Armature, JointEffect::Armature),
+        (OfJoint::Stribeck, JointEffect::Stribeck),
     ];
     let is_wanted = |of| kinds.iter().any(|(one, effect)| *one == of && effects.contains(effect));
     for (base, nominal) in nominal.iter().enumerate() {

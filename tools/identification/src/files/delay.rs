@@ -2,17 +2,15 @@
 //! itself.
 //!
 //! The sum of the squares of the residuals is nearly a parabola in this time, as long as the time
-//! is short relative to the periods of the motion. The minimum of a parabola through three values
-//! is taken, and again from there.
+//! is short relative to the periods of the motion. Of a scan, the minimum of the parabola through the
+//! least value and its neighbours is taken.
 
 use crate::{Fit, Fitted, IdentificationError};
 
-/// The distance of the three values, s; a tick if that is longer.
-const STEP: f64 = 5e-3;
-/// The farthest that one parabola reaches, s.
-const REACH: f64 = 20e-3;
-/// The largest number of parabolas.
-const PARABOLAS: usize = 4;
+/// The distance of delays that are compared, s; a tick if that is longer. So many of them on either
+/// side are compared.
+const STEP: f64 = 10e-3;
+const AROUND: i32 = 4;
 /// The minimum is taken if the squares of its residuals are below this share of those at half a
 /// tick.
 const SHARE: f64 = 0.9;
@@ -26,44 +24,36 @@ type Fits<const V: usize> = Result<Fitted<V>, IdentificationError>;
 /// another one.
 pub fn least<const V: usize>(
     fit: &mut Fit,
+    tick: f64,
     torque: &[f64; V],
     run: impl Fn(&Fit) -> Fits<V>,
 ) -> Fits<V> {
-    let at = |delay: f64| run(&Fit { delay, ..*fit });
     let score = |found: &Fitted<V>| -> f64 {
         let shares = found.noise.iter().zip(torque);
         shares.map(|(noise, torque)| (noise / torque).powi(2)).sum()
     };
-    let first = at(fit.delay)?;
-    let step = STEP.max(2.0 * fit.delay);
-    let (mut best, mut delay) = (first.clone(), fit.delay);
-    for _ in 0..PARABOLAS {
-        let beside = [at(delay - step), at(delay + step)];
-        // A recording too short for a later time says nothing of it.
-        let [Ok(early), Ok(late)] = beside else { break };
-        let [early, middle, late] = [&early, &best, &late].map(score);
-        let bend = early - 2.0 * middle + late;
-        if bend <= 0.0 {
-            break;
-        }
-        let change = (0.5 * step * (early - late) / bend).clamp(-REACH, REACH);
-        let Ok(next) = at(delay + change) else { break };
-        if score(&next) >= middle {
-            break;
-        }
-        (best, delay) = (next, delay + change);
-        if change.abs() < 0.1 * step {
-            break;
-        }
-    }
-    let is_shown = (delay - fit.delay).abs() > 2.0 * fit.delay;
+    let at = |change: f64| run(&Fit { delay: fit.delay + change, ..*fit });
+    let (first, step) = (at(0.0)?, STEP.max(tick));
+    // A recording too short for a later time says nothing of it.
+    let square =
+        |place: i32| at(step * f64::from(place)).map_or(f64::INFINITY, |found| score(&found));
+    let squares: Vec<f64> = (-AROUND..=AROUND).map(square).collect();
+    let least = (1..squares.len() - 1).min_by(|a, b| squares[*a].total_cmp(&squares[*b]));
+    let Some(at_least) = least else { return Ok(first) };
+    let [early, middle, late] = [at_least - 1, at_least, at_least + 1].map(|at| squares[at]);
+    let bend = (early - 2.0 * middle + late).max(f64::MIN_POSITIVE);
+    let place = (0.5 * (early - late) / bend).clamp(-1.0, 1.0) + at_least as f64;
+    let change = step * (place - f64::from(AROUND));
+    let is_shown = change.abs() > if fit.delay > 0.0 { tick } else { 0.5 * tick };
     let share = match first.gears {
         Some(_) => SHARE_WITH_GEARS,
         None => SHARE,
     };
-    if is_shown && score(&best) < share * score(&first) {
-        fit.delay = delay;
-        return Ok(best);
+    match at(change) {
+        Ok(found) if is_shown && score(&found) < share * score(&first) => {
+            fit.delay += change;
+            Ok(found)
+        }
+        _ => Ok(first),
     }
-    Ok(first)
 }

@@ -38,18 +38,11 @@ pub enum Error {
     /// A robot whose torques are not those of single joints.
     #[error("{}: {reason}", path.display())]
     Unsuitable { path: PathBuf, reason: String },
-    /// The recording is of another robot.
-    #[error(
-        "{} has {recorded} joints, but the robot of {} has {described} ({names}): --tip, --joints, \
-         --without or --lock select those that were recorded",
-        recording.display(), robot.display()
-    )]
-    Joints { recording: PathBuf, recorded: usize, robot: PathBuf, described: usize, names: String },
     /// The joint was where the description does not allow it to be.
     #[error(
         "{}: joint {joint} (`{name}`) was at {position:.3}, its limits in {} are {lower:.3} and \
-         {upper:.3}: is the recording of this robot, with the zeros of its encoders?",
-        recording.display(), robot.display()
+         {upper:.3}: {}",
+        recording.display(), robot.display(), beyond(*position, [*lower, *upper])
     )]
     Outside {
         recording: PathBuf,
@@ -77,40 +70,77 @@ pub enum Error {
     Json(#[from] serde_json::Error),
 }
 
+/// What a position beyond the limits may be.
+fn beyond(position: f64, [lower, upper]: [f64; 2]) -> &'static str {
+    match (lower - 0.1..=upper + 0.1).contains(&position.to_radians()) {
+        true => "are the positions in degrees? A map says so: position_unit = \"deg\" (--columns)",
+        false => "is the recording of this robot, with the zeros of its encoders?",
+    }
+}
+
 /// A mistake in a recording.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Problem {
-    #[error("it has no titles: is it a record of `cargo xtask watch --record FILE.csv`?")]
+    #[error("it has no titles")]
     Empty,
-    #[error("it lacks the column `{0}` of a record of `cargo xtask watch --record FILE.csv`")]
-    NoColumn(String),
-    #[error("it has the column `{0}` twice")]
-    Twice(String),
+    #[error("the map of columns: {0}")]
+    Map(String),
+    #[error(
+        "no layout that is known has these columns: give --columns MAP.toml, with lines such as \
+         time = \"timestamp\", time_unit = \"s\", position = \"{{joint}}.pos\", position_unit = \
+         \"deg\", torque = \"{{joint}}.torque\", torque_unit = \"Nm\". The robot's joints: {joints}. The \
+         record's columns: {titles}"
+    )]
+    Unknown { titles: String, joints: String },
+    #[error("{}{}", lacks(missing, titles), to_write(unstated))]
+    Columns { missing: String, unstated: Vec<String>, titles: String },
+    #[error(
+        "it has the column `{title}`, but the robot has the joints {joints} only: --tip, --joints, \
+         --without or --lock select those that were recorded"
+    )]
+    MoreJoints { title: String, joints: String },
     #[error("{found} columns in place of {expected}")]
-    Columns { found: usize, expected: usize },
+    Fields { found: usize, expected: usize },
     #[error("the line has more than {0} bytes")]
     LongLine(usize),
     #[error("the line is no text in UTF-8")]
     NoText,
     #[error("column `{column}`: `{text}` is not {expected}")]
     Value { column: String, text: String, expected: &'static str },
-    #[error(
-        "column `number`: {number} follows {before}: each tick has a greater number than the one \
-         before; two runs are two files"
-    )]
-    Order { number: u32, before: u32 },
-    #[error("column `time_s`: {found} s in place of {expected} s, which the tick of {tick} s says")]
-    Time { found: f64, expected: f64, tick: f64 },
-    #[error("{0} joints are more than {max}", max = crate::files::MOST_JOINTS)]
-    TooManyJoints(usize),
     #[error("more than {0} ticks")]
     TooLong(usize),
-    #[error("it has no two ticks with a time, from which the length of a tick follows")]
-    NoTick,
+    #[error("{backward} of {rows} times go back: two runs are two files")]
+    Backward { backward: usize, rows: usize },
     #[error(
-        "no tick has the mode `full`, in which the controller makes the torque: the arm was on \
-         hold or stopped"
+        "its rows are {0:.3e} s apart, of which no motion of a robot is read: is `time_unit` right?"
     )]
-    NoTicks,
+    Rate(f64),
+    #[error(
+        "intervals differ from {interval:.6} s by {jitter:.0} % of it, RMS: they are no samples at a rate"
+    )]
+    Jitter { interval: f64, jitter: f64 },
+    #[error("it has no two rows with a time, from which the length of a tick follows")]
+    NoTick,
+    #[error("no row has `{column}` = `{is}`, in which the controller makes the torque")]
+    NoRows { column: String, is: String },
+    #[error("MCAP: {0}")]
+    Mcap(String),
+}
+
+fn lacks(missing: &str, titles: &str) -> String {
+    match missing.is_empty() {
+        true => "what its columns are is not known in full".to_owned(),
+        false => format!("it lacks {missing}; it has {titles}"),
+    }
+}
+
+fn to_write(unstated: &[String]) -> String {
+    match unstated.is_empty() {
+        true => String::new(),
+        false => format!(
+            "; no unit is guessed: write into MAP.toml, for --columns,\n  {}",
+            unstated.join("\n  ")
+        ),
+    }
 }

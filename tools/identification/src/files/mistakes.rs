@@ -15,6 +15,8 @@ pub const IMPOSSIBLE: f64 = 3.0;
 const UNEXPLAINED: f64 = 0.02;
 /// A mistake is reported if its correction lowers the mean square of the residuals to this share.
 const EXPLAINED: f64 = 0.6;
+/// The same of a zero, which also other centres of mass explain in part.
+const EXPLAINED_BY_ZERO: f64 = 0.85;
 /// The unit of torque is wrong if the torques exceed those of the description, or are exceeded by
 /// them, by this factor.
 const OTHER_UNIT: f64 = 5.0;
@@ -61,7 +63,7 @@ pub(crate) fn explains<const V: usize>(
 ) -> Option<Mistake> {
     let after = |correction: Correction<V>| {
         let [whole, part] = [whole, part].map(|recording| correction.of(recording));
-        let corrected = task.attempt(&whole, &part, Some(attempt.fit.delay));
+        let corrected = task.attempt(&whole, &part, Some(attempt));
         // Nothing is explained by a zero that leads beyond the joint's limits.
         corrected.map_or(f64::INFINITY, |corrected| corrected.residual)
     };
@@ -94,7 +96,11 @@ pub(crate) fn explains<const V: usize>(
     }
     tried.extend((0..V).filter_map(|joint| zero(joint, names, before, &after)));
     let best = tried.into_iter().min_by(|(a, _), (b, _)| a.total_cmp(b));
-    best.filter(|(left, _)| *left < EXPLAINED * before).map(|(_, mistake)| mistake)
+    let most = |mistake: &Mistake| match mistake {
+        Mistake::Zero { .. } => EXPLAINED_BY_ZERO,
+        _ => EXPLAINED,
+    };
+    best.filter(|(left, mistake)| *left < most(mistake) * before).map(|(_, mistake)| mistake)
 }
 
 /// The shift of a joint's zero that leaves the least residuals: the minimum of the parabola through

@@ -3,9 +3,12 @@
 //!
 //! | module | what |
 //! |---|---|
-//! | [`recorded`] | the ticks of a CSV that `cargo xtask watch` has recorded |
+//! | [`recorded`] | the ticks of a CSV, an MCAP or arrays |
+//! | [`map`] | which columns these are, and in which units |
+//! | [`resample`] | rows at uneven times |
 //! | [`robot`] | the robot of a URDF or MJCF, and its parameters |
 //! | [`run`] | the fit, its comparison with held-out ticks, and the physical set |
+//! | [`kinds`] | the kinds of friction that the model lacks and the recording carries |
 //! | [`mistakes`] | a unit, a sign or a zero that explains what no robot does |
 //! | [`report`] | what was found, as text and as JSON |
 //! | [`picture`] | the torques by time |
@@ -14,14 +17,27 @@
 mod attempt;
 mod delay;
 pub mod error;
+pub mod kinds;
+#[cfg(feature = "files")]
+pub mod map;
+#[cfg(feature = "files")]
+mod messages;
 mod mistake;
 pub mod mistakes;
+#[cfg(feature = "files")]
 pub mod paste;
+#[cfg(feature = "files")]
 pub mod picture;
+#[cfg(feature = "files")]
+mod reading;
 pub mod recorded;
 pub mod report;
+pub mod resample;
 pub mod robot;
 pub mod run;
+#[cfg(feature = "files")]
+mod table;
 
-/// The most joints that a robot may have: its size is known to the compiler.
-pub const MOST_JOINTS: usize = 12;
+/// The most joints that a robot may have: its size is known to the compiler, which takes seconds for
+/// each. Without files, as in a wheel, they are those of an arm with a gripper.
+pub const MOST_JOINTS: usize = if cfg!(feature = "files") { 12 } else { 8 };

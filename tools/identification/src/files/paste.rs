@@ -5,6 +5,8 @@ use std::fmt::Write as _;
 use robot_import::inertia::MassProperties;
 use robot_import::write;
 
+use crate::OF_JOINT;
+
 use super::report::{Found, Gear, rounded};
 use super::robot::Robot;
 
@@ -34,7 +36,7 @@ pub fn file(robot: &Robot, found: &Found) -> String {
     let source = source.replace(WIDTH, &width);
     let source =
         source.replace("full beyond 0.02 rad/s", &format!("full beyond {:?} rad/s", found.width));
-    write::formatted(&(source + &offsets(found) + &gears(found, &width)))
+    write::formatted(&(source + &others(found, &width) + &gears(found, &width)))
 }
 
 /// The day in UTC.
@@ -54,25 +56,53 @@ pub fn lines(file: &str) -> String {
     };
     let bodies = between("impl Robot<", "\n// A robot with");
     let joints = between("/// Viscous friction,", "\n/// The rigid body, and");
-    let added = between("/// Torque of each joint in any state", "\u{0}");
-    let gears = match added.is_empty() {
-        true => between("/// Friction of the gears", "\u{0}"),
-        false => added,
-    };
-    [bodies, joints, gears].map(str::trim_end).join("\n\n").trim_end().to_owned() + "\n"
+    let titles = [
+        "Torque of each joint in",
+        "Friction at rest in",
+        "Coulomb friction of each",
+        "Friction of the gears",
+    ];
+    let added = titles.into_iter().find_map(|title| file.find(&format!("/// {title}")));
+    let added = &file[added.unwrap_or(file.len())..];
+    [bodies, joints, added].map(str::trim_end).join("\n\n").trim_end().to_owned() + "\n"
 }
 
-/// The constant torques, if the recording shows some; the importer knows none.
-fn offsets(found: &Found) -> String {
-    let each: Vec<f64> = found.joints.iter().map(|joint| rounded(joint.after[3])).collect();
-    if each.iter().all(|offset| *offset == 0.0) {
-        return String::new();
-    }
-    format!(
-        "\n/// Torque of each joint in any state, N·m or N: add it to the scene.\npub const \
-         OFFSET: ::dynamics_core::effects::ConstantTorque<f32, V> = \
-         ::dynamics_core::effects::ConstantTorque({each:?});\n"
-    )
+/// The constant torques, and the friction of further kinds, if the recording shows some; the
+/// importer knows none.
+fn others(found: &Found, width: &str) -> String {
+    let list = |of: &dyn Fn(&[f64; OF_JOINT]) -> f64| -> Vec<f64> {
+        found.joints.iter().map(|joint| rounded(of(&joint.after))).collect()
+    };
+    let [offset, excess, asymmetry] = [3, 4, 5].map(|k| list(&|own| own[k]));
+    let mut text = String::new();
+    let mut add = |of: &[f64], words: &str, name: &str, effect: &str, fields: String| {
+        if of.iter().any(|x| *x != 0.0) {
+            let effect = format!("::dynamics_core::effects::{effect}");
+            let _ = write!(
+                text,
+                "\n/// {words}, N·m or N: add it to the scene.\npub const {name}: {effect}<f32, V> = \
+                 {effect}{fields};\n"
+            );
+        }
+    };
+    add(
+        &offset,
+        "Torque of each joint in any state",
+        "OFFSET",
+        "ConstantTorque",
+        format!("({offset:?})"),
+    );
+    let speed = found.stribeck_speed.unwrap_or(1.0);
+    let fields =
+        format!("{{ excess: {excess:?}, stribeck_speed: Width::f32({speed:?}), width: {width} }}");
+    add(&excess, "Friction at rest in excess of Coulomb friction", "STRIBECK", "Stribeck", fields);
+    // |F₊ − F₋| is at most F₊ + F₋.
+    let half = |own: &[f64; OF_JOINT]| own[5].clamp(-own[1], own[1]);
+    let [forward, backward] = [1.0, -1.0].map(|side| list(&|own| own[1] + side * half(own)));
+    let fields = format!("{{ forward: {forward:?}, backward: {backward:?}, width: {width} }}");
+    let words = "Coulomb friction of each direction, in place of COULOMB";
+    add(&asymmetry, words, "DIRECTIONS", "AsymmetricCoulomb", fields);
+    text
 }
 
 /// The constant of the gears, if their friction was found; the importer knows none.
@@ -128,15 +158,20 @@ pub fn c(found: &Found) -> String {
         );
     }
     text += "};\n";
-    let names = ["viscous", "coulomb", "armature", "offset"];
+    let names = ["viscous", "coulomb", "armature", "offset", "stribeck_excess", "asymmetry"];
     let units = [
         "Viscous friction, N m s/rad or N s/m",
         "Coulomb friction, N m or N",
         "Inertia of the rotors at the joints, kg m^2 or kg",
         "Torque in any state, N m or N",
+        "Friction at rest in excess of Coulomb friction, N m or N",
+        "Half of the difference of Coulomb friction forward and backward, N m or N",
     ];
     for (k, (name, unit)) in names.into_iter().zip(units).enumerate() {
         let numbers: Vec<f64> = found.joints.iter().map(|joint| joint.after[k]).collect();
+        if k > 3 && numbers.iter().all(|x| *x == 0.0) {
+            continue;
+        }
         let _ = writeln!(
             text,
             "static const float {name}[{}] = {}; /* {unit} */",

@@ -6,7 +6,12 @@ use dynamics_core::model::BodyInertia;
 use robot_import::inertia::MassProperties;
 use serde::Serialize;
 
+use crate::OF_JOINT;
+
+use super::attempt::{JointEffect, OfOneJoint};
+use super::kinds::Carried;
 use super::mistakes::{IMPOSSIBLE, Mistake};
+use super::resample::Sampling;
 
 /// The digits of numbers to paste.
 const DIGITS: usize = 6;
@@ -19,15 +24,19 @@ pub struct Found {
     pub ticks: usize,
     /// The length of a tick, s.
     pub tick: f64,
-    /// Ticks on hold, stopped, or without a time.
-    pub left_out: usize,
-    pub gaps: usize,
+    pub sampling: Sampling,
+    /// Whether a torque is held until the next tick.
+    pub held: bool,
+    /// The frequency up to which torques were compared, Hz.
+    pub cutoff: f64,
     pub fitted_seconds: f64,
     pub held_out_seconds: f64,
     /// Whether what was held out is another recording.
     pub other_path: bool,
     /// The width of the smooth sign of Coulomb friction, rad/s or m/s.
     pub width: f64,
+    /// The speed of Stribeck's effect, rad/s or m/s, if it was identified.
+    pub stribeck_speed: Option<f64>,
     pub condition: f64,
     /// The misfit of the physical set to the estimate, in standard deviations.
     pub misfit: f64,
@@ -39,6 +48,8 @@ pub struct Found {
     pub parameters: Vec<ParameterFound>,
     pub joints: Vec<JointFound>,
     pub bodies: Vec<BodyFound>,
+    /// The kinds of friction that were not identified and lower the residuals.
+    pub kinds: Vec<Carried>,
     /// Torques of the held-out part.
     #[serde(skip)]
     pub traces: Vec<Trace>,
@@ -62,14 +73,16 @@ pub struct ParameterFound {
 #[derive(Clone, Debug, Serialize)]
 pub struct JointFound {
     pub name: String,
-    /// Viscous and Coulomb friction, armature and offset of the description.
-    pub before: [f64; 4],
-    pub after: [f64; 4],
+    /// The numbers of the description, in the order of [`OfJoint`](crate::OfJoint).
+    pub before: OfOneJoint,
+    pub after: OfOneJoint,
     /// The deviations, if the number is a base parameter of its own.
-    pub deviations: [Option<f64>; 4],
+    pub deviations: [Option<f64>; OF_JOINT],
     pub gear: Option<Gear>,
     pub fitted: Part,
     pub held_out: Option<Part>,
+    /// Whether its residuals are noise, of which deviations follow.
+    pub is_noise: bool,
 }
 
 /// Friction of a gear per transmitted torque, while the motor drives and while the load does; with
@@ -103,6 +116,9 @@ pub struct BodyFound {
     pub name: String,
     pub before: Numbers,
     pub after: Numbers,
+    /// Which of its ten parameters the motion shows alone, m, m c, and the moments about the
+    /// joint; of the others it shows combinations.
+    pub is_determined: [bool; 10],
 }
 
 /// Mass, kg, centre of mass, m, and inertia about it, kg·m², in the frame of the body.
@@ -113,13 +129,15 @@ pub struct Numbers {
     pub inertia: [f64; 6],
 }
 
-/// The torques of a joint by time.
+/// The torques of a joint by time, and its friction by speed, measured and of the model.
 #[derive(Clone, Debug, Serialize)]
 pub struct Trace {
     pub joint: String,
     pub measured: Vec<(f64, f64)>,
     pub before: Vec<(f64, f64)>,
     pub after: Vec<(f64, f64)>,
+    pub friction: Vec<(f64, f64)>,
+    pub curve: Vec<(f64, f64)>,
 }
 
 impl Numbers {
@@ -189,16 +207,16 @@ impl Found {
         };
         let _ = writeln!(
             text,
-            "{}: {} ticks of {} ms, {} gaps, {} ticks left out; fitted to {:.1} s, compared with \
-             {held}, {:.1} s",
+            "{}: {} ticks of {} ms; fitted to {:.1} s, compared with {held}, {:.1} s; torques up to \
+             {:.1} Hz",
             self.robot,
             self.ticks,
             short(1e3 * self.tick),
-            self.gaps,
-            self.left_out,
             self.fitted_seconds,
-            self.held_out_seconds
+            self.held_out_seconds,
+            self.cutoff
         );
+        self.sampled(&mut text);
         self.time_of_torque(&mut text);
         self.excitation(&mut text);
         self.tables(&mut text);
@@ -207,21 +225,44 @@ impl Found {
         text
     }
 
-    fn time_of_torque(&self, text: &mut String) {
-        let half = 0.5 * self.tick;
-        let lag = half - self.delay;
-        let [half, ms] = [half, lag.abs()].map(|t| short(1e3 * t));
-        let _ = match lag {
-            0.0 => writeln!(
+    fn sampled(&self, text: &mut String) {
+        let Sampling { left_out, duplicates, backward, gaps, gap_seconds, bridged, .. } =
+            self.sampling;
+        let _ = writeln!(
+            text,
+            "record: {gaps} gaps of {gap_seconds:.2} s in all; rows dropped: {left_out} on hold or \
+             incomplete, {duplicates} with the time of the row before, {backward} with an earlier one"
+        );
+        if self.sampling.is_resampled {
+            let [rms, largest] = self.sampling.jitter.map(|share| 100.0 * share);
+            let [error, missing] = self.sampling.error(self.cutoff, self.tick);
+            let _ = writeln!(
                 text,
-                "delay: none; each torque belongs to the middle of its tick, {half} ms after its \
-                 position"
-            ),
+                "resampled: intervals differ from {} ms by {rms:.1} % RMS, at most {largest:.1} %; \
+                 {bridged} missing samples between others. Cubics between samples change positions \
+                 and torques up to {:.1} Hz by at most {:.3} % of an amplitude, {:.2} % at missing \
+                 samples",
+                short(1e3 * self.tick),
+                self.cutoff,
+                100.0 * error,
+                100.0 * missing
+            );
+        }
+    }
+
+    fn time_of_torque(&self, text: &mut String) {
+        let (own, ends) = match self.held {
+            true => (0.5 * self.tick, "the middle of its tick"),
+            false => (0.0, "the time of its position"),
+        };
+        let lag = own - self.delay;
+        let _ = match lag {
+            0.0 => writeln!(text, "delay: none; each torque belongs to {ends}"),
             _ => writeln!(
                 text,
-                "warning: the torques {} the positions by {ms} ms, relative to a torque that is \
-                 held for a tick; the fit takes this into account",
-                if lag > 0.0 { "lag behind" } else { "are ahead of" }
+                "warning: the torques {} the positions by {} ms; the fit takes this into account",
+                if lag > 0.0 { "lag behind" } else { "are ahead of" },
+                short(1e3 * lag.abs())
             ),
         };
     }
@@ -268,17 +309,18 @@ impl Found {
         }
         *text += "\n";
         *text += &aligned(&rows);
-        let mut rows = vec![["body", "mass, kg", "centre of mass, m"].map(str::to_owned)];
-        for body in &self.bodies {
-            let com = |numbers: &Numbers| numbers.com.map(short).join(" ");
-            rows.push([
-                body.name.clone(),
-                format!("{} → {}", short(body.before.mass), short(body.after.mass)),
-                format!("{} → {}", com(&body.before), com(&body.after)),
-            ]);
+        for joint in self.joints.iter().filter(|one| one.after[4..] != [0.0; 2]) {
+            let [excess, asymmetry] = [4, 5].map(|k| short(joint.after[k]));
+            let [own, of] = [4, 5].map(|k| joint.deviations[k].map_or("–".to_owned(), short));
+            let speed = self.stribeck_speed.map_or("–".to_owned(), short);
+            let _ = writeln!(
+                text,
+                "  {}: Stribeck's excess {excess} ± {own} below some {speed} rad/s or m/s; half of \
+                 the difference of directions {asymmetry} ± {of}",
+                joint.name
+            );
         }
-        *text += "\n";
-        *text += &aligned(&rows);
+        self.masses(text);
         match &self.mistake {
             Some(mistake) => {
                 let _ = writeln!(
@@ -292,12 +334,36 @@ impl Found {
                 let _ = writeln!(
                     text,
                     "warning: no possible robot has this estimate: the nearest one is {:.1} \
-                     standard deviations away; its friction may be of another kind (--effects). No \
-                     single wrong sign, unit or zero explains it",
+                     standard deviations away. No single wrong sign, unit or zero explains it",
                     self.misfit
                 );
             }
             None => {}
+        }
+    }
+
+    /// The bodies, of which a motion mostly shows combinations.
+    fn masses(&self, text: &mut String) {
+        let mut rows = vec![["body", "mass, kg", "centre of mass, m"].map(str::to_owned)];
+        let mark = |is_shown: bool, number: f64| match is_shown {
+            true => short(number),
+            false => short(number) + "*",
+        };
+        for body in &self.bodies {
+            let [mass, moments @ ..]: [bool; 4] = std::array::from_fn(|k| body.is_determined[k]);
+            let com = body.after.com.into_iter().zip(moments);
+            let com: Vec<String> = com.map(|(c, own)| mark(mass && own, c)).collect();
+            rows.push([
+                body.name.clone(),
+                format!("{} → {}", short(body.before.mass), mark(mass, body.after.mass)),
+                format!("{} → {}", body.before.com.map(short).join(" "), com.join(" ")),
+            ]);
+        }
+        *text += "\n";
+        *text += &aligned(&rows);
+        if rows.iter().flatten().any(|cell| cell.contains('*')) {
+            *text += "  * of this the motion shows combinations with other numbers only, below; of all \
+                      possible ones it is the nearest to the description\n";
         }
     }
 
@@ -346,6 +412,7 @@ impl Found {
         };
         table("the fitted part", &|joint| Some(joint.fitted));
         table(held, &|joint| joint.held_out);
+        self.friction(text, held);
         if let Some((joint, share)) = self.worst() {
             let _ = writeln!(
                 text,
@@ -353,6 +420,39 @@ impl Found {
                  {}",
                 100.0 * share,
                 joint.name
+            );
+        }
+    }
+}
+
+impl Found {
+    /// The kinds of friction that the recording carries, and whether deviations are intervals.
+    fn friction(&self, text: &mut String, held: &str) {
+        for one in &self.kinds {
+            let (name, word) = match one.effect {
+                JointEffect::Stribeck => ("Stribeck's effect", "stribeck"),
+                JointEffect::Asymmetric => ("friction that differs with direction", "asymmetric"),
+                _ => ("friction that grows with the load", "load"),
+            };
+            let [from, to] = one.residuals.map(|share| 100.0 * share);
+            let at = one
+                .speed
+                .map_or(String::new(), |v| format!(" below some {} rad/s or m/s", short(v)));
+            let _ = writeln!(
+                text,
+                "{}: {name}{at} lowers the residuals of {held} from {from:.1} to {to:.1} % of the \
+                 largest torque (--effects …,{word})",
+                one.joint
+            );
+        }
+        let names: Vec<&str> =
+            self.joints.iter().filter(|one| !one.is_noise).map(|one| one.name.as_str()).collect();
+        if !names.is_empty() {
+            let _ = writeln!(
+                text,
+                "warning: the residuals of {} are no noise: the arm has something that the model \
+                 lacks, and the deviations are no intervals of its numbers",
+                names.join(", ")
             );
         }
     }

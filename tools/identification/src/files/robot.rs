@@ -7,10 +7,12 @@ use dynamics_core::model::ArmModel;
 use robot_import::import::{self, Imported, Options};
 use robot_import::model;
 
+use crate::OF_JOINT;
+
 use super::error::{Error, Result};
 
 /// The parameters of a joint in the order of [`crate::OfJoint`].
-pub type OfJoint = [f64; 4];
+pub type OfJoint = [f64; OF_JOINT];
 
 /// A model, the ten parameters of each body, and those of each joint.
 pub type Described<const V: usize> = (ArmModel<f64, V>, [[f64; 10]; V], [OfJoint; V]);
@@ -73,7 +75,7 @@ impl Robot {
             .map_err(|source| Error::Robot { path: self.path.clone(), source: source.into() })?;
         let joints = std::array::from_fn(|j| {
             let body = &self.imported.tree.bodies[j];
-            [body.damping, body.friction, body.armature, 0.0]
+            [body.damping, body.friction, body.armature, 0.0, 0.0, 0.0]
         });
         Ok((arm, inertial_parameters(&arm, &()), joints))
     }

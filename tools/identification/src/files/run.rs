@@ -2,13 +2,15 @@
 
 use std::path::Path;
 
-use crate::{Comparison, Gears, IdentificationError, OfJoint, TickRecording};
+use crate::{Comparison, Gears, IdentificationError, OfJoint, Parameter, TickRecording};
+use dynamics_core::effects::smooth_sign;
 use dynamics_core::model::BodyInertia;
 use dynamics_core::spatial::SpatialInertia;
 
-use super::attempt::{Attempt, Task, own, possible};
+use super::attempt::{Attempt, Task, bell, own, possible};
 pub use super::attempt::{JointEffect, Options};
 use super::error::{Error, Result};
+use super::kinds;
 use super::mistakes;
 use super::recorded::Recorded;
 use super::report::{BodyFound, Found, Gear, JointFound, Numbers, ParameterFound, Part, Trace};
@@ -16,6 +18,10 @@ use super::robot::Robot;
 
 /// The most points of a trace.
 const POINTS: usize = 800;
+/// Residuals that are correlated by more than this share at one of these distances, rows, are no
+/// noise.
+const LAGS: [usize; 8] = [3, 4, 5, 6, 7, 8, 9, 10];
+const CORRELATED: f64 = 0.2;
 
 /// The parameters of a robot by a recording; the other recording is of another path.
 ///
@@ -32,17 +38,12 @@ pub fn identify(
         let reason = "gears have one kind of friction: --effects with load or with preslide";
         return Err(Error::Unsuitable { path: robot.path.clone(), reason: reason.to_owned() });
     }
-    let all = [Some(recording), other];
-    for (path, recorded) in all.into_iter().flatten() {
-        if recorded.joints != names.len() {
-            return Err(Error::Joints {
-                recording: path.to_owned(),
-                recorded: recorded.joints,
-                robot: robot.path.clone(),
-                described: names.len(),
-                names: names.join(", "),
-            });
-        }
+    let joints = [Some(recording), other].map(|all| all.map_or(names.len(), |(_, all)| all.joints));
+    if let Some(joints) = joints.into_iter().find(|joints| *joints != names.len()) {
+        let reason = format!("{joints} joints were recorded, but it has {}", names.join(", "));
+        return Err(Error::Unsuitable { path: robot.path.clone(), reason });
+    }
+    if let Some((path, recorded)) = other {
         let (own, other) = (recording.1.tick, recorded.tick);
         if (own - other).abs() > 1e-3 * own {
             let path = path.to_owned();
@@ -60,7 +61,10 @@ pub fn identify(
             }
         };
     }
-    sized!(1 2 3 4 5 6 7 8 9 10 11 12)
+    #[cfg(feature = "files")]
+    return sized!(1 2 3 4 5 6 7 8 9 10 11 12);
+    #[cfg(not(feature = "files"))]
+    sized!(1 2 3 4 5 6 7 8)
 }
 
 fn of_size<const V: usize>(
@@ -69,7 +73,7 @@ fn of_size<const V: usize>(
     other: Option<(&Path, &Recorded)>,
     options: &Options,
 ) -> Result<Found> {
-    let task = Task { robot, path, options };
+    let task = Task { robot, path, options, held: recorded.held };
     let whole: TickRecording<V> = recorded.ticks(path)?;
     let (fitted_part, held) = match other {
         Some((path, other)) => (whole.clone(), other.ticks(path)?),
@@ -82,13 +86,18 @@ fn of_size<const V: usize>(
     let pasted = set.joints;
     let after = arm.of_all(&set.bodies, &pasted);
     let gears = possible(found);
-    let models = [(&nominal[..], None), (&after[..], gears)];
+    let smooth = arm.of_all(&set.bodies, &pasted.map(|[_, _, a, o, ..]| [0.0, 0.0, a, o]));
+    let models = [(&nominal[..], None), (&after[..], gears), (&smooth[..], gears)];
     let compare = |part: &TickRecording<V>| fit.compare(arm, part, &models);
     let own_part = compare(&fitted_part).map_err(|source| task.failed(source))?;
     let validated = match compare(&held) {
         // A part of the recording itself too short for the filter is no error.
         Err(IdentificationError::TooShort { .. }) if other.is_none() => None,
         validated => Some(validated.map_err(|source| task.failed(source))?),
+    };
+    let kinds = match (&mistake, &validated) {
+        (None, Some(held)) => kinds::carried(options, [&own_part, held], &names),
+        _ => Vec::new(),
     };
     let own_of = |j: usize, of: OfJoint| {
         let at = own(arm, j, of)?;
@@ -98,8 +107,7 @@ fn of_size<const V: usize>(
         name: names[j].clone(),
         before: joints[j],
         after: pasted[j],
-        deviations: [OfJoint::Viscous, OfJoint::Coulomb, OfJoint::Armature, OfJoint::Offset]
-            .map(|of| own_of(j, of)),
+        deviations: OfJoint::ALL.map(|of| own_of(j, of)),
         gear: found.gears.zip(gears).map(|([_, deviations], used)| {
             let [used, own] = [&used, &deviations].map(|of| of.joint(j));
             let deflection = used.get(2).zip(own.get(2)).map(|(h, deviation)| [*h, *deviation]);
@@ -107,6 +115,7 @@ fn of_size<const V: usize>(
         }),
         fitted: part(&own_part, j),
         held_out: validated.as_ref().map(|held| part(held, j)),
+        is_noise: is_noise(&own_part, j),
     };
     let of_body = |i: usize| {
         let body = &robot.imported.tree.bodies[i];
@@ -116,7 +125,13 @@ fn of_size<const V: usize>(
             true => Numbers::rounded(&about(set.bodies[i])),
             false => before,
         };
-        BodyFound { name: body.name.clone(), before, after }
+        let is_determined = std::array::from_fn(|place| {
+            // A column stands for itself if no other is a part of its base parameter.
+            let alone =
+                |base: &usize| arm.terms(*base)[..] == [(1.0, Parameter::Body { body: i, place })];
+            (0..arm.len()).find(alone).is_some_and(|base| found.is_determined(base))
+        });
+        BodyFound { name: body.name.clone(), before, after, is_determined }
     };
     let of_parameter = |base: usize| ParameterFound {
         name: arm.name(base),
@@ -141,24 +156,33 @@ fn of_size<const V: usize>(
     let numbers = if presliding { 3 * V } else { 0 };
     let numbers = (0..numbers).filter_map(|at| of_gear((at / 3, at % 3)));
     let tick = whole.tick();
+    let curve = |j: usize, qd: f64| {
+        let [viscous, coulomb, _, _, excess, asymmetry] = pasted[j];
+        let s = smooth_sign(qd / options.width);
+        let excess = excess * attempt.stribeck.map_or(0.0, |speed| bell(s, qd, speed));
+        viscous * qd + s * (coulomb + asymmetry * s) + excess
+    };
     Ok(Found {
         robot: robot.imported.name.clone(),
         ticks: whole.ticks(),
         tick,
-        left_out: recorded.left_out,
-        gaps: recorded.gaps,
+        sampling: recorded.sampling,
+        held: recorded.held,
+        cutoff: fit.cutoff,
         fitted_seconds: tick * fitted_part.ticks() as f64,
         held_out_seconds: tick * held.ticks() as f64,
         other_path: other.is_some(),
         width: options.width,
+        stribeck_speed: attempt.stribeck,
         condition: found.condition,
         misfit: set.misfit,
         delay: fit.delay,
         mistake,
+        kinds,
         parameters: (0..arm.len()).map(of_parameter).chain(numbers).collect(),
         joints: (0..V).map(of_joint).collect(),
         bodies: (0..V).map(of_body).collect(),
-        traces: traces(&names, validated.as_ref().unwrap_or(&own_part)),
+        traces: traces(&names, validated.as_ref().unwrap_or(&own_part), curve),
     })
 }
 
@@ -169,7 +193,7 @@ fn part<const V: usize>(compared: &Comparison<V>, joint: usize) -> Part {
     for (k, measured) in compared.measured.iter().enumerate() {
         let measured = measured[joint];
         part.largest_torque = part.largest_torque.max(measured.abs());
-        for (model, residuals) in compared.modelled.iter().zip(&mut part.residuals) {
+        for (model, residuals) in compared.modelled[..2].iter().zip(&mut part.residuals) {
             let residual = (measured - model[k][joint]).abs();
             residuals.rms += residual * residual / count;
             residuals.largest = residuals.largest.max(residual);
@@ -181,17 +205,42 @@ fn part<const V: usize>(compared: &Comparison<V>, joint: usize) -> Part {
     part
 }
 
-fn traces<const V: usize>(names: &[String], compared: &Comparison<V>) -> Vec<Trace> {
-    let step = compared.times.len().div_ceil(POINTS).max(1);
-    let line = |of: &[[f64; V]], j: usize| -> Vec<(f64, f64)> {
-        let points = compared.times.iter().zip(of).step_by(step);
-        points.map(|(time, torque)| (*time, torque[j])).collect()
+/// Whether the residuals of a joint are noise: through the filter, noise is correlated over two
+/// rows, and not beyond.
+fn is_noise<const V: usize>(compared: &Comparison<V>, joint: usize) -> bool {
+    let pairs = compared.measured.iter().zip(&compared.modelled[1]);
+    let residuals: Vec<f64> = pairs.map(|(a, b)| a[joint] - b[joint]).collect();
+    let product = |lag: usize| -> f64 {
+        residuals.iter().zip(residuals.iter().skip(lag)).map(|(a, b)| a * b).sum()
     };
-    let trace = |(j, name): (usize, &String)| Trace {
-        joint: name.clone(),
-        measured: line(&compared.measured, j),
-        before: line(&compared.modelled[0], j),
-        after: line(&compared.modelled[1], j),
+    let (all, count) = (product(0).max(1e-300), residuals.len() as f64);
+    LAGS.map(product).iter().all(|own| own.abs() < all * CORRELATED.max(4.0 / count.sqrt()))
+}
+
+fn traces<const V: usize>(
+    names: &[String],
+    compared: &Comparison<V>,
+    curve: impl Fn(usize, f64) -> f64,
+) -> Vec<Trace> {
+    let step = compared.times.len().div_ceil(POINTS).max(1);
+    let line = |of: &dyn Fn(usize) -> (f64, f64)| -> Vec<(f64, f64)> {
+        (0..compared.times.len()).step_by(step).map(of).collect()
+    };
+    let modelled = |model: usize, k: usize, j: usize| compared.modelled[model][k][j];
+    let trace = |(j, name): (usize, &String)| {
+        let by_time = |of: &dyn Fn(usize) -> f64| line(&|k| (compared.times[k], of(k)));
+        let friction =
+            line(&|k| (compared.speeds[k][j], compared.measured[k][j] - modelled(2, k, j)));
+        let fastest = friction.iter().fold(0.0, |most: f64, (qd, _)| most.max(qd.abs()));
+        let speed = |k: i32| fastest * f64::from(k) / 100.0;
+        Trace {
+            joint: name.clone(),
+            measured: by_time(&|k| compared.measured[k][j]),
+            before: by_time(&|k| modelled(0, k, j)),
+            after: by_time(&|k| modelled(1, k, j)),
+            curve: (-100..=100).map(|k| (speed(k), curve(j, speed(k)))).collect(),
+            friction,
+        }
     };
     names.iter().enumerate().map(trace).collect()
 }

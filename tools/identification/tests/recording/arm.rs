@@ -25,7 +25,7 @@ pub const OPTIONS: fn() -> Options = || Options {
         JointEffect::Offset,
     ],
     width: 0.02,
-    cutoff: 10.0,
+    cutoff: None,
     hold_out: 0.3,
 };
 /// A count of an encoder, rad.
@@ -119,7 +119,7 @@ pub fn record_with(
 }
 
 pub fn read(text: &str) -> Result<Recorded> {
-    Recorded::from(Path::new("run.csv"), text.as_bytes())
+    Recorded::from(Path::new("run.csv"), text.as_bytes(), &described().joints(), None)
 }
 
 /// The report about the arm whose description is off.

@@ -20,7 +20,7 @@ fn pasted(found: &Found) -> Robot {
     for ((body, own), joint) in bodies.iter_mut().zip(&found.bodies).zip(&found.joints) {
         body.inertia =
             MassProperties { mass: own.after.mass, com: own.after.com, inertia: own.after.inertia };
-        [body.damping, body.friction, body.armature, _] = joint.after;
+        [body.damping, body.friction, body.armature, ..] = joint.after;
     }
     robot
 }
@@ -63,7 +63,7 @@ fn the_text_has_what_is_pasted() {
     let found = identified(&record(|t| swing(t, SIZE, RATES), 4_000)).expect("parameters");
     let text = found.text();
     let svg = picture::svg(&found.traces);
-    for part in ["shoulder, torque", "elbow, torque", "by what was found", "height=\"600\""] {
+    for part in ["shoulder, torque", "elbow, torque", "by what was found", "height=\"520\""] {
         assert!(svg.contains(part), "{part}");
     }
     let mass = format!("{:?}", found.bodies[1].after.mass);

@@ -1,7 +1,9 @@
 //! From a recording of a small arm to its parameters, and what is refused.
 
 mod arm;
+mod formats;
 mod found;
 mod hostile;
+mod logs;
 mod mistakes;
 mod presliding;

@@ -139,7 +139,7 @@ fn the_wrong_law_has_larger_residuals_and_no_distance() {
 #[test]
 fn what_is_found_is_named_and_pasted() {
     let effects = vec![JointEffect::Viscous, JointEffect::Preslide];
-    let mut options = Options { effects, cutoff: 5.0, ..OPTIONS() };
+    let mut options = Options { effects, cutoff: Some(5.0), ..OPTIONS() };
     let mut robot = off();
     robot.imported.tree.bodies.iter_mut().for_each(|body| body.friction = 0.0);
     let recorded = read(&presliding(turns, 5_000, LOADED)).expect("ticks");

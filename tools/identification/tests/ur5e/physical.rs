@@ -11,11 +11,11 @@ use crate::setup::*;
 /// By the projection that firmware has, in f32 and without offsets.
 pub fn assert_possible(set: &PhysicalSet<6, 6>) {
     type Stored = PhysicalParameters<f32, 6, 78>;
-    let all = |bodies: &[[f64; 10]; 6], joints: &[[f64; 4]; 6]| -> [f32; 78] {
+    fn all<const N: usize>(bodies: &[[f64; 10]; 6], joints: &[[f64; N]; 6]) -> [f32; 78] {
         let own = joints.iter().flat_map(|joint| &joint[..3]);
         let all: Vec<f32> = bodies.as_flattened().iter().chain(own).map(|x| *x as f32).collect();
         all.try_into().expect("78")
-    };
+    }
     let Parameters { bodies, joints } = Parameters::nominal();
     let mut stored = Stored::try_new(all(&bodies, &joints)).expect("possible");
     assert_eq!(stored.follow(&all(&set.bodies, &set.joints)), 1.0);

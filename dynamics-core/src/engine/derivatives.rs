@@ -336,7 +336,7 @@ fn changes_by<Scalar: Real>(
 }
 
 impl<Scalar: Real> Composite<Scalar> {
-    /// A body alone: P = ω × h, D = Σ [ω]×ᵀ.
+    /// A body alone: P = ω × h, D = Σ \[ω\]×ᵀ.
     #[cfg_attr(optimised, inline(always))]
     fn of(inertia: Inertia<Scalar>, field: &AccelerationField<Scalar>) -> Self {
         let ([wx, wy, wz], [x, y, z]) = (field.omega_products.0, inertia.second.columns());

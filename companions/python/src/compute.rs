@@ -66,7 +66,7 @@ impl Robot {
             refused(py, error.effect, text)
         })?;
         let arrays: Vec<_> = request.arguments.iter().map(array::<R>).collect::<PyResult<_>>()?;
-        let engine = matches!(by, By::Engine(_));
+        let engine = matches!(by, By::Engine);
         let shapes = arrays.iter().map(|array| array.shape());
         let leading = leading(request.arguments, shapes)?;
         let rows = leading.iter().product();
@@ -114,15 +114,15 @@ impl Robot {
             let models = R::of(self);
             let engine = match by {
                 By::Model(_) => None,
-                By::Engine(_) => self.library_name().and_then(R::engine),
+                By::Engine => self.library_name().and_then(R::engine),
             };
             let rows_by = |job: &mut Job<'_, R>| match (by, engine) {
                 (By::Model(which), _) => R::compute(&which, models, setting, job),
-                (By::Engine(scene), Some(engine)) => {
-                    engine(scene, job);
+                (By::Engine, Some(engine)) => {
+                    engine(job);
                     Ok(())
                 }
-                (By::Engine(_), None) => unreachable!("the robot was asked for its engine"),
+                (By::Engine, None) => unreachable!("the robot was asked for its engine"),
             };
             let work = || job.compute(rows_by);
             if rows < ROWS_WITH_LOCK { work() } else { py.detach(work) }

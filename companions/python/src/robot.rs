@@ -30,7 +30,7 @@ use crate::error::{Exception, of_import, of_model, wanted};
 use crate::library;
 use crate::methods::Machine;
 use crate::request::By;
-use robot_dynamics_engines::{InEngine, Scene as EngineScene};
+use robot_dynamics_engines::InEngine;
 use robot_dynamics_kernels::Which;
 use robot_dynamics_kernels::model::{Bodies, Counts, Models};
 use robot_dynamics_kernels::spec::{BodyRef, Spec};
@@ -275,17 +275,16 @@ impl Robot {
         })
     }
 
-    /// The way in which a form computes inverse dynamics.
+    /// The way in which a form computes inverse dynamics of so many of q, q̇ and q̈.
     fn by(
         &self,
         py: Python<'_>,
         form: &str,
-        which: Which<'static>,
-        scene: EngineScene,
+        given: usize,
         effects: &[Spec],
     ) -> PyResult<By<'static>> {
         if form == "core" {
-            return Ok(which.into());
+            return Ok(Which::Rnea { given }.into());
         }
         let none = |text| {
             let error = Exception::new(py, "NoEngine", text);
@@ -297,17 +296,10 @@ impl Robot {
         if self.library.and_then(<f32 as InEngine>::engine).is_none() {
             return none(format!("the wheel has no engine of `{}`", self.name));
         }
-        let named = |spec| effects.contains(&spec);
         let down = Spec::Gravity([0.0, 0.0, -9.81]);
-        let fits = match scene {
-            EngineScene::RigidBody => {
-                effects.len() == 3 && named(down) && named(Spec::Inertia) && named(Spec::Coriolis)
-            }
-            EngineScene::Bias => effects.len() == 2 && named(down) && named(Spec::Coriolis),
-            EngineScene::Gravity => effects.len() == 1 && named(down),
-        };
-        if fits {
-            return Ok(By::Engine(scene));
+        let scene = &[down, Spec::Coriolis, Spec::Inertia][..given];
+        if effects.len() == given && scene.iter().all(|spec| effects.contains(spec)) {
+            return Ok(By::Engine);
         }
         let text = "the engines of the wheel have the scenes of RIGID_BODY alone; other effects are computed by form = \"core\"";
         Err(refused(py, "", text))

@@ -190,7 +190,8 @@ impl WithLanes for f32 {
         rows: &mut Job<'_, Self>,
     ) -> Result<(), Failure> {
         let count = rows.rows / LANES;
-        if !O::LANES || count == 0 || dispatch::terms_of(setting.effects).extra {
+        let terms = dispatch::terms_of(setting.effects);
+        if !O::LANES || count == 0 || terms.extra || !O::fits(terms) {
             return over(algorithm, models, setting, rows);
         }
         let Some(lanes) = &models.lanes else {
@@ -265,10 +266,13 @@ fn over<O: Algorithm, R: Real>(
             if O::WHOLE {
                 parts.fill(counts.v);
             }
+            if O::TERMS_ALONE && !terms.coriolis {
+                parts.stop_base();
+            }
             algorithm.all(Call { robot: &Cut($robot, bodies), counts, terms, parts: &parts, rows })
         }};
     }
-    if O::FAST {
+    if O::FAST && O::fits(terms) {
         match &models.fast {
             Fast::Chain(model) => {
                 if let Some(chain) = model.as_revolute_chain() {

@@ -9,6 +9,7 @@ use dynamics_core::scalar::{Real, Vector};
 use dynamics_core::spatial::{Force, Motion};
 use serde::{Deserialize, Serialize};
 
+use crate::dispatch::terms_of;
 use crate::scene::{At, AtBody, AtJoint, HARMONICS, Parts};
 
 /// A body by its number or its name.
@@ -373,6 +374,7 @@ pub(crate) fn parts<R: Real, const V: usize>(
     body: &dyn Fn(&BodyRef) -> usize,
 ) -> Parts<R, V> {
     let mut parts = Parts {
+        terms: terms_of(specs),
         gravity: <R::Vec3 as Vector<R>>::ZERO,
         joints: Vec::new(),
         armature: None,

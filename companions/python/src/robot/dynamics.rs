@@ -1,7 +1,6 @@
 //! Inverse, forward and hybrid dynamics, and the matrices that they need.
 
 use pyo3::prelude::*;
-use robot_dynamics_engines::Scene as EngineScene;
 use robot_dynamics_kernels::Which;
 use robot_dynamics_kernels::spec::Spec;
 
@@ -10,6 +9,7 @@ use crate::arrays::Argument;
 use crate::effects::given as effects_of;
 use crate::error::wanted;
 use crate::methods::{Machine, methods};
+use crate::request::By;
 
 impl Robot {
     /// Inverse dynamics in a form, of q and as many derivatives as there are more arguments, under
@@ -17,15 +17,24 @@ impl Robot {
     fn inverse_dynamics<'py>(
         &self,
         py: Python<'py>,
-        (form, scene): (&str, EngineScene),
+        form: &str,
         effects: Option<&Bound<'py, PyAny>>,
         keeps: impl Fn(&Spec) -> bool,
         arguments: &[Argument<'_, 'py>],
     ) -> PyResult<Array<'py>> {
         let effects = effects_of(effects)?;
-        let effects: Vec<Spec> = effects.iter().filter(|spec| keeps(spec)).cloned().collect();
-        let which = Which::Rnea { given: arguments.len() };
-        let by = self.by(py, form, which, scene, &effects)?;
+        let mut effects: Vec<Spec> = effects.iter().filter(|spec| keeps(spec)).cloned().collect();
+        let mut given = arguments.len();
+        let mut by = self.by(py, form, given, &effects)?;
+        // Without Inertia, the acceleration is zero but for motors: one form of the algorithm less.
+        let has = |spec| effects.contains(&spec);
+        let turns = |spec: &Spec| matches!(spec, Spec::Armature { .. } | Spec::GyroscopicRotors { .. });
+        let motors = given == 3 && effects.iter().any(turns);
+        if matches!(by, By::Model(_)) && has(Spec::Coriolis) && !has(Spec::Inertia) && !motors {
+            given = given.min(2);
+            by = Which::Rnea { given }.into();
+            effects.push(Spec::Inertia);
+        }
         self.one(py, by, &effects, arguments, &[&[self.counts.v]])
     }
 }
@@ -45,7 +54,7 @@ impl Robot {
         form: &str,
     ) -> PyResult<Array<'py>> {
         let given = [self.q("q", q), self.v("qd", qd), self.v("qdd", qdd)];
-        self.inverse_dynamics(py, (form, EngineScene::RigidBody), effects, |_| true, &given)
+        self.inverse_dynamics(py, form, effects, |_| true, &given)
     }
 
     /// The torques (…, nv), N·m or N, at q (…, nq) and q̇ (…, nv) without acceleration: C(q, q̇)
@@ -61,7 +70,7 @@ impl Robot {
     ) -> PyResult<Array<'py>> {
         let keeps = |spec: &Spec| !matches!(spec, Spec::Inertia);
         let given = [self.q("q", q), self.v("qd", qd)];
-        self.inverse_dynamics(py, (form, EngineScene::Bias), effects, keeps, &given)
+        self.inverse_dynamics(py, form, effects, keeps, &given)
     }
 
     /// The torques (…, nv), N·m or N, that hold the robot against gravity at q (…, nq). No other
@@ -76,7 +85,7 @@ impl Robot {
     ) -> PyResult<Array<'py>> {
         let keeps = |spec: &Spec| matches!(spec, Spec::Gravity(_) | Spec::Payload { .. });
         let given = [self.q("q", q)];
-        self.inverse_dynamics(py, (form, EngineScene::Gravity), effects, keeps, &given)
+        self.inverse_dynamics(py, form, effects, keeps, &given)
     }
 
     /// J (…, 6, nv), J M⁻¹ (…, 6, nv), Λ⁻¹ and Λ (…, 6, 6) of a body, Λ damped by ``damping``

@@ -87,7 +87,7 @@ algorithm! {
 
 algorithm! {
     /// L and D⁻¹ of q, without M.
-    SpatialOperatorLtdl, unspun, |this, robot, counts, scene, row| {
+    SpatialOperatorLtdl, machine, |this, robot, counts, scene, row| {
         let q = filled::<R, Q>(row, 0, counts.q);
         put_ltdl(row, &algorithms::spatial_operator_ltdl(robot, &q, scene)?, counts);
     }
@@ -95,7 +95,7 @@ algorithm! {
 
 algorithm! {
     /// M⁻¹ of q, without M.
-    SpatialOperatorInverse, unspun, |this, robot, counts, scene, row| {
+    SpatialOperatorInverse, machine, |this, robot, counts, scene, row| {
         let q = filled::<R, Q>(row, 0, counts.q);
         let m_inv = algorithms::spatial_operator_inverse(robot, &q, scene)?;
         put_matrix(row, 0, &m_inv, counts.v);
@@ -104,7 +104,7 @@ algorithm! {
 
 algorithm! {
     /// The inverse M(q)⁻¹ of the inertia matrix.
-    InverseMass, matrix, |this, robot, counts, scene, row| {
+    InverseMass, factored, |this, robot, counts, scene, row| {
         let q = filled::<R, Q>(row, 0, counts.q);
         let factors = factors::<R, D, B, Q, V, X>(robot, &q, parts_of(scene), counts)?;
         put_inverse(robot, &factors, row, counts);
@@ -144,7 +144,7 @@ algorithm! {
 
 algorithm! {
     /// q̈ of q, q̇ and τ, and the error that rounding leaves in it.
-    ForwardWithError, moving, |this, robot, counts, scene, row| {
+    ForwardWithError, estimated, |this, robot, counts, scene, row| {
         let (state, tau) = (state(row, counts, 2), filled(row, 2, counts.v));
         let parts = parts_of(scene);
         let bias = algorithms::rnea(robot, &state, &Scene::<R, V, false, C, X, true>(parts, false));

@@ -8,7 +8,7 @@ use dynamics_core::scalar::{Matrix, Real, Vector};
 use dynamics_core::spatial::{Force, Motion};
 use dynamics_core::state::State;
 
-use crate::algorithm::{Algorithm, Call, Done};
+use crate::algorithm::{Algorithm, Call, Done, Terms};
 use crate::dispatch::terms;
 use crate::job::{Problem, Row, Rows};
 use crate::lanes::Lanes;
@@ -17,9 +17,9 @@ use crate::scene::{Parts, Scene};
 
 /// An algorithm: which scenes it distinguishes, what it reads and what it writes.
 macro_rules! algorithm {
-    (@blocks Rnea, $this:ident, $call:ident) => { terms::rigid_all($this, $call) };
-    (@blocks Crba, $this:ident, $call:ident) => { terms::rigid_one($this, $call) };
-    (@blocks Aba, $this:ident, $call:ident) => { terms::rigid_moving($this, $call) };
+    (@blocks Rnea, $this:ident, $call:ident) => { terms::blocks_all($this, $call) };
+    (@blocks Crba, $this:ident, $call:ident) => { terms::blocks($this, $call) };
+    (@blocks Aba, $this:ident, $call:ident) => { terms::blocks($this, $call) };
     (@blocks $other:ident, $this:ident, $call:ident) => {{
         let _ = ($this, $call);
         unreachable!("it does not compute several states at once")
@@ -37,15 +37,22 @@ macro_rules! algorithm {
     (@whole ModesAtRest) => { true };
     (@whole FeedforwardTick) => { true };
     (@whole $other:ident) => { false };
-    (@spins unspun) => { false };
     (@spins linked) => { false };
     (@spins machine) => { false };
     (@spins $other:ident) => { true };
     (@fast all) => { true };
     (@fast moving) => { true };
+    (@fast estimated) => { true };
     (@fast matrix) => { true };
+    (@fast factored) => { true };
     (@fast linked) => { true };
     (@fast $other:ident) => { false };
+    (@fits all, $terms:ident) => { $terms.inertia == $terms.coriolis };
+    (@fits moving, $terms:ident) => { $terms.coriolis };
+    (@fits $other:ident, $terms:ident) => {{ let _ = $terms; true }};
+    (@terms_alone Regressor) => { true };
+    (@terms_alone RegressorRow) => { true };
+    (@terms_alone $other:ident) => { false };
     ($(#[$doc:meta])* $name:ident $(<$life:lifetime>)? $({ $($field:ident: $type:ty),* })?, $scenes:ident,
      |$this:ident, $robot:ident, $counts:ident, $scene:ident, $row:ident| $body:expr) => {
         $(#[$doc])*
@@ -54,6 +61,11 @@ macro_rules! algorithm {
             const FAST: bool = algorithm!(@fast $scenes);
             const WHOLE: bool = algorithm!(@whole $name);
             const LANES: bool = algorithm!(@lanes $name);
+            const TERMS_ALONE: bool = algorithm!(@terms_alone $name);
+
+            fn fits(terms: Terms) -> bool {
+                algorithm!(@fits $scenes, terms)
+            }
 
             #[inline(always)]
             fn row<
@@ -251,7 +263,7 @@ algorithm! {
 
 algorithm! {
     /// τ of q, q̇ and q̈, and the wrenches in the joints of all bodies.
-    RneaAndWrenches, all_slow, |this, robot, counts, scene, row| {
+    RneaAndWrenches, wrenched, |this, robot, counts, scene, row| {
         let found = algorithms::rnea_and_wrenches(robot, &state(row, counts, 3), scene);
         put(row, 0, 0, &found.tau[..counts.v]);
         for (i, f) in found.wrenches[..counts.bodies].iter().enumerate() {
@@ -410,7 +422,7 @@ algorithm! {
 
 algorithm! {
     /// The matrix from q̇ to that momentum.
-    CentroidalMatrix, unspun, |this, robot, counts, scene, row| {
+    CentroidalMatrix, machine, |this, robot, counts, scene, row| {
         let q = filled::<R, Q>(row, 0, counts.q);
         let columns = algorithms::centroidal_matrix(robot, &q, scene);
         for (j, h) in columns.iter().enumerate().take(counts.v) {
@@ -470,7 +482,7 @@ algorithm! {
 
 algorithm! {
     /// The inverse Λ⁻¹ of the operational-space inertia of a body.
-    OsimInverse { body: usize, frame: AnyFrame }, unspun, |this, robot, counts, scene, row| {
+    OsimInverse { body: usize, frame: AnyFrame }, machine, |this, robot, counts, scene, row| {
         let q = filled::<R, Q>(row, 0, counts.q);
         let found = in_frame!(this.frame, frame => {
             algorithms::osim_inverse(robot, &q, this.body, frame, scene)

@@ -1,6 +1,6 @@
 //! From a call in Python to an algorithm over its rows.
 
-use numpy::{Element, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
+use numpy::{Element, PyArrayDyn, PyArrayMethods};
 use pyo3::prelude::*;
 use robot_dynamics_engines::InEngine;
 use robot_dynamics_kernels::job::{Input, Job, Output};
@@ -8,7 +8,7 @@ use robot_dynamics_kernels::model::Models;
 use robot_dynamics_kernels::spec::{BodyRef, fit};
 use robot_dynamics_kernels::{Scalar, Setting};
 
-use crate::arrays::{Dtype, array, dtype, leading};
+use crate::arrays::{Dtype, arrays_of, dtype};
 use crate::effects::refused;
 use crate::failure::of_failure;
 use crate::request::{By, Request};
@@ -65,10 +65,8 @@ impl Robot {
             let text = format!("{}: {}", error.effect, error.problem);
             refused(py, error.effect, text)
         })?;
-        let arrays: Vec<_> = request.arguments.iter().map(array::<R>).collect::<PyResult<_>>()?;
+        let (leading, arrays) = arrays_of::<R>(request.arguments)?;
         let engine = matches!(by, By::Engine);
-        let shapes = arrays.iter().map(|array| array.shape());
-        let leading = leading(request.arguments, shapes)?;
         let rows = leading.iter().product();
         let in_range = arrays.iter().zip(request.arguments);
         let in_range: Vec<Option<Vec<R>>> = in_range

@@ -6,7 +6,7 @@ use robot_dynamics_kernels::spec::Spec;
 
 use super::{Array, Robot, frame_of, with_inertia, without_rotors};
 use crate::arrays::Argument;
-use crate::effects::given as effects_of;
+use crate::effects::{given as effects_of, refused, with_own};
 use crate::error::wanted;
 use crate::methods::{Machine, methods};
 use crate::request::By;
@@ -22,20 +22,47 @@ impl Robot {
         keeps: impl Fn(&Spec) -> bool,
         arguments: &[Argument<'_, 'py>],
     ) -> PyResult<Array<'py>> {
-        let effects = effects_of(effects)?;
-        let mut effects: Vec<Spec> = effects.iter().filter(|spec| keeps(spec)).cloned().collect();
+        let scene = with_own(effects)?;
+        let mut effects: Vec<Spec> = scene.iter().filter(|spec| keeps(spec)).cloned().collect();
         let mut given = arguments.len();
+        if form != "core" && !scene.own.is_empty() {
+            return Err(refused(py, "OwnEffect", "OwnEffect: engines have no effects of one's own"));
+        }
         let mut by = self.by(py, form, given, &effects)?;
         // Without Inertia, the acceleration is zero but for motors: one form of the algorithm less.
         let has = |spec| effects.contains(&spec);
-        let turns = |spec: &Spec| matches!(spec, Spec::Armature { .. } | Spec::GyroscopicRotors { .. });
+        let turns =
+            |spec: &Spec| matches!(spec, Spec::Armature { .. } | Spec::GyroscopicRotors { .. });
         let motors = given == 3 && effects.iter().any(turns);
         if matches!(by, By::Model(_)) && has(Spec::Coriolis) && !has(Spec::Inertia) && !motors {
             given = given.min(2);
             by = Which::Rnea { given }.into();
             effects.push(Spec::Inertia);
         }
-        self.one(py, by, &effects, arguments, &[&[self.counts.v]])
+        let tau = self.one(py, by, &effects, arguments, &[&[self.counts.v]])?;
+        // Gravity has no velocities.
+        match if arguments.len() > 1 { scene.own_torque(py, arguments)? } else { None } {
+            Some(own) => tau.add(own),
+            None => Ok(tau),
+        }
+    }
+
+    /// Forward dynamics of q, q̇ and τ.
+    fn accelerations<'py>(
+        &self,
+        py: Python<'py>,
+        which: Which<'static>,
+        [q, qd, tau]: [&Array<'py>; 3],
+        effects: Option<&Array<'py>>,
+    ) -> PyResult<Array<'py>> {
+        let scene = with_own(effects)?;
+        with_inertia(py, &scene)?;
+        let mut arguments = [self.q("q", q), self.v("qd", qd), self.v("tau", tau)];
+        let own = scene.own_torque(py, &arguments)?;
+        let rest = own.map(|own| PyModule::import(py, "numpy")?.call_method1("subtract", (tau, own)));
+        let rest = rest.transpose()?;
+        arguments[2] = self.v("tau", rest.as_ref().unwrap_or(tau));
+        self.one(py, which, &scene, &arguments, &[&[self.counts.v]])
     }
 }
 
@@ -88,6 +115,34 @@ impl Robot {
         self.inverse_dynamics(py, form, effects, keeps, &given)
     }
 
+    /// Forward dynamics by articulated bodies: q̈ (…, nv), rad/s² or m/s², for q (…, nq), q̇ and τ
+    /// (…, nv).
+    #[pyo3(signature = (q, qd, tau, effects = None))]
+    fn aba<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Array<'py>,
+        qd: &Array<'py>,
+        tau: &Array<'py>,
+        effects: Option<&Array<'py>>,
+    ) -> PyResult<Array<'py>> {
+        self.accelerations(py, Which::Aba, [q, qd, tau], effects)
+    }
+
+    /// Forward dynamics by M and its factors: q̈ (…, nv), rad/s² or m/s², for q (…, nq), q̇ and τ
+    /// (…, nv).
+    #[pyo3(signature = (q, qd, tau, effects = None))]
+    fn forward_dynamics<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Array<'py>,
+        qd: &Array<'py>,
+        tau: &Array<'py>,
+        effects: Option<&Array<'py>>,
+    ) -> PyResult<Array<'py>> {
+        self.accelerations(py, Which::ForwardDynamics, [q, qd, tau], effects)
+    }
+
     /// J (…, 6, nv), J M⁻¹ (…, 6, nv), Λ⁻¹ and Λ (…, 6, 6) of a body, Λ damped by ``damping``
     /// relative to the largest eigenvalue of Λ⁻¹ where it is nearly singular; q (…, nq).
     #[pyo3(signature = (q, body, frame = "local", effects = None, damping = 1e-6))]
@@ -100,10 +155,11 @@ impl Robot {
         effects: Option<&Bound<'py, PyAny>>,
         #[pyo3(from_py_with = wanted)] damping: f64,
     ) -> PyResult<Array<'py>> {
-        let (body, frame, v) = (self.body(body)?, frame_of(py, frame)?, self.counts.v);
+        let ((framed, body), frame, v) = (self.at(body)?, frame_of(py, frame)?, self.counts.v);
+        let of = framed.as_ref().map_or(self, |framed| framed.get());
         let which = Which::OperationalSpaceOf { body, frame, damping };
         let results: &[&[usize]] = &[&[6, v], &[6, v], &[6, 6], &[6, 6]];
-        self.several(py, which, &effects_of(effects)?, &[self.q("q", q)], results)
+        of.several(py, which, &effects_of(effects)?, &[of.q("q", q)], results)
     }
 }
 
@@ -123,14 +179,6 @@ methods! {
     /// M(q), the joint-space inertia matrix (…, nv, nv), kg·m² or kg, with the motors' `Armature`;
     /// q (…, nq).
     crba(q: q; under effects) = one(Crba): [v, v];
-
-    /// Forward dynamics by articulated bodies: q̈ (…, nv), rad/s² or m/s², for q (…, nq), q̇ and τ
-    /// (…, nv).
-    aba(q: q, qd: v, tau: v; under effects with_inertia) = one(Aba): [v];
-
-    /// Forward dynamics by M and its factors: q̈ (…, nv), rad/s² or m/s², for q (…, nq), q̇ and τ
-    /// (…, nv).
-    forward_dynamics(q: q, qd: v, tau: v; under effects with_inertia) = one(ForwardDynamics): [v];
 
     /// Forward dynamics by M and its factors, with the error that rounding leaves: q̈ and its
     /// estimated error, each (…, nv), rad/s² or m/s², for q (…, nq), q̇ and τ (…, nv). It says

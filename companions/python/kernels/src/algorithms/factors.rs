@@ -147,7 +147,7 @@ algorithm! {
     ForwardWithError, estimated, |this, robot, counts, scene, row| {
         let (state, tau) = (state(row, counts, 2), filled(row, 2, counts.v));
         let parts = parts_of(scene);
-        let bias = algorithms::rnea(robot, &state, &Scene::<R, V, false, C, X, true>(parts, false));
+        let bias = bias::<R, D, B, Q, V, C, X>(robot, &state, parts);
         let mut rest = algorithms::transmitted_torque(robot, &state, &tau, scene);
         let mut terms = rest.map(R::abs);
         for ((rest, terms), bias) in rest.iter_mut().zip(&mut terms).zip(bias) {

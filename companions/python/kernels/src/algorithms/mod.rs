@@ -184,27 +184,6 @@ fn fillers<R: Real, const V: usize>(counts: Counts) -> [R; V] {
     std::array::from_fn(|i| if i < counts.v { R::ZERO } else { R::ONE })
 }
 
-/// The factors of the inertia matrix M.
-#[inline(always)]
-fn factors<
-    R: Real,
-    D: RobotModel<R, B, Q, V>,
-    const B: usize,
-    const Q: usize,
-    const V: usize,
-    const X: bool,
->(
-    robot: &D,
-    q: &[R; Q],
-    parts: &Parts<R, V>,
-    counts: Counts,
-) -> Result<algorithms::Ltdl<R, V>, Problem> {
-    let scene = Scene::<R, V, true, true, X, true>(parts, true);
-    let m = algorithms::crba(robot, q, &scene);
-    // x + 0 would change the sign of no pivot; the robot's own diagonal stays as it is.
-    Ok(algorithms::ltdl(robot, &m.plus_diagonal(&fillers(counts)))?)
-}
-
 /// A frame that is known at run time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AnyFrame {
@@ -234,6 +213,60 @@ macro_rules! in_frame {
             }
         }
     };
+}
+
+// Parts of several algorithms are compiled once.
+
+/// C q̇ + g and the torques of the other effects, without the friction of gears.
+#[inline(never)]
+fn bias<
+    R: Real,
+    D: RobotModel<R, B, Q, V>,
+    const B: usize,
+    const Q: usize,
+    const V: usize,
+    const C: bool,
+    const X: bool,
+>(
+    robot: &D,
+    state: &State<R, Q, V>,
+    parts: &Parts<R, V>,
+) -> [R; V] {
+    algorithms::rnea(robot, state, &Scene::<R, V, false, C, X, true>(parts, false))
+}
+
+/// The columns of the Jacobian of a body.
+#[inline(never)]
+fn columns<R: Real, D, const B: usize, const Q: usize, const V: usize>(
+    robot: &D,
+    q: &[R; Q],
+    (body, frame): (usize, AnyFrame),
+) -> [Motion<R>; V]
+where
+    D: RobotModel<R, B, Q, V>,
+{
+    in_frame!(frame, frame => algorithms::jacobian(robot, q, body, frame))
+}
+
+/// The factors of the inertia matrix M.
+#[inline(never)]
+fn factors<
+    R: Real,
+    D: RobotModel<R, B, Q, V>,
+    const B: usize,
+    const Q: usize,
+    const V: usize,
+    const X: bool,
+>(
+    robot: &D,
+    q: &[R; Q],
+    parts: &Parts<R, V>,
+    counts: Counts,
+) -> Result<algorithms::Ltdl<R, V>, Problem> {
+    let scene = Scene::<R, V, true, true, X, true>(parts, true);
+    let m = algorithms::crba(robot, q, &scene);
+    // x + 0 would change the sign of no pivot; the robot's own diagonal stays as it is.
+    Ok(algorithms::ltdl(robot, &m.plus_diagonal(&fillers(counts)))?)
 }
 
 mod drivetrain;
@@ -303,7 +336,7 @@ algorithm! {
     ForwardDynamics, moving, |this, robot, counts, scene, row| {
         let (state, tau) = (state(row, counts, 2), filled(row, 2, counts.v));
         let parts = parts_of(scene);
-        let bias = algorithms::rnea(robot, &state, &Scene::<R, V, false, C, X, true>(parts, false));
+        let bias = bias::<R, D, B, Q, V, C, X>(robot, &state, parts);
         let mut rest = algorithms::transmitted_torque(robot, &state, &tau, scene);
         for (rest, bias) in rest.iter_mut().zip(bias) {
             *rest -= bias;
@@ -344,7 +377,7 @@ algorithm! {
     /// J of a body: three rows of angular, three of linear velocity.
     Jacobian { body: usize, frame: AnyFrame }, none, |this, robot, counts, scene, row| {
         let q = filled::<R, Q>(row, 0, counts.q);
-        let columns = in_frame!(this.frame, frame => algorithms::jacobian(robot, &q, this.body, frame));
+        let columns = columns(robot, &q, (this.body, this.frame));
         put_rows(row, 0, &jacobian_rows(&columns), counts.v);
     }
 }
@@ -504,7 +537,7 @@ algorithm! {
     OperationalSpaceOf { body: usize, frame: AnyFrame, damping: f64 }, rigid,
     |this, robot, counts, scene, row| {
         let q = filled::<R, Q>(row, 0, counts.q);
-        let columns = in_frame!(this.frame, frame => algorithms::jacobian(robot, &q, this.body, frame));
+        let columns = columns(robot, &q, (this.body, this.frame));
         let factors = factors::<R, D, B, Q, V, X>(robot, &q, parts_of(scene), counts)?;
         let damping = Damping::relative(R::from_f64(this.damping));
         let solve = |tau: &[R; V]| algorithms::solve(robot, &factors, tau);

@@ -120,11 +120,22 @@ pub mod terms {
         }
     }
     scenes! {
+        /// The same by articulated bodies, with Coriolis.
+        articulated {
+            (_, true, false) => [true, true, false],
+            (_, true, true) => [true, true, true]
+        }
+    }
+    scenes! {
         /// As [`moving`], with effects at bodies where there are any.
         moved { (_, true, _) => [true, true, true], (_, false, _) => [true, false, true] }
     }
-    /// As [`moved`], of an algorithm with forms for some kinds of robots.
-    pub use moved as estimated;
+    scenes! {
+        /// As [`moved`], of an algorithm with forms for some kinds of robots.
+        estimated,
+        fast { (_, true, _) => [true, true, true] },
+        any { (_, true, _) => [true, true, true], (_, false, _) => [true, false, true] }
+    }
     scenes! {
         /// Whether there are effects at bodies, where it pays.
         matrix,

@@ -82,7 +82,8 @@ macro_rules! which {
                         setting: Setting<'_>,
                         rows: &mut Job<'_, Self>,
                     ) -> Result<(), Failure> {
-                        match *which {
+                        let which = which.of(dispatch::terms_of(setting.effects));
+                        match which {
                             $(Which::$name $({ $($field),* })? => {
                                 let algorithm = algorithms::$name { $($($field),*)? };
                                 <$r as WithLanes>::rows(&algorithm, models, setting, rows)
@@ -290,5 +291,13 @@ fn over<O: Algorithm, R: Real>(
     match &models.general {
         General::Small(model) => run!(&**model),
         General::Large(model) => run!(&**model),
+    }
+}
+
+impl Which<'_> {
+    /// The algorithm that is compiled for these terms: without Coriolis, M and its factors stand in
+    /// for articulated bodies.
+    fn of(self, terms: Terms) -> Self {
+        if matches!(self, Self::Aba) && !terms.coriolis { Self::ForwardDynamics } else { self }
     }
 }

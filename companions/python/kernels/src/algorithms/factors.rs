@@ -147,15 +147,15 @@ algorithm! {
     ForwardWithError, estimated, |this, robot, counts, scene, row| {
         let (state, tau) = (state(row, counts, 2), filled(row, 2, counts.v));
         let parts = parts_of(scene);
-        let bias = bias::<R, D, B, Q, V, C, X>(robot, &state, parts);
+        let bias = bias::<R, D, B, Q, V, C, X>(robot, &state, (parts, false));
         let mut rest = algorithms::transmitted_torque(robot, &state, &tau, scene);
         let mut terms = rest.map(R::abs);
         for ((rest, terms), bias) in rest.iter_mut().zip(&mut terms).zip(bias) {
             *rest -= bias;
             *terms += bias.abs();
         }
-        let whole = Scene::<R, V, true, true, X, true>(parts, true);
-        let m = algorithms::crba(robot, &state.q, &whole).plus_diagonal(&fillers(counts));
+        let m = inertia::<R, D, B, Q, V, X>(robot, &state.q, parts);
+        let m = m.plus_diagonal(&fillers(counts));
         let factors = algorithms::ltdl(robot, &m)?;
         let qdd = algorithms::solve(robot, &factors, &rest);
         let error = algorithms::acceleration_error(robot, (&m, &factors), &qdd, &terms);

@@ -42,6 +42,7 @@ macro_rules! algorithm {
     (@spins $other:ident) => { true };
     (@fast all) => { true };
     (@fast moving) => { true };
+    (@fast articulated) => { true };
     (@fast estimated) => { true };
     (@fast matrix) => { true };
     (@fast factored) => { true };
@@ -49,6 +50,7 @@ macro_rules! algorithm {
     (@fast $other:ident) => { false };
     (@fits all, $terms:ident) => { $terms.inertia == $terms.coriolis };
     (@fits moving, $terms:ident) => { $terms.coriolis };
+    (@fits estimated, $terms:ident) => { $terms.coriolis };
     (@fits $other:ident, $terms:ident) => {{ let _ = $terms; true }};
     (@terms_alone Regressor) => { true };
     (@terms_alone RegressorRow) => { true };
@@ -217,7 +219,7 @@ macro_rules! in_frame {
 
 // Parts of several algorithms are compiled once.
 
-/// C q̇ + g and the torques of the other effects, without the friction of gears.
+/// The torques of all effects but those of accelerations, with the friction of gears or without.
 #[inline(never)]
 fn bias<
     R: Real,
@@ -230,9 +232,26 @@ fn bias<
 >(
     robot: &D,
     state: &State<R, Q, V>,
-    parts: &Parts<R, V>,
+    (parts, gears): (&Parts<R, V>, bool),
 ) -> [R; V] {
-    algorithms::rnea(robot, state, &Scene::<R, V, false, C, X, true>(parts, false))
+    algorithms::rnea(robot, state, &Scene::<R, V, false, C, X, true>(parts, gears))
+}
+
+/// The inertia matrix M.
+#[inline(never)]
+fn inertia<
+    R: Real,
+    D: RobotModel<R, B, Q, V>,
+    const B: usize,
+    const Q: usize,
+    const V: usize,
+    const X: bool,
+>(
+    robot: &D,
+    q: &[R; Q],
+    parts: &Parts<R, V>,
+) -> MassMatrix<R, V> {
+    algorithms::crba(robot, q, &Scene::<R, V, true, true, X, true>(parts, true))
 }
 
 /// The columns of the Jacobian of a body.
@@ -263,8 +282,7 @@ fn factors<
     parts: &Parts<R, V>,
     counts: Counts,
 ) -> Result<algorithms::Ltdl<R, V>, Problem> {
-    let scene = Scene::<R, V, true, true, X, true>(parts, true);
-    let m = algorithms::crba(robot, q, &scene);
+    let m = inertia::<R, D, B, Q, V, X>(robot, q, parts);
     // x + 0 would change the sign of no pivot; the robot's own diagonal stays as it is.
     Ok(algorithms::ltdl(robot, &m.plus_diagonal(&fillers(counts)))?)
 }
@@ -289,7 +307,11 @@ algorithm! {
     /// τ of q, q̇ and q̈.
     Rnea { given: usize }, all, |this, robot, counts, scene, row| {
         let state = state(row, counts, this.given);
-        let tau = algorithms::rnea(robot, &state, scene);
+        let tau = if const { !A && C } {
+            bias::<R, D, B, Q, V, C, X>(robot, &state, (parts_of(scene), true))
+        } else {
+            algorithms::rnea(robot, &state, scene)
+        };
         put(row, 0, 0, &tau[..counts.v]);
     }
 }
@@ -317,14 +339,15 @@ algorithm! {
 algorithm! {
     /// The inertia matrix M(q).
     Crba, matrix, |this, robot, counts, scene, row| {
-        let m = algorithms::crba(robot, &filled::<R, Q>(row, 0, counts.q), scene);
+        let q = filled(row, 0, counts.q);
+        let m = inertia::<R, D, B, Q, V, X>(robot, &q, parts_of(scene));
         put_matrix(row, 0, &m, counts.v);
     }
 }
 
 algorithm! {
     /// q̈ of q, q̇ and τ, by articulated bodies.
-    Aba, moving, |this, robot, counts, scene, row| {
+    Aba, articulated, |this, robot, counts, scene, row| {
         let (state, tau) = (state(row, counts, 2), filled(row, 2, counts.v));
         let qdd = algorithms::aba(robot, &state, &tau, scene)?;
         put(row, 0, 0, &qdd[..counts.v]);
@@ -336,7 +359,7 @@ algorithm! {
     ForwardDynamics, moving, |this, robot, counts, scene, row| {
         let (state, tau) = (state(row, counts, 2), filled(row, 2, counts.v));
         let parts = parts_of(scene);
-        let bias = bias::<R, D, B, Q, V, C, X>(robot, &state, parts);
+        let bias = bias::<R, D, B, Q, V, C, X>(robot, &state, (parts, false));
         let mut rest = algorithms::transmitted_torque(robot, &state, &tau, scene);
         for (rest, bias) in rest.iter_mut().zip(bias) {
             *rest -= bias;

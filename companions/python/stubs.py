@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import ast
 import inspect
+import json
 import pathlib
 import sys
 
@@ -15,7 +16,7 @@ STUB = pathlib.Path(__file__).resolve().parent / "package/robot_dynamics/_native
 
 
 def documented(source: str, module: object) -> str:
-    """The stub with the docstring of each public name; a body of `...` becomes it."""
+    """The stub with the docstring of each public name in place of the body of a function."""
     lines = source.splitlines()
 
     def put(nodes: list[ast.stmt], owner: object) -> None:
@@ -23,20 +24,16 @@ def documented(source: str, module: object) -> str:
         for node in reversed(nodes):
             if not isinstance(node, (ast.FunctionDef, ast.ClassDef)) or node.name.startswith("_"):
                 continue
-            thing = inspect.getattr_static(owner, node.name)
-            text = getattr(thing, "__func__", thing).__doc__
-            written = '"' + text.replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n") + '"'
-            if isinstance(node, ast.ClassDef):
-                put(node.body, thing)
-                at = node.body[0]
-                if isinstance(at, ast.Expr):
-                    lines[at.lineno - 1] = f"    {written}"
-                else:
-                    first = min([at.lineno, *(one.lineno for one in getattr(at, "decorator_list", []))])
-                    lines.insert(first - 1, f"    {written}")
-            else:
-                at = node.body[0]
+            thing, at = inspect.getattr_static(owner, node.name), node.body[0]
+            written = json.dumps(getattr(thing, "__func__", thing).__doc__, ensure_ascii=False)
+            if isinstance(node, ast.FunctionDef):
                 lines[at.lineno - 1] = lines[at.lineno - 1].encode()[: at.col_offset].decode() + written
+                continue
+            put(node.body, thing)
+            if isinstance(at, ast.Expr):
+                lines[at.lineno - 1] = f"    {written}"
+            else:
+                lines.insert(node.lineno, f"    {written}")
 
     put(ast.parse(source).body, module)
     return "\n".join(lines) + "\n"

@@ -1,7 +1,8 @@
 //! Between numpy's arrays and the rows of a job.
 
 use numpy::{
-    Element, PyArrayDescrMethods, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArray, PyUntypedArrayMethods,
+    Element, PyArrayDescrMethods, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArray,
+    PyUntypedArrayMethods,
 };
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -65,10 +66,13 @@ pub fn dtype(arguments: &[Argument<'_, '_>]) -> PyResult<Dtype> {
                 (b'f', 8) => Dtype::Double,
                 (b'f', 4) => Dtype::Single,
                 (kind, _) => {
-                    let (name, remedy) = (argument.name, match kind {
-                        b'f' | b'b' => format!(": {}.astype(np.float64)", argument.name),
-                        _ => String::new(),
-                    });
+                    let (name, remedy) = (
+                        argument.name,
+                        match kind {
+                            b'f' | b'b' => format!(": {}.astype(np.float64)", argument.name),
+                            _ => String::new(),
+                        },
+                    );
                     let text = format!(
                         "`{name}` has the dtype {dtype}: expected float32, float64 or integers{remedy}"
                     );
@@ -95,9 +99,7 @@ fn wrong_dtype(argument: &Argument<'_, '_>, text: String) -> PyErr {
 }
 
 /// The array of an argument, contiguous.
-fn array<'py, R: Element>(
-    argument: &Argument<'_, 'py>,
-) -> PyResult<PyReadonlyArrayDyn<'py, R>> {
+fn array<'py, R: Element>(argument: &Argument<'_, 'py>) -> PyResult<PyReadonlyArrayDyn<'py, R>> {
     let py = argument.given.py();
     if let Ok(array) = argument.given.cast::<PyArrayDyn<R>>()
         && array.is_c_contiguous()

@@ -104,7 +104,11 @@ impl PyScene {
             return Ok(None);
         }
         if dtype(arguments)? == Dtype::Single {
-            return Err(refused(py, "OwnEffect", "OwnEffect: its torques are of float64, as arrays have to be"));
+            return Err(refused(
+                py,
+                "OwnEffect",
+                "OwnEffect: its torques are of float64, as arrays have to be",
+            ));
         }
         let (mut shape, arrays) = arrays_of::<f64>(arguments)?;
         shape.push(arguments[1].width());
@@ -114,7 +118,10 @@ impl PyScene {
             let tau: Argument<'_, 'py> = argument("OwnEffect", &given, arguments[1].width());
             let (leading, found) = arrays_of::<f64>(&[tau])?;
             if leading != shape[..leading.len()] && !leading.is_empty() {
-                let text = format!("OwnEffect: its torques have the leading axes {leading:?}: expected {:?}", &shape[..shape.len() - 1]);
+                let text = format!(
+                    "OwnEffect: its torques have the leading axes {leading:?}: expected {:?}",
+                    &shape[..shape.len() - 1]
+                );
                 return Err(refused(py, "OwnEffect", text));
             }
             sum = sum.add(&*found[0])?;

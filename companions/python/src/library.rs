@@ -30,42 +30,31 @@ fn known<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>() ->
 
 /// The names of its joints in the file of its source.
 pub fn joints(robot: &str, bodies: &[String]) -> Vec<String> {
-    let of_number = match robot {
-        "panda" => "panda_joint",
-        "iiwa14" => "iiwa_joint_",
-        "gen3" => "joint_",
-        "xarm7" | "z1" => "joint",
-        _ => "",
+    // A name for each, or one for all, with the joint's number (#) or the body (*).
+    let names = match robot {
+        "ur5e" => "shoulder_pan_joint shoulder_lift_joint elbow_joint *_joint *_joint *_joint",
+        "so101" => "shoulder_pan shoulder_lift elbow_flex wrist_flex wrist_roll gripper",
+        "panda" => "panda_joint#",
+        "iiwa14" => "iiwa_joint_#",
+        "gen3" => "joint_#",
+        "xarm7" => "joint#",
+        "z1" => "joint1 joint2 joint3 joint4 joint5 joint6 jointGripper",
+        _ => "*_joint",
     };
-    let joint = |(i, body): (usize, &String)| match &**body {
+    let joint = |((i, body), name): ((usize, &String), &str)| match &**body {
         "trunk" | "pelvis" => "floating_base".to_owned(),
-        "gripperMover" => "jointGripper".to_owned(),
-        _ if !of_number.is_empty() => format!("{of_number}{}", i + 1),
-        "shoulder" => "shoulder_pan_joint".to_owned(),
-        "upper_arm" => "shoulder_lift_joint".to_owned(),
-        "forearm" => "elbow_joint".to_owned(),
         "torso" => "waist_pitch_joint".to_owned(),
-        "shoulder_link" => "shoulder_pan".to_owned(),
-        "upper_arm_link" => "shoulder_lift".to_owned(),
-        "lower_arm_link" => "elbow_flex".to_owned(),
-        "wrist_link" => "wrist_flex".to_owned(),
-        "gripper_link" => "wrist_roll".to_owned(),
-        "moving_jaw_so101_v1_link" => "gripper".to_owned(),
         foot if foot.ends_with("_foot") => format!("{foot}_fixed"),
-        body => format!("{body}_joint"),
+        body => name.replace('#', &(i + 1).to_string()).replace('*', body),
     };
-    bodies.iter().enumerate().map(joint).collect()
+    bodies.iter().enumerate().zip(names.split(' ').cycle()).map(joint).collect()
 }
 
 /// The frames of its file that are known here: the tool's of an SO-101.
 pub fn frames(robot: &str) -> Vec<Frame> {
-    let tool = || Frame {
-        name: "gripper_frame_link".to_owned(),
-        body: Some(4),
-        xyz: [-0.0079, -0.000218121, -0.0981274],
-        attitude: Attitude::QuarterTurns([0, 2, 0]),
-    };
-    if robot == "so101" { vec![tool()] } else { Vec::new() }
+    let (body, xyz) = (Some(4), [-0.0079, -0.000218121, -0.0981274]);
+    let (name, attitude) = ("gripper_frame_link".to_owned(), Attitude::QuarterTurns([0, 2, 0]));
+    if robot == "so101" { vec![Frame { name, body, xyz, attitude }] } else { Vec::new() }
 }
 
 /// A function that builds a robot.

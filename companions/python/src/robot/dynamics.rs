@@ -26,7 +26,11 @@ impl Robot {
         let mut effects: Vec<Spec> = scene.iter().filter(|spec| keeps(spec)).cloned().collect();
         let mut given = arguments.len();
         if form != "core" && !scene.own.is_empty() {
-            return Err(refused(py, "OwnEffect", "OwnEffect: engines have no effects of one's own"));
+            return Err(refused(
+                py,
+                "OwnEffect",
+                "OwnEffect: engines have no effects of one's own",
+            ));
         }
         let mut by = self.by(py, form, given, &effects)?;
         // Without Inertia, the acceleration is zero but for motors: one form of the algorithm less.
@@ -59,7 +63,8 @@ impl Robot {
         with_inertia(py, &scene)?;
         let mut arguments = [self.q("q", q), self.v("qd", qd), self.v("tau", tau)];
         let own = scene.own_torque(py, &arguments)?;
-        let rest = own.map(|own| PyModule::import(py, "numpy")?.call_method1("subtract", (tau, own)));
+        let rest =
+            own.map(|own| PyModule::import(py, "numpy")?.call_method1("subtract", (tau, own)));
         let rest = rest.transpose()?;
         arguments[2] = self.v("tau", rest.as_ref().unwrap_or(tau));
         self.one(py, which, &scene, &arguments, &[&[self.counts.v]])

@@ -44,9 +44,9 @@ impl Robot {
     pub fn at(&self, given: &Bound<'_, PyAny>) -> PyResult<(Option<Py<Robot>>, usize)> {
         let (py, name) = (given.py(), given.extract::<String>().ok());
         let own = |name: &String| self.body_number(&BodyRef::Name(name.clone())).is_some();
-        let frame = name.filter(|name| !own(name)).and_then(|name| {
-            self.frames.iter().find(|frame| frame.name == name)
-        });
+        let frame = name
+            .filter(|name| !own(name))
+            .and_then(|name| self.frames.iter().find(|frame| frame.name == name));
         let Some(frame) = frame else {
             return Ok((None, self.body(given)?));
         };
@@ -64,14 +64,11 @@ impl Robot {
 
     /// The error of a body that there is not.
     pub fn unknown_body(&self, given: &Bound<'_, PyAny>) -> PyErr {
-        let list = |names: Vec<&str>| names.join(", ");
-        let bodies = list(self.bodies.iter().map(|body| body.name.as_str()).collect());
-        let frames = match self.frames.as_slice() {
-            [] => String::new(),
-            all => list(all.iter().map(|frame| frame.name.as_str()).collect()),
-        };
-        let frames = if frames.is_empty() { frames } else { format!("; its frames are {frames}") };
-        let text = format!("the robot has no body {given}: its bodies are {bodies}{frames}");
+        let bodies: Vec<&str> = self.bodies.iter().map(|body| &*body.name).collect();
+        let frames: Vec<&str> = self.frames.iter().map(|frame| &*frame.name).collect();
+        let more = if frames.is_empty() { "" } else { "; its frames are " };
+        let (bodies, frames) = (bodies.join(", "), frames.join(", "));
+        let text = format!("the robot has no body {given}: its bodies are {bodies}{more}{frames}");
         Exception::new(given.py(), "UnknownBody", text).with("body", given).build()
     }
 }

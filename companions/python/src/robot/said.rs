@@ -146,10 +146,10 @@ impl Robot {
         ];
         let mut all = RIGID_BODY.to_vec();
         all.extend(stated.into_iter().filter(|spec| match spec {
-            Spec::Viscous { coefficients: all } | Spec::Coulomb { torque: all, .. }
-            | Spec::Armature { inertia: all } | Spec::Spring { stiffness: all, .. } => {
-                all.iter().any(|&x| x != 0.0)
-            }
+            Spec::Viscous { coefficients: all }
+            | Spec::Coulomb { torque: all, .. }
+            | Spec::Armature { inertia: all }
+            | Spec::Spring { stiffness: all, .. } => all.iter().any(|&x| x != 0.0),
             _ => true,
         }));
         Ok(Arc::new(all).into())

@@ -103,26 +103,21 @@ impl PyScene {
         if self.own.is_empty() {
             return Ok(None);
         }
+        let refuse = |text: String| Err(refused(py, "OwnEffect", format!("OwnEffect: {text}")));
         if dtype(arguments)? == Dtype::Single {
-            return Err(refused(
-                py,
-                "OwnEffect",
-                "OwnEffect: its torques are of float64, as arrays have to be",
-            ));
+            return refuse("it is computed in float64: arrays have to be float64".to_owned());
         }
-        let (mut shape, arrays) = arrays_of::<f64>(arguments)?;
-        shape.push(arguments[1].width());
-        let mut sum = PyArrayDyn::<f64>::zeros(py, &*shape, false).into_any();
+        let (leading, arrays) = arrays_of::<f64>(arguments)?;
+        let width = arguments[1].width();
+        let mut sum =
+            PyArrayDyn::<f64>::zeros(py, [&*leading, &[width]].concat(), false).into_any();
         for function in &*self.own {
             let given = function.bind(py).call1((&*arrays[0], &*arrays[1]))?;
-            let tau: Argument<'_, 'py> = argument("OwnEffect", &given, arguments[1].width());
-            let (leading, found) = arrays_of::<f64>(&[tau])?;
-            if leading != shape[..leading.len()] && !leading.is_empty() {
-                let text = format!(
-                    "OwnEffect: its torques have the leading axes {leading:?}: expected {:?}",
-                    &shape[..shape.len() - 1]
-                );
-                return Err(refused(py, "OwnEffect", text));
+            let (own, found) = arrays_of::<f64>(&[argument("OwnEffect", &given, width)])?;
+            if own != leading && !own.is_empty() {
+                return refuse(format!(
+                    "its torques have the leading axes {own:?}, not {leading:?}"
+                ));
             }
             sum = sum.add(&*found[0])?;
         }

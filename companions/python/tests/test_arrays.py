@@ -87,20 +87,19 @@ def test_leading_axes_broadcast_as_numpys(method, names, name):
     robot = rd.Robot(name)
     given, call = arguments(robot, names, 3, np.float64), getattr(robot, method)
     places = [i for i, argument in enumerate(given) if isinstance(argument, np.ndarray)]
-    ways = [lambda x: x[:2, None], lambda x: x, lambda x: x[0], lambda x: x[:1, None]]
-    mixed = [ways[places.index(i) % 4](x) if i in places else x for i, x in enumerate(given)]
-    together = all_of(call(*mixed))
-    leading = np.broadcast_shapes(*([(2, 1), (3,), (), (1, 1)][n % 4] for n in range(len(places))))
-    at = np.ndindex(leading)
-    for index in at:
-        i, j = (*index, 0)[:2] if len(leading) == 2 else (0, index[0])
-        alone = [[x[i], x[j], x[0], x[0]][places.index(k) % 4] if k in places else x for k, x in enumerate(given)]
-        for batch, single in zip(together, all_of(call(*alone)), strict=True):
+    turn = [places.index(i) % 4 if i in places else 4 for i in range(len(given))]
+    shapes = [(2, 1), (3,), (), (1, 1)]
+    ways = [lambda x: x[:2, None], lambda x: x, lambda x: x[0], lambda x: x[:1, None], lambda x: x]
+    together = all_of(call(*[ways[k](x) for k, x in zip(turn, given)]))
+    leading = np.broadcast_shapes(*[shapes[k] for k in turn if k < 4])
+    for i, j in np.ndindex(2, 3):
+        index = (i, j)[-len(leading) :] if leading != (2, 1) else (i, 0)
+        alone = all_of(call(*[[x[i], x[j], x[0], x[0], x][k] if k < 4 else x for k, x in zip(turn, given)]))
+        for batch, single in zip(together, alone, strict=True):
             assert batch.shape[: len(leading)] == leading and batch[index].tobytes() == single.tobytes()
-    none = [x[:0, None] if k == places[0] else x for k, x in enumerate(mixed)]
-    for empty, batch in zip(all_of(call(*none)), together):
-        rest = np.broadcast_shapes((0, 1), leading[1:] if len(leading) == 2 and len(places) > 1 else ())
-        assert empty.dtype == np.float64 and empty.shape == (*rest, *batch.shape[len(leading) :])
+    empty = call(*[x[:0, None] if k == 0 else ways[k](x) for k, x in zip(turn, given)])
+    for none, batch in zip(all_of(empty), together, strict=True):
+        assert none.shape == (0, *batch.shape[1:]) and none.dtype == np.float64
 
 
 @pytest.mark.parametrize("name", ["ur5e", "a1_free"])
@@ -112,14 +111,13 @@ def test_integers_are_float64(method, names, name):
     given, call = arguments(robot, names, 3, np.float64), getattr(robot, method)
     arrays = [isinstance(x, np.ndarray) for x in given]
     # Of M and its factors, and of attitudes, those that are whole: the identity.
-    whole = [x.astype(int) if array else x for x, array in zip(given, arrays)]
-    for x, array, kind in zip(whole, arrays, names.split()):
-        if array and kind in "MLD":
-            x[:] = 1 if kind == "D" else np.eye(robot.nv)
-        if array and kind == "q" and name == "a1_free":
+    for x, kind in zip(given, names.split()):
+        if kind in "ML":
+            x[:] = np.eye(robot.nv)
+        if kind == "q" and name == "a1_free":
             x[:, :4] = [0, 0, 0, 1]
-    for dtype in (np.int64, np.int32, np.uint8):
-        x = [np.abs(y).astype(dtype) if array else y for y, array in zip(whole, arrays)]
+    for dtype in (np.int64, np.uint8):
+        x = [np.ceil(np.abs(y)).astype(dtype) if array else y for y, array in zip(given, arrays)]
         exact = [y.astype(float) if array else y for y, array in zip(x, arrays)]
         for found, expected in zip(all_of(call(*x)), all_of(call(*exact)), strict=True):
             assert found.dtype == np.float64 and found.tobytes() == expected.tobytes()

@@ -6,7 +6,7 @@ use robot_dynamics_kernels::spec::Spec;
 
 use super::{Array, Robot, frame_of, with_inertia, without_rotors};
 use crate::arrays::Argument;
-use crate::effects::{given as effects_of, refused, with_own};
+use crate::effects::{given as effects_of, with_own};
 use crate::error::wanted;
 use crate::methods::{Machine, methods};
 use crate::request::By;
@@ -25,13 +25,6 @@ impl Robot {
         let scene = with_own(effects)?;
         let mut effects: Vec<Spec> = scene.iter().filter(|spec| keeps(spec)).cloned().collect();
         let mut given = arguments.len();
-        if form != "core" && !scene.own.is_empty() {
-            return Err(refused(
-                py,
-                "OwnEffect",
-                "OwnEffect: engines have no effects of one's own",
-            ));
-        }
         let mut by = self.by(py, form, given, &effects)?;
         // Without Inertia, the acceleration is zero but for motors: one form of the algorithm less.
         let has = |spec| effects.contains(&spec);

@@ -46,8 +46,9 @@ use said::Said;
 /// `Robot.from_text` read URDF and MJCF. Units are SI: rad, m, kg, N·m, N.
 ///
 /// Every method takes arrays of one state, such as q of shape (nq,), or of many, with any leading
-/// axes: (n, nq). All arrays of a call are float32 or all are float64, and so is the result; lists
-/// have the type of the arrays beside them, else float64. In float32 the results have the bits of
+/// axes, which broadcast as numpy's: (n, nq) and (nv,) give (n, nv). All arrays of a call are
+/// float32 or all are float64, and so is the result; lists and integers have the type of the arrays
+/// beside them, else float64. In float32 the results have the bits of
 /// the same algorithm (`Core`) in firmware. Batches release Python's lock and use all cores.
 ///
 /// q has the coordinates of each joint in the order of the bodies: an angle or a length; of a ball

@@ -305,7 +305,7 @@ impl Robot {
         effects: &[Spec],
     ) -> PyResult<By<'static>> {
         if form == "core" {
-            return Ok(Which::Rnea { given }.into());
+            return Ok(Which::Rnea { given, still: false }.into());
         }
         let none = |text| {
             let error = Exception::new(py, "NoEngine", text);

@@ -97,7 +97,7 @@ macro_rules! which {
 }
 
 which! {
-    Rnea { given: usize },
+    Rnea { given: usize, still: bool },
     RneaAndWrenches,
     RneaTwoVelocities,
     Crba,

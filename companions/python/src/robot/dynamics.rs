@@ -26,17 +26,33 @@ impl Robot {
         let mut effects: Vec<Spec> = scene.iter().filter(|spec| keeps(spec)).cloned().collect();
         let mut given = arguments.len();
         let mut by = self.by(py, form, given, &effects)?;
-        // Without Inertia, the acceleration is zero but for motors: one form of the algorithm less.
+        // Few scenes have machine code of their own. Without Inertia, the acceleration is zero but
+        // for motors; without Coriolis, the velocity but for joints.
         let has = |spec| effects.contains(&spec);
+        let [inertia, coriolis] = [has(Spec::Inertia), has(Spec::Coriolis)];
         let turns =
             |spec: &Spec| matches!(spec, Spec::Armature { .. } | Spec::GyroscopicRotors { .. });
-        let motors = given == 3 && effects.iter().any(turns);
-        if matches!(by, By::Model(_)) && has(Spec::Coriolis) && !has(Spec::Inertia) && !motors {
-            given = given.min(2);
-            by = Which::Rnea { given }.into();
-            effects.push(Spec::Inertia);
+        let (mut joints, mut still) = (Vec::new(), false);
+        if matches!(by, By::Model(_)) && coriolis && !inertia {
+            if given < 3 || !effects.iter().any(turns) {
+                given = given.min(2);
+                effects.push(Spec::Inertia);
+            }
+        } else if inertia && !coriolis && !effects.iter().any(Spec::is_extra) {
+            still = true;
+            let whole =
+                |spec: &Spec| turns(spec) || matches!(spec, Spec::Gravity(_) | Spec::Inertia);
+            (effects, joints) = effects.into_iter().partition(whole);
+            effects.push(Spec::Coriolis);
         }
-        let tau = self.one(py, by, &effects, arguments, &[&[self.counts.v]])?;
+        if matches!(by, By::Model(_)) {
+            by = Which::Rnea { given, still }.into();
+        }
+        let mut tau = self.one(py, by, &effects, arguments, &[&[self.counts.v]])?;
+        if !joints.is_empty() {
+            let which = Which::Rnea { given: 2, still: false };
+            tau = tau.add(self.one(py, which, &joints, arguments, &[&[self.counts.v]])?)?;
+        }
         // Gravity has no velocities.
         match if arguments.len() > 1 { scene.own_torque(py, arguments)? } else { None } {
             Some(own) => tau.add(own),

@@ -304,9 +304,12 @@ pub use manifold::*;
 pub use regressors::*;
 
 algorithm! {
-    /// τ of q, q̇ and q̈.
-    Rnea { given: usize }, all, |this, robot, counts, scene, row| {
-        let state = state(row, counts, this.given);
+    /// τ of so many of q, q̇ and q̈, or of q and q̈ at rest.
+    Rnea { given: usize, still: bool }, all, |this, robot, counts, scene, row| {
+        let mut state = state(row, counts, this.given);
+        if this.still {
+            state.qd = [R::ZERO; V];
+        }
         let tau = if const { !A && C } {
             bias::<R, D, B, Q, V, C, X>(robot, &state, (parts_of(scene), true))
         } else {

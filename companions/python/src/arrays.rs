@@ -129,11 +129,14 @@ fn array<'py, R: Element>(argument: &Argument<'_, 'py>) -> PyResult<PyReadonlyAr
 pub fn arrays_of<'py, R: Element>(
     arguments: &[Argument<'_, 'py>],
 ) -> PyResult<(Vec<usize>, Vec<PyReadonlyArrayDyn<'py, R>>)> {
-    let arrays: Vec<_> = arguments.iter().map(array::<R>).collect::<PyResult<_>>()?;
+    let mut arrays: Vec<_> = arguments.iter().map(array::<R>).collect::<PyResult<_>>()?;
     let leading = leading(arguments, arrays.iter().map(|array| array.shape()))?;
-    let arrays = arguments.iter().zip(arrays);
-    let arrays: PyResult<_> = arrays.map(|(of, array)| broadcast(of, array, &leading)).collect();
-    Ok((leading, arrays?))
+    for (argument, array) in arguments.iter().zip(&mut arrays) {
+        if array.shape().strip_suffix(argument.own()) != Some(&*leading) {
+            *array = broadcast(argument, array, &leading)?;
+        }
+    }
+    Ok((leading, arrays))
 }
 
 /// The leading axes of the arguments together, as numpy broadcasts them.
@@ -175,15 +178,12 @@ fn widen(all: &mut Vec<usize>, axes: &[usize]) -> bool {
 /// An array with these leading axes.
 fn broadcast<'py, R: Element>(
     argument: &Argument<'_, 'py>,
-    array: PyReadonlyArrayDyn<'py, R>,
+    array: &PyReadonlyArrayDyn<'py, R>,
     leading: &[usize],
 ) -> PyResult<PyReadonlyArrayDyn<'py, R>> {
-    if array.shape().strip_suffix(argument.own()) == Some(leading) {
-        return Ok(array);
-    }
     let shape = [leading, argument.own()].concat();
     let numpy = argument.given.py().import("numpy")?;
-    let all = numpy.call_method1("broadcast_to", (&*array, shape))?;
+    let all = numpy.call_method1("broadcast_to", (&**array, shape))?;
     let all = numpy.call_method1("ascontiguousarray", (all,))?;
     Ok(all.cast_into::<PyArrayDyn<R>>()?.readonly())
 }

@@ -54,9 +54,11 @@ impl Deref for PyScene {
 
 impl From<Arc<Vec<Spec>>> for PyScene {
     fn from(specs: Arc<Vec<Spec>>) -> Self {
-        Self { specs, own: Arc::default() }
+        Self { specs, own: NO_OWN.clone() }
     }
 }
+
+static NO_OWN: LazyLock<Arc<Vec<Py<PyAny>>>> = LazyLock::new(Arc::default);
 
 /// Gravity of the earth, inertia and velocity products.
 pub static RIGID_BODY: LazyLock<Arc<Vec<Spec>>> = LazyLock::new(|| {

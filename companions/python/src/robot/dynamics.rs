@@ -6,7 +6,7 @@ use robot_dynamics_kernels::spec::Spec;
 
 use super::{Array, Robot, frame_of, with_inertia, without_rotors};
 use crate::arrays::Argument;
-use crate::effects::{given as effects_of, with_own};
+use crate::effects::{RIGID_BODY, given as effects_of, with_own};
 use crate::error::wanted;
 use crate::methods::{Machine, methods};
 use crate::request::By;
@@ -22,6 +22,11 @@ impl Robot {
         keeps: impl Fn(&Spec) -> bool,
         arguments: &[Argument<'_, 'py>],
     ) -> PyResult<Array<'py>> {
+        let shape: &[&[usize]] = &[&[self.counts.v]];
+        if effects.is_none() && arguments.len() == 3 && form == "core" {
+            let which = Which::Rnea { given: 3, still: false };
+            return self.one(py, which, &RIGID_BODY, arguments, shape);
+        }
         let scene = with_own(effects)?;
         let mut effects: Vec<Spec> = scene.iter().filter(|spec| keeps(spec)).cloned().collect();
         let mut given = arguments.len();
@@ -48,10 +53,10 @@ impl Robot {
         if matches!(by, By::Model(_)) {
             by = Which::Rnea { given, still }.into();
         }
-        let mut tau = self.one(py, by, &effects, arguments, &[&[self.counts.v]])?;
+        let mut tau = self.one(py, by, &effects, arguments, shape)?;
         if !joints.is_empty() {
             let which = Which::Rnea { given: 2, still: false };
-            tau = tau.add(self.one(py, which, &joints, arguments, &[&[self.counts.v]])?)?;
+            tau = tau.add(self.one(py, which, &joints, arguments, shape)?)?;
         }
         // Gravity has no velocities.
         match if arguments.len() > 1 { scene.own_torque(py, arguments)? } else { None } {

@@ -9,5 +9,4 @@
 
 from . import errors
 from ._native import *  # noqa: F403
-from ._native import __version__ as __version__
 from .errors import *  # noqa: F403

@@ -64,6 +64,7 @@ __all__ = [
     "TipMotion",
     "Viscous",
     "WorldWrench",
+    "__version__",
     "_robot",
     "_scene",
     "robots",

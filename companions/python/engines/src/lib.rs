@@ -1,11 +1,11 @@
 //! Inverse dynamics by `Engine`, the form that is specialised to a robot at compile time, over rows
 //! of numbers.
 //!
-//! A scene of the engine is known to the compiler: the wheel has that of gravity, and that of rigid
-//! bodies, which is that of bias where accelerations are zero.
+//! A scene of the engine is known to the compiler: the wheel has that of rigid bodies, which is that
+//! of bias and of gravity where rates are zero, but for the signs of zeros.
 
 use dynamics_core::Engine;
-use dynamics_core::effects::{Gravity, RIGID_BODY};
+use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::model::Robot;
 use dynamics_core::robots::{A1, A1Free, A1Leg, Gen3, Iiwa14, Panda, So101, Ur5e, XArm7, Z1};
 use dynamics_core::scalar::Real;
@@ -33,10 +33,7 @@ fn rows<T: Robot<B, Q, V>, R: Real, const B: usize, const Q: usize, const V: usi
             qd: part(1),
             qdd: part(2),
         };
-        let tau = match given {
-            1 => Engine::<T>::rnea(&state, &Gravity::EARTH),
-            _ => Engine::<T>::rnea(&state, &RIGID_BODY),
-        };
+        let tau = Engine::<T>::rnea(&state, &RIGID_BODY);
         for (i, tau) in tau.into_iter().enumerate() {
             one.put(0, i, tau);
         }

@@ -48,7 +48,10 @@ def run(path: pathlib.Path) -> dict:
 
 
 if __name__ == "__main__":
-    path = pathlib.Path(sys.argv[1])
+    arguments = [one for one in sys.argv[1:] if one != "--write"]
+    if len(arguments) != 1:
+        sys.exit("usage: python run_notebook.py NOTEBOOK.ipynb [--write]")
+    path = pathlib.Path(arguments[0])
     done = run(path)
     if "--write" in sys.argv:
         path.write_text(json.dumps(done, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")

@@ -1,7 +1,8 @@
 //! Between numpy's arrays and the rows of a job.
 
 use numpy::{
-    Element, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArray, PyUntypedArrayMethods,
+    Element, PyArrayDescrMethods, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArray,
+    PyUntypedArrayMethods,
 };
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -45,8 +46,8 @@ pub enum Dtype {
     Double,
 }
 
-/// The type of the arguments: lists have the type of the arrays among them, and f64 if there is
-/// none.
+/// The type of the arguments: lists and integers have the type of the arrays among them, and f64
+/// if there is none.
 pub fn dtype(arguments: &[Argument<'_, '_>]) -> PyResult<Dtype> {
     let mut found = None;
     for argument in arguments {
@@ -59,9 +60,25 @@ pub fn dtype(arguments: &[Argument<'_, '_>]) -> PyResult<Dtype> {
             return Err(wrong_dtype(argument, text));
         } else if let Ok(array) = argument.given.cast::<PyUntypedArray>() {
             let dtype = array.dtype();
-            let text =
-                format!("`{}` has the dtype {dtype}: expected float32 or float64", argument.name);
-            return Err(wrong_dtype(argument, text));
+            match (dtype.kind(), dtype.itemsize()) {
+                (b'i' | b'u', _) => continue,
+                // In the other order of bytes.
+                (b'f', 8) => Dtype::Double,
+                (b'f', 4) => Dtype::Single,
+                (kind, _) => {
+                    let (name, remedy) = (
+                        argument.name,
+                        match kind {
+                            b'f' | b'b' => format!(": {}.astype(np.float64)", argument.name),
+                            _ => String::new(),
+                        },
+                    );
+                    let text = format!(
+                        "`{name}` has the dtype {dtype}: expected float32, float64 or integers{remedy}"
+                    );
+                    return Err(wrong_dtype(argument, text));
+                }
+            }
         } else {
             continue;
         };
@@ -82,9 +99,7 @@ fn wrong_dtype(argument: &Argument<'_, '_>, text: String) -> PyErr {
 }
 
 /// The array of an argument, contiguous.
-pub fn array<'py, R: Element>(
-    argument: &Argument<'_, 'py>,
-) -> PyResult<PyReadonlyArrayDyn<'py, R>> {
+fn array<'py, R: Element>(argument: &Argument<'_, 'py>) -> PyResult<PyReadonlyArrayDyn<'py, R>> {
     let py = argument.given.py();
     if let Ok(array) = argument.given.cast::<PyArrayDyn<R>>()
         && array.is_c_contiguous()
@@ -110,29 +125,70 @@ pub fn array<'py, R: Element>(
     }
 }
 
-/// The leading axes of the arguments, which are the same for all.
-pub fn leading<'s>(
+/// The leading axes of the arguments together, and arrays that have them.
+pub fn arrays_of<'py, R: Element>(
+    arguments: &[Argument<'_, 'py>],
+) -> PyResult<(Vec<usize>, Vec<PyReadonlyArrayDyn<'py, R>>)> {
+    let mut arrays: Vec<_> = arguments.iter().map(array::<R>).collect::<PyResult<_>>()?;
+    let leading = leading(arguments, arrays.iter().map(|array| array.shape()))?;
+    for (argument, array) in arguments.iter().zip(&mut arrays) {
+        if array.shape().strip_suffix(argument.own()) != Some(&*leading) {
+            *array = broadcast(argument, array, &leading)?;
+        }
+    }
+    Ok((leading, arrays))
+}
+
+/// The leading axes of the arguments together, as numpy broadcasts them.
+fn leading<'s>(
     arguments: &[Argument<'_, '_>],
     shapes: impl Iterator<Item = &'s [usize]>,
-) -> PyResult<&'s [usize]> {
-    let mut found: Option<(&'static str, &'s [usize])> = None;
-    for (argument, shape) in arguments.iter().zip(shapes) {
+) -> PyResult<Vec<usize>> {
+    let mut all: Option<Vec<usize>> = None;
+    for (i, (argument, shape)) in arguments.iter().zip(shapes).enumerate() {
         let Some(leading) = shape.strip_suffix(argument.own()) else {
             return Err(wrong_shape(argument, shape, String::new()));
         };
-        match found {
-            Some((name, other)) if other != leading => {
-                let text = format!(", and the leading axes {other:?} of `{name}`");
-                return Err(wrong_shape(argument, shape, text));
-            }
-            Some(_) => {}
-            None => found = Some((argument.name, leading)),
+        let all = all.get_or_insert_with(|| leading.to_vec());
+        if all != leading && !widen(all, leading) {
+            let before: Vec<&str> = arguments[..i].iter().map(|before| before.name).collect();
+            let text = format!(", and the leading axes {all:?} of `{}`", before.join("`, `"));
+            return Err(wrong_shape(argument, shape, text));
         }
     }
-    Ok(found.map_or(&[], |(_, leading)| leading))
+    Ok(all.unwrap_or_default())
 }
 
-fn wrong_shape(argument: &Argument<'_, '_>, shape: &[usize], more: String) -> PyErr {
+/// Broadcasts axes with others, unless they do not go together.
+fn widen(all: &mut Vec<usize>, axes: &[usize]) -> bool {
+    let mut wide = all.clone();
+    wide.splice(0..0, std::iter::repeat_n(1, axes.len().saturating_sub(all.len())));
+    let first = wide.len() - axes.len();
+    for (one, &length) in wide[first..].iter_mut().zip(axes) {
+        match (*one, length) {
+            (1, _) => *one = length,
+            (one, length) if one == length || length == 1 => {}
+            _ => return false,
+        }
+    }
+    *all = wide;
+    true
+}
+
+/// An array with these leading axes.
+fn broadcast<'py, R: Element>(
+    argument: &Argument<'_, 'py>,
+    array: &PyReadonlyArrayDyn<'py, R>,
+    leading: &[usize],
+) -> PyResult<PyReadonlyArrayDyn<'py, R>> {
+    let shape = [leading, argument.own()].concat();
+    let numpy = argument.given.py().import("numpy")?;
+    let all = numpy.call_method1("broadcast_to", (&**array, shape))?;
+    let all = numpy.call_method1("ascontiguousarray", (all,))?;
+    Ok(all.cast_into::<PyArrayDyn<R>>()?.readonly())
+}
+
+pub fn wrong_shape(argument: &Argument<'_, '_>, shape: &[usize], more: String) -> PyErr {
     let expected = match argument.own() {
         [width] => format!("{width} numbers on the last axis{more}"),
         own => format!("{own:?} as the last axes{more}"),

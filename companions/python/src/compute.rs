@@ -1,6 +1,6 @@
 //! From a call in Python to an algorithm over its rows.
 
-use numpy::{Element, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
+use numpy::{Element, PyArrayDyn, PyArrayMethods};
 use pyo3::prelude::*;
 use robot_dynamics_engines::InEngine;
 use robot_dynamics_kernels::job::{Input, Job, Output};
@@ -8,7 +8,7 @@ use robot_dynamics_kernels::model::Models;
 use robot_dynamics_kernels::spec::{BodyRef, fit};
 use robot_dynamics_kernels::{Scalar, Setting};
 
-use crate::arrays::{Dtype, array, dtype, leading};
+use crate::arrays::{Dtype, arrays_of, dtype};
 use crate::effects::refused;
 use crate::failure::of_failure;
 use crate::request::{By, Request};
@@ -65,10 +65,8 @@ impl Robot {
             let text = format!("{}: {}", error.effect, error.problem);
             refused(py, error.effect, text)
         })?;
-        let arrays: Vec<_> = request.arguments.iter().map(array::<R>).collect::<PyResult<_>>()?;
-        let engine = matches!(by, By::Engine(_));
-        let shapes = arrays.iter().map(|array| array.shape());
-        let leading = leading(request.arguments, shapes)?;
+        let (leading, arrays) = arrays_of::<R>(request.arguments)?;
+        let engine = matches!(by, By::Engine);
         let rows = leading.iter().product();
         let in_range = arrays.iter().zip(request.arguments);
         let in_range: Vec<Option<Vec<R>>> = in_range
@@ -114,15 +112,15 @@ impl Robot {
             let models = R::of(self);
             let engine = match by {
                 By::Model(_) => None,
-                By::Engine(_) => self.library_name().and_then(R::engine),
+                By::Engine => self.library_name().and_then(R::engine),
             };
             let rows_by = |job: &mut Job<'_, R>| match (by, engine) {
                 (By::Model(which), _) => R::compute(&which, models, setting, job),
-                (By::Engine(scene), Some(engine)) => {
-                    engine(scene, job);
+                (By::Engine, Some(engine)) => {
+                    engine(job);
                     Ok(())
                 }
-                (By::Engine(_), None) => unreachable!("the robot was asked for its engine"),
+                (By::Engine, None) => unreachable!("the robot was asked for its engine"),
             };
             let work = || job.compute(rows_by);
             if rows < ROWS_WITH_LOCK { work() } else { py.detach(work) }

@@ -35,7 +35,8 @@ pub struct Cost {
 impl Cost {
     fn __repr__(&self) -> String {
         let Self { algorithm, form, inputs, cycles, .. } = self;
-        format!("Cost({algorithm} {form} {inputs}: {cycles} cycles)")
+        let sines = if self.trigonometry { "with" } else { "without" };
+        format!("Cost({algorithm} {form} {inputs}, {sines} sines: {cycles} cycles)")
     }
 }
 

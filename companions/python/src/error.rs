@@ -1,5 +1,7 @@
 //! From errors of the library to exceptions of `robot_dynamics.errors`.
 
+use std::path::Path;
+
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -62,6 +64,7 @@ where
 /// A description that cannot be read.
 pub fn of_import(py: Python<'_>, error: &ImportError) -> PyErr {
     let class = match error.problem {
+        Problem::File { ref path, .. } if !Path::new(path).exists() => "MissingFile",
         Problem::File { .. } => "UnreadableFile",
         _ => "DescriptionError",
     };

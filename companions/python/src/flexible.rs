@@ -96,7 +96,7 @@ pub struct PyBeam(Beam);
 #[pymethods]
 impl PyBeam {
     #[new]
-    #[pyo3(signature = (length, mass_per_length, bending = [0.0; 2], torsion = 0.0, sections = [0.0; 2], tip = [0.0; 2], damping_ratio = 0.0))]
+    #[pyo3(signature = (length, mass_per_length, bending = [0.0; 2], torsion = 0.0, sections = [0.0; 2], tip = [0.0; 2], damping_ratio = 0.0), text_signature = "(length, mass_per_length, bending=[0.0, 0.0], torsion=0.0, sections=[0.0, 0.0], tip=[0.0, 0.0], damping_ratio=0.0)")]
     fn new(
         #[pyo3(from_py_with = wanted)] length: f64,
         #[pyo3(from_py_with = wanted)] mass_per_length: f64,

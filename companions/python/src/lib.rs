@@ -36,6 +36,7 @@ fn threads() -> usize {
 
 #[pymodule]
 fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add_class::<robot::Robot>()?;
     module.add_class::<robot::said::PyAdvice>()?;
     module.add_class::<robot::said::PyCoupling>()?;

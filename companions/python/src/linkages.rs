@@ -77,12 +77,12 @@ type RodNumbers = ([f64; 3], [f64; 3], [f64; 3], f64, bool);
 macro_rules! functions {
     ($(
         $(#[$doc:meta])*
-        $name:ident($($field:ident: $kind:ty $(= $default:tt)?),*), [$($numbers:expr),*] => $make:expr;
+        $name:ident($($field:ident: $kind:ty $(= $default:tt)?),*) $($text:literal)?, [$($numbers:expr),*] => $make:expr;
     )*) => {
         $(
             $(#[$doc])*
             #[pyfunction]
-            #[pyo3(signature = ($($field $(= $default)?),*))]
+            #[pyo3(signature = ($($field $(= $default)?),*) $(, text_signature = $text)?)]
             fn $name(
                 py: Python<'_>,
                 $(#[pyo3(from_py_with = wanted)] $field: $kind),*
@@ -104,13 +104,15 @@ functions! {
     /// assemble it, that in which the coupler's joint on the rocker is to the left of the line from
     /// the crank's end to the rocker's joint. ``zeros``, rad: the angle of each link at q = 0 from
     /// the ground, and of the coupler from the crank.
-    FourBar(ground: f64, crank: f64, coupler: f64, rocker: f64, positive: bool = true, zeros: [f64; 3] = [0.0; 3]),
+    FourBar(ground: f64, crank: f64, coupler: f64, rocker: f64, positive: bool = true, zeros: [f64; 3] = [0.0; 3])
+    "(ground, crank, coupler, rocker, positive=True, zeros=[0.0, 0.0, 0.0])",
     [[ground, crank, coupler, rocker], zeros] =>
         clusters::FourBar::new(ground, crank, coupler, rocker, branch(positive)).zeros(zeros);
 
     /// A planar five-bar: the distance of the cranks, m, and the lengths of crank and rod of each;
     /// the coordinates are the angles of crank, rod, other crank and other rod.
-    FiveBar(ground: f64, first: [f64; 2], second: [f64; 2], positive: bool = true, zeros: [f64; 4] = [0.0; 4]),
+    FiveBar(ground: f64, first: [f64; 2], second: [f64; 2], positive: bool = true, zeros: [f64; 4] = [0.0; 4])
+    "(ground, first, second, positive=True, zeros=[0.0, 0.0, 0.0, 0.0])",
     [[ground], first, second, zeros] =>
         clusters::FiveBar::new(ground, first, second, branch(positive)).zeros(zeros);
 

@@ -33,7 +33,7 @@ pub struct PyLoopJoint {
 #[pymethods]
 impl PyLoopJoint {
     #[new]
-    #[pyo3(signature = (name, kind, bodies, xyz = [[0.0; 3]; 2], rpy = [[0.0; 3]; 2], axis = [0.0, 0.0, 1.0]))]
+    #[pyo3(signature = (name, kind, bodies, xyz = [[0.0; 3]; 2], rpy = [[0.0; 3]; 2], axis = [0.0, 0.0, 1.0]), text_signature = "(name, kind, bodies, xyz=[[0.0] * 3] * 2, rpy=[[0.0] * 3] * 2, axis=[0.0, 0.0, 1.0])")]
     fn new(
         py: Python<'_>,
         #[pyo3(from_py_with = wanted)] name: String,
@@ -106,13 +106,13 @@ impl Machine for PyLoops {
 #[pymethods]
 impl PyLoops {
     #[new]
-    #[pyo3(signature = (robot, joints = None, actuated = None, damped_below = SINGULAR))]
+    #[pyo3(signature = (robot, joints = None, actuated = None, damped_below = None))]
     fn new(
         py: Python<'_>,
         #[pyo3(from_py_with = wanted)] robot: Py<Robot>,
         #[pyo3(from_py_with = wanted)] joints: Option<Vec<Py<PyLoopJoint>>>,
         #[pyo3(from_py_with = wanted)] actuated: Option<Vec<Bound<'_, PyAny>>>,
-        #[pyo3(from_py_with = wanted)] damped_below: f64,
+        #[pyo3(from_py_with = wanted)] damped_below: Option<f64>,
     ) -> PyResult<Self> {
         let of = robot.get();
         let (mut names, mut all) = (Vec::new(), Vec::new());
@@ -151,6 +151,7 @@ impl PyLoops {
             let text = format!("{} loops: at least 1, at most {MOST_LOOPS}", all.len());
             return Err(refused(py, of.label(), text));
         }
+        let damped_below = damped_below.unwrap_or(SINGULAR);
         if !(0.0..=1.0).contains(&damped_below) {
             let text = format!("damped_below is {damped_below}: from 0 to 1");
             return Err(refused(py, of.label(), text));
@@ -219,7 +220,7 @@ impl PyLoops {
     ///
     /// Raises NotPositiveDefinite and NotFinite. Scenes have Inertia and Coriolis, and no friction
     /// of gears.
-    #[pyo3(signature = (q, qd, tau, effects = None, stabilisation = [0.0, 0.0]))]
+    #[pyo3(signature = (q, qd, tau, effects = None, stabilisation = [0.0, 0.0]), text_signature = "($self, q, qd, tau, effects=None, stabilisation=[0.0, 0.0])")]
     fn forward_dynamics<'py>(
         &self,
         py: Python<'py>,

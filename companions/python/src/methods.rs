@@ -56,7 +56,7 @@ pub trait Machine {
 }
 
 /// Methods of a class: each has arrays with the functions that make arguments of them, perhaps a
-/// body and a frame, perhaps effects and what refuses some; and one result or several of an
+/// body or a frame on one and the axes, perhaps effects and what refuses some; and one result or several of an
 /// algorithm, with the shape of a row of each.
 macro_rules! methods {
     (@effects) => { &[] };
@@ -88,8 +88,10 @@ macro_rules! methods {
                 use $crate::methods::Machine as _;
                 let $this = self;
                 let $names = $values;
+                let machine = $this;
                 $(
-                    let $body = self.robot().body($body)?;
+                    let (framed, $body) = self.at($body)?;
+                    let machine = framed.as_ref().map_or(machine, |framed| framed.get());
                     $(let $frame = $crate::robot::given::frame_of(py, $frame)?;)?
                 )?
                 $(
@@ -97,11 +99,11 @@ macro_rules! methods {
                     $($refuses(py, &$effects)?;)?
                 )?
                 let arguments = [$(
-                    self.$kind(stringify!($array), $array)$(.by($crate::angles::Use::$use))?
+                    machine.$kind(stringify!($array), $array)$(.by($crate::angles::Use::$use))?
                 ),*];
                 let which = ::robot_dynamics_kernels::Which::$which $({ $($field)* })?;
                 let results: &[&[usize]] = &[$(&[$($shape),*]),*];
-                self.$many(py, which, methods!(@effects $($effects)?), &arguments, results)
+                machine.$many(py, which, methods!(@effects $($effects)?), &arguments, results)
             }
         )*}
     };

@@ -1,6 +1,5 @@
 //! The request of a call.
 
-use robot_dynamics_engines::Scene;
 use robot_dynamics_kernels::Which;
 use robot_dynamics_kernels::spec::Spec;
 
@@ -12,7 +11,7 @@ pub enum By<'a> {
     /// An algorithm over the robot's model.
     Model(Which<'a>),
     /// The engine of a robot of the library.
-    Engine(Scene),
+    Engine,
 }
 
 impl<'a> From<Which<'a>> for By<'a> {

@@ -4,6 +4,7 @@
 mod drivetrain;
 mod dynamics;
 mod factors;
+pub mod frames;
 pub mod given;
 mod kinematics;
 mod momentum;
@@ -30,11 +31,12 @@ use crate::error::{Exception, of_import, of_model, wanted};
 use crate::library;
 use crate::methods::Machine;
 use crate::request::By;
-use robot_dynamics_engines::{InEngine, Scene as EngineScene};
+use robot_dynamics_engines::InEngine;
 use robot_dynamics_kernels::Which;
 use robot_dynamics_kernels::model::{Bodies, Counts, Models};
 use robot_dynamics_kernels::spec::{BodyRef, Spec};
 
+use frames::{Frame, Framed, frames};
 use given::{frame_of, with_inertia, without_rotors};
 use said::Said;
 
@@ -44,8 +46,9 @@ use said::Said;
 /// `Robot.from_text` read URDF and MJCF. Units are SI: rad, m, kg, N·m, N.
 ///
 /// Every method takes arrays of one state, such as q of shape (nq,), or of many, with any leading
-/// axes: (n, nq). All arrays of a call are float32 or all are float64, and so is the result; lists
-/// have the type of the arrays beside them, else float64. In float32 the results have the bits of
+/// axes, which broadcast as numpy's: (n, nq) and (nv,) give (n, nv). All arrays of a call are
+/// float32 or all are float64, and so is the result; lists and integers have the type of the arrays
+/// beside them, else float64. In float32 the results have the bits of
 /// the same algorithm (`Core`) in firmware. Batches release Python's lock and use all cores.
 ///
 /// q has the coordinates of each joint in the order of the bodies: an angle or a length; of a ball
@@ -76,6 +79,9 @@ pub struct Robot {
     pub described: Bodies,
     /// The numbers that were read, of a file.
     read: Option<Read>,
+    /// The frames that are fixed to its bodies.
+    frames: Vec<Frame>,
+    framed: Framed,
 }
 
 /// The numbers that were read of a file.
@@ -88,6 +94,7 @@ pub struct Read {
     actuated: Vec<usize>,
     /// The remarks of the importer.
     said: Said,
+    frames: Vec<Frame>,
 }
 
 /// The keywords of `Robot.from_file`: base, tip, joints, without, lock and free_base.
@@ -95,6 +102,7 @@ type Selected =
     (Option<String>, Option<String>, Vec<String>, Vec<String>, Option<BTreeMap<String, f64>>, bool);
 
 /// The properties of a body, its joint's among them.
+#[derive(Clone)]
 struct BodyInfo {
     name: String,
     joint: String,
@@ -105,6 +113,23 @@ struct BodyInfo {
     friction: f64,
     armature: f64,
     spring: [f64; 2],
+}
+
+impl BodyInfo {
+    /// A body on a joint without limits.
+    fn of(name: &str, joint: &str) -> Self {
+        Self {
+            name: name.to_owned(),
+            joint: joint.to_owned(),
+            kind: JointKind::Fixed,
+            parent: None,
+            limits: [f64::NEG_INFINITY, f64::INFINITY, f64::INFINITY, f64::INFINITY],
+            damping: 0.0,
+            friction: 0.0,
+            armature: 0.0,
+            spring: [0.0; 2],
+        }
+    }
 }
 
 impl Robot {
@@ -135,6 +160,8 @@ impl Robot {
             bodies,
             described,
             read: None,
+            frames: Vec::new(),
+            framed: Framed::default(),
         })
     }
 
@@ -163,7 +190,8 @@ impl Robot {
             let motors = Motors::of(&tree, &closed, &[])?;
             notes.extend(motors.advice);
             let said = Said::of(&robot, (&selection, &selected), &tree, notes);
-            Ok(Read { tree, closed, actuated: motors.actuated, said })
+            let frames = frames(&tree, robot.links.iter().map(|link| &*link.name));
+            Ok(Read { tree, closed, actuated: motors.actuated, said, frames })
         });
         Self::of_file(py, read.map_err(|error| of_import(py, &error))?)
     }
@@ -175,20 +203,17 @@ impl Robot {
             let [velocity, effort] = [body.limits.velocity, body.limits.effort]
                 .map(|limit| limit.unwrap_or(f64::INFINITY));
             BodyInfo {
-                name: body.name.clone(),
-                joint: body.joint.clone(),
-                kind: JointKind::Fixed,
-                parent: None,
                 limits: [lower, upper, velocity, effort],
                 damping: body.damping,
                 friction: body.friction,
                 armature: body.armature,
                 spring: body.spring,
+                ..BodyInfo::of(&body.name, &body.joint)
             }
         });
         let bodies = bodies.collect();
         let robot = Self::of(py, tree.name.clone(), None, Bodies::of(tree), bodies)?;
-        Ok(Self { read: Some(read), ..robot })
+        Ok(Self { frames: read.frames.clone(), read: Some(read), ..robot })
     }
 
     /// The loops of the file, and the coordinates that its motors drive.
@@ -267,25 +292,20 @@ impl Robot {
             Ok(number) => Some(BodyRef::Number(number)),
             Err(_) => given.extract().map(BodyRef::Name).ok(),
         };
-        body.and_then(|body| self.body_number(&body)).ok_or_else(|| {
-            let names: Vec<&str> = self.bodies.iter().map(|body| body.name.as_str()).collect();
-            let text =
-                format!("the robot has no body {given}: its bodies are {}", names.join(", "));
-            Exception::new(given.py(), "UnknownBody", text).with("body", given).build()
-        })
+        let found = body.and_then(|body| self.body_number(&body));
+        found.ok_or_else(|| self.unknown_body(given))
     }
 
-    /// The way in which a form computes inverse dynamics.
+    /// The way in which a form computes inverse dynamics of so many of q, q̇ and q̈.
     fn by(
         &self,
         py: Python<'_>,
         form: &str,
-        which: Which<'static>,
-        scene: EngineScene,
+        given: usize,
         effects: &[Spec],
     ) -> PyResult<By<'static>> {
         if form == "core" {
-            return Ok(which.into());
+            return Ok(Which::Rnea { given, still: false }.into());
         }
         let none = |text| {
             let error = Exception::new(py, "NoEngine", text);
@@ -297,17 +317,10 @@ impl Robot {
         if self.library.and_then(<f32 as InEngine>::engine).is_none() {
             return none(format!("the wheel has no engine of `{}`", self.name));
         }
-        let named = |spec| effects.contains(&spec);
         let down = Spec::Gravity([0.0, 0.0, -9.81]);
-        let fits = match scene {
-            EngineScene::RigidBody => {
-                effects.len() == 3 && named(down) && named(Spec::Inertia) && named(Spec::Coriolis)
-            }
-            EngineScene::Bias => effects.len() == 2 && named(down) && named(Spec::Coriolis),
-            EngineScene::Gravity => effects.len() == 1 && named(down),
-        };
-        if fits {
-            return Ok(By::Engine(scene));
+        let scene = &[down, Spec::Coriolis, Spec::Inertia][..given];
+        if effects.len() == given && scene.iter().all(|spec| effects.contains(spec)) {
+            return Ok(By::Engine);
         }
         let text = "the engines of the wheel have the scenes of RIGID_BODY alone; other effects are computed by form = \"core\"";
         Err(refused(py, "", text))
@@ -379,19 +392,15 @@ impl Robot {
             let text = format!("there is no robot `{name}`: {names}");
             return Err(Exception::new(py, "UnknownRobot", text).with("name", name).build());
         };
-        let bodies = known.names.iter().zip(&known.limits).map(|(name, limits)| BodyInfo {
-            name: name.clone(),
-            joint: name.clone(),
-            kind: JointKind::Fixed,
-            parent: None,
+        let joints = library::joints(found, &known.names);
+        let bodies = known.names.iter().zip(&joints).zip(&known.limits);
+        let bodies = bodies.map(|((name, joint), limits)| BodyInfo {
             limits: [limits.lower, limits.upper, limits.velocity, limits.torque],
-            damping: 0.0,
-            friction: 0.0,
-            armature: 0.0,
-            spring: [0.0; 2],
+            ..BodyInfo::of(name, joint)
         });
         let bodies = bodies.collect();
-        Self::of(py, found.to_owned(), Some(found), known.bodies, bodies)
+        let robot = Self::of(py, found.to_owned(), Some(found), known.bodies, bodies)?;
+        Ok(Self { frames: library::frames(found), ..robot })
     }
 
     /// A robot from a URDF or MJCF.
@@ -401,43 +410,46 @@ impl Robot {
     /// positions (rad, m) of joints that stand still; free_base: the base is free; exact: right
     /// angles and zeros in place of their roundings.
     #[staticmethod]
-    #[pyo3(signature = (path, *, base = None, tip = None, joints = Vec::new(), without = Vec::new(), lock = None, free_base = false, exact = true))]
+    #[pyo3(signature = (path, *, base = None, tip = None, joints = None, without = None, lock = None, free_base = false, exact = true))]
     #[allow(clippy::too_many_arguments, reason = "keywords of Python")]
     fn from_file(
         py: Python<'_>,
         #[pyo3(from_py_with = wanted)] path: PathBuf,
         #[pyo3(from_py_with = wanted)] base: Option<String>,
         #[pyo3(from_py_with = wanted)] tip: Option<String>,
-        #[pyo3(from_py_with = wanted)] joints: Vec<String>,
-        #[pyo3(from_py_with = wanted)] without: Vec<String>,
+        #[pyo3(from_py_with = wanted)] joints: Option<Vec<String>>,
+        #[pyo3(from_py_with = wanted)] without: Option<Vec<String>>,
         #[pyo3(from_py_with = wanted)] lock: Option<BTreeMap<String, f64>>,
         #[pyo3(from_py_with = wanted)] free_base: bool,
         #[pyo3(from_py_with = wanted)] exact: bool,
     ) -> PyResult<Self> {
         let described = py.detach(|| source::read(&path));
-        let selection = (base, tip, joints, without, lock, free_base);
+        let gone = without.unwrap_or_default();
+        let selection = (base, tip, joints.unwrap_or_default(), gone, lock, free_base);
         Self::read(py, described, selection, exact)
     }
 
     /// A robot from the text of a URDF or MJCF; the files that an MJCF includes are in ``folder``.
     /// The keywords are those of `from_file`.
     #[staticmethod]
-    #[pyo3(signature = (text, folder = PathBuf::from("."), *, base = None, tip = None, joints = Vec::new(), without = Vec::new(), lock = None, free_base = false, exact = true))]
+    #[pyo3(signature = (text, folder = None, *, base = None, tip = None, joints = None, without = None, lock = None, free_base = false, exact = true))]
     #[allow(clippy::too_many_arguments, reason = "keywords of Python")]
     fn from_text(
         py: Python<'_>,
         #[pyo3(from_py_with = wanted)] text: String,
-        #[pyo3(from_py_with = wanted)] folder: PathBuf,
+        #[pyo3(from_py_with = wanted)] folder: Option<PathBuf>,
         #[pyo3(from_py_with = wanted)] base: Option<String>,
         #[pyo3(from_py_with = wanted)] tip: Option<String>,
-        #[pyo3(from_py_with = wanted)] joints: Vec<String>,
-        #[pyo3(from_py_with = wanted)] without: Vec<String>,
+        #[pyo3(from_py_with = wanted)] joints: Option<Vec<String>>,
+        #[pyo3(from_py_with = wanted)] without: Option<Vec<String>>,
         #[pyo3(from_py_with = wanted)] lock: Option<BTreeMap<String, f64>>,
         #[pyo3(from_py_with = wanted)] free_base: bool,
         #[pyo3(from_py_with = wanted)] exact: bool,
     ) -> PyResult<Self> {
+        let folder = folder.unwrap_or(PathBuf::from("."));
         let described = py.detach(|| source::parse(&text, &folder));
-        let selection = (base, tip, joints, without, lock, free_base);
+        let gone = without.unwrap_or_default();
+        let selection = (base, tip, joints.unwrap_or_default(), gone, lock, free_base);
         Self::read(py, described, selection, exact)
     }
 
@@ -466,12 +478,19 @@ impl Robot {
     fn nv(&self) -> usize {
         self.counts.v
     }
-    /// The names of the bodies, parents first; what does not move against a body is part of it.
+    /// The names of the bodies, parents first: links, of which what is fixed to them is a part.
     #[getter]
     fn bodies(&self) -> Vec<String> {
         self.bodies.iter().map(|body| body.name.clone()).collect()
     }
-    /// The name of the joint of each body.
+    /// The names of the frames that are fixed to bodies or the base, such as a tool's: fixed links
+    /// of the file. Methods that ask for a body take them.
+    #[getter]
+    fn frames(&self) -> Vec<String> {
+        self.frames.iter().map(|frame| frame.name.clone()).collect()
+    }
+    /// The name of the joint of each body, as in the file; of a robot of the library, in the file
+    /// of its source.
     #[getter]
     fn joints(&self) -> Vec<String> {
         self.bodies.iter().map(|body| body.joint.clone()).collect()

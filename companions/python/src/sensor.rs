@@ -3,10 +3,10 @@
 use dynamics_core::glam::DVec3;
 use dynamics_core::spatial::Force;
 use motion_control::{SensorLoad, SensorLoadFit};
-use numpy::{IntoPyArray, PyArrayMethods, PyUntypedArrayMethods};
+use numpy::{IntoPyArray, PyArrayMethods};
 use pyo3::prelude::*;
 
-use crate::arrays::{array, dtype, leading};
+use crate::arrays::{arrays_of, dtype};
 use crate::error::{Exception, wanted};
 use crate::robot::{Array, argument};
 
@@ -48,8 +48,7 @@ impl PySensorLoad {
     fn fit<'py>(py: Python<'py>, gravity: &Array<'py>, wrench: &Array<'py>) -> PyResult<Self> {
         let given = [argument("gravity", gravity, 3), argument("wrench", wrench, 6)];
         dtype(&given)?;
-        let arrays = [array::<f64>(&given[0])?, array::<f64>(&given[1])?];
-        leading(&given, arrays.iter().map(|array| array.shape()))?;
+        let arrays = arrays_of::<f64>(&given)?.1;
         let mut fit = SensorLoadFit::new();
         let gravity = arrays[0].as_slice()?.as_chunks().0;
         let wrench = arrays[1].as_slice()?.as_chunks().0;
@@ -83,11 +82,11 @@ impl PySensorLoad {
     fn at_rest<'py>(&self, py: Python<'py>, gravity: &Array<'py>) -> PyResult<Array<'py>> {
         let given = [argument("gravity", gravity, 3)];
         dtype(&given)?;
-        let gravity = array::<f64>(&given[0])?;
-        let rows = leading(&given, [gravity.shape()].into_iter())?;
-        let each = gravity.as_slice()?.as_chunks().0.iter();
+        let (mut shape, arrays) = arrays_of::<f64>(&given)?;
+        let each = arrays[0].as_slice()?.as_chunks().0.iter();
         let shown: Vec<f64> =
             each.flat_map(|&gravity| six(&self.0.at_rest(DVec3::from_array(gravity)))).collect();
-        Ok(shown.into_pyarray(py).reshape([rows, &[6]].concat())?.into_any())
+        shape.push(6);
+        Ok(shown.into_pyarray(py).reshape(shape)?.into_any())
     }
 }

@@ -7,7 +7,7 @@ use motion_control::{
 use numpy::{IntoPyArray, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 
-use crate::arrays::{array, dtype, leading};
+use crate::arrays::{arrays_of, dtype};
 use crate::error::{Exception, wanted};
 use crate::robot::{Array, argument};
 
@@ -115,8 +115,7 @@ impl PyThermalLimit {
     fn update<'py>(&mut self, py: Python<'py>, torque: &Array<'py>) -> PyResult<Array<'py>> {
         let given = [argument("torque", torque, self.joints)];
         dtype(&given)?;
-        let torque = array::<f64>(&given[0])?;
-        leading(&given, [torque.shape()].into_iter())?;
+        let torque = &arrays_of::<f64>(&given)?.1[0];
         let mut limits = Vec::new();
         for torque in torque.as_slice()?.chunks_exact(self.joints) {
             let mut all = [0.0; MOST];

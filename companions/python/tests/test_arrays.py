@@ -45,19 +45,15 @@ def row(argument, i):
 @pytest.mark.parametrize("name", ["ur5e", "a1", "a1_free"])
 @pytest.mark.parametrize(("method", "names"), METHODS)
 def test_batches_are_their_states_to_the_bit(method, names, name, dtype):
-    if method == "base_velocity_from_momentum" and name != "a1_free":
-        pytest.skip("of a free base")
-    if method == "elastic_inverse_dynamics" and name == "a1_free":
-        pytest.skip("of joints of one coordinate")
+    if not suits(method, name):
+        pytest.skip("of a free base, or of joints of one coordinate")
     robot = rd.Robot(name)
     count = 37
     given = arguments(robot, names, count, dtype)
     call = getattr(robot, method)
-    together = call(*given)
-    together = together if isinstance(together, tuple) else (together,)
+    together = all_of(call(*given))
     for i in range(0, count, 5):
-        alone = call(*[row(argument, i) for argument in given])
-        alone = alone if isinstance(alone, tuple) else (alone,)
+        alone = all_of(call(*[row(argument, i) for argument in given]))
         for batch, single in zip(together, alone, strict=True):
             assert batch.dtype == dtype and single.dtype == dtype
             assert batch[i].tobytes() == single.tobytes()
@@ -71,6 +67,67 @@ def test_threads_compute_what_one_computes(dtype):
     assert robot.rnea(q, v, a).tobytes() == parts.tobytes()
     parts = np.array([robot.aba(*rows) for rows in zip(q, v, t)])
     assert robot.aba(q, v, t).tobytes() == parts.tobytes()
+
+
+def suits(method, name):
+    free = {"base_velocity_from_momentum": True, "elastic_inverse_dynamics": False}
+    return free.get(method, name == "a1_free" or name.endswith("free")) == name.endswith("free")
+
+
+def all_of(found):
+    return found if isinstance(found, tuple) else (found,)
+
+
+@pytest.mark.parametrize("name", ["ur5e", "a1_free"])
+@pytest.mark.parametrize(("method", "names"), METHODS)
+def test_leading_axes_broadcast_as_numpys(method, names, name):
+    """(2, 1), (3,), none and (1, 1) go together, to the bit of each state alone; so does nothing."""
+    if not suits(method, name):
+        pytest.skip("of a free base, or of joints of one coordinate")
+    robot = rd.Robot(name)
+    given, call = arguments(robot, names, 3, np.float64), getattr(robot, method)
+    places = [i for i, argument in enumerate(given) if isinstance(argument, np.ndarray)]
+    turn = [places.index(i) % 4 if i in places else 4 for i in range(len(given))]
+    shapes = [(2, 1), (3,), (), (1, 1)]
+    ways = [lambda x: x[:2, None], lambda x: x, lambda x: x[0], lambda x: x[:1, None], lambda x: x]
+    together = all_of(call(*[ways[k](x) for k, x in zip(turn, given)]))
+    leading = np.broadcast_shapes(*[shapes[k] for k in turn if k < 4])
+    for i, j in np.ndindex(2, 3):
+        index = (i, j)[-len(leading) :] if leading != (2, 1) else (i, 0)
+        alone = all_of(call(*[[x[i], x[j], x[0], x[0], x][k] if k < 4 else x for k, x in zip(turn, given)]))
+        for batch, single in zip(together, alone, strict=True):
+            assert batch.shape[: len(leading)] == leading and batch[index].tobytes() == single.tobytes()
+    empty = call(*[x[:0, None] if k == 0 else ways[k](x) for k, x in zip(turn, given)])
+    for none, batch in zip(all_of(empty), together, strict=True):
+        assert none.shape == (0, *batch.shape[1:]) and none.dtype == np.float64
+
+
+@pytest.mark.parametrize("name", ["ur5e", "a1_free"])
+@pytest.mark.parametrize(("method", "names"), METHODS)
+def test_integers_are_float64(method, names, name):
+    if not suits(method, name):
+        pytest.skip("of a free base, or of joints of one coordinate")
+    robot = rd.Robot(name)
+    given, call = arguments(robot, names, 3, np.float64), getattr(robot, method)
+    arrays = [isinstance(x, np.ndarray) for x in given]
+    # Of M and its factors, and of attitudes, those that are whole: the identity.
+    for x, kind in zip(given, names.split()):
+        if kind in "ML":
+            x[:] = np.eye(robot.nv)
+        if kind == "q" and name == "a1_free":
+            x[:, :4] = [0, 0, 0, 1]
+    for dtype in (np.int64, np.uint8):
+        x = [np.ceil(np.abs(y)).astype(dtype) if array else y for y, array in zip(given, arrays)]
+        exact = [y.astype(float) if array else y for y, array in zip(x, arrays)]
+        for found, expected in zip(all_of(call(*x)), all_of(call(*exact)), strict=True):
+            assert found.dtype == np.float64 and found.tobytes() == expected.tobytes()
+
+
+def test_integers_have_the_type_of_arrays_beside_them():
+    robot, ones = rd.Robot("ur5e"), np.ones(6, int)
+    assert robot.bias(ones, np.ones(6, np.float32)).dtype == np.float32
+    swapped = np.ones(6).astype(">f8")
+    assert robot.gravity(swapped).tobytes() == robot.gravity(ones).tobytes()
 
 
 def test_any_leading_axes_and_any_strides():
@@ -132,7 +189,9 @@ def test_mixed_and_foreign_types_are_refused():
     with pytest.raises(rd.DtypeError, match="qd") as error:
         robot.rnea(single, double, single)
     assert error.value.argument == "qd"
-    for other in (np.zeros(6, np.int64), np.zeros(6, complex), np.zeros(6, np.float16), np.array(["a"] * 6)):
+    with pytest.raises(rd.DtypeError, match=r"q.astype\(np.float64\)"):
+        robot.gravity(np.zeros(6, np.float16))
+    for other in (np.zeros(6, bool), np.zeros(6, complex), np.zeros(6, np.float16), np.array(["a"] * 6), np.zeros(6, object)):
         with pytest.raises(rd.DtypeError) as error:
             robot.gravity(other)
         assert error.value.argument == "q"
@@ -148,6 +207,9 @@ def test_wrong_shapes_are_named():
     assert error.value.argument == "qd" and error.value.shape == (5,) and "6" in error.value.expected
     with pytest.raises(rd.ShapeError, match="leading axes"):
         robot.rnea(np.zeros((3, 6)), np.zeros((4, 6)), np.zeros((3, 6)))
+    with pytest.raises(rd.ShapeError, match=r"leading axes \[3, 2\] of `q`, `qd`") as error:
+        robot.rnea(np.zeros((3, 1, 6)), np.zeros((2, 6)), np.zeros((4, 3, 6)))
+    assert error.value.argument == "qdd"
     with pytest.raises(rd.ShapeError):
         robot.gravity(np.ones(()))
     for wrong in (np.eye(5), np.ones(36), np.ones((2, 6))):
@@ -193,6 +255,7 @@ def test_all_errors_have_one_base_and_their_text():
         assert issubclass(error, rd.RobotDynamicsError)
         assert str(error("why", joint="elbow")) == "why"
     assert pickle.loads(pickle.dumps(rd.ShapeError("why"))).args == ("why",)
+    assert issubclass(rd.MissingFile, FileNotFoundError) and issubclass(rd.MissingFile, rd.UnreadableFile)
 
 
 def test_arguments_of_other_types_have_the_base_too():

@@ -148,7 +148,9 @@ def test_the_engine_has_the_bits_of_engine(name, quantity):
     expected = firmware(robot, f"engine {quantity}", rows)
     given = {"rnea": rows[:3], "bias": rows[:2], "gravity": rows[:1]}[quantity]
     found = getattr(robot, quantity)(*given, form="engine")
-    assert found.tobytes() == expected.tobytes()
+    # The wheel's engine adds zero velocities to gravity, which may change the sign of a zero.
+    assert (found + np.float32(0)).tobytes() == (expected + np.float32(0)).tobytes()
+    assert quantity == "gravity" or found.tobytes() == expected.tobytes()
     core = getattr(robot, quantity)(*given)
     assert np.abs(found - core).max() < 1e-5 * np.abs(core).max()
 

@@ -21,6 +21,7 @@ def test_costs_are_those_of_the_page():
     ]
     found = [cost.instructions, cost.cycles, cost.microseconds, cost.code, cost.stack]
     assert found == [float(numbers[i]) for i in (5, 8, 11, 14, 15)]
+    assert len({repr(cost) for cost in rd.Robot("ur5e").costs()}) == len(rd.Robot("ur5e").costs())
 
 
 def test_the_tick_of_a_scene_is_that_of_the_page():

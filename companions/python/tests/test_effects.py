@@ -14,14 +14,11 @@ def arm():
     return robot, *states(robot, 1)
 
 
-def test_terms_add_up_to_the_whole():
+def test_scenes_are_sums_or_tuples():
     robot, q, v, a, _ = arm()
     parts = [rd.Gravity(), rd.Inertia(), rd.Coriolis(), rd.Viscous([0.5] * 6)]
-    whole = robot.rnea(q, v, a, parts[0] + parts[1] + parts[2] + parts[3])
-    assert np.allclose(whole, sum(robot.rnea(q, v, a, part) for part in parts), rtol=0, atol=1e-12)
-    assert np.array_equal(whole, robot.rnea(q, v, a, tuple(parts)))
+    assert np.array_equal(robot.rnea(q, v, a, rd.Scene(*parts)), robot.rnea(q, v, a, tuple(parts)))
     assert np.array_equal(robot.rnea(q, v, a), robot.rnea(q, v, a, rd.RIGID_BODY))
-    assert np.array_equal(robot.rnea(q, v, a, ()), np.zeros((1, 6)))
     assert np.allclose(robot.rnea(q, v, a, rd.Inertia())[0], robot.crba(q)[0] @ a[0], rtol=0, atol=1e-12)
 
 
@@ -141,3 +138,67 @@ def test_impossible_effects_are_refused():
         rd.Payload(None, 1.0)
     with pytest.raises(rd.EffectError, match="harmonics"):
         robot.rnea(q, v, a, rd.Cogging(ONES, [[1.0] * 9] * 6, [[]] * 6))
+
+
+TERMS = [rd.Gravity(), rd.Inertia(), rd.Coriolis()]
+
+
+@pytest.mark.parametrize("terms", [[TERMS[i] for i in range(3) if bits >> i & 1] for bits in range(8)], ids=str)
+@pytest.mark.parametrize("more", ["none", "friction", "armature", "load and base"])
+@pytest.mark.parametrize("name", ["ur5e", "a1_free", "g1"])
+def test_every_set_of_terms_is_computed_alike(name, more, terms):
+    """All algorithms see the same terms, however few scenes the machine code has for each."""
+    robot = rd.Robot(name)
+    q, v, a, _ = states(robot, 2)
+    base = rd.MovingBase([0.3, -0.2, 0.1, 0.5, 0.4, -0.6], [0.2] * 6)
+    extra = {"none": rd.Scene(), "friction": rd.Viscous([0.5] * robot.nv) + rd.Coulomb([0.3] * robot.nv, 0.1), "armature": rd.Armature([0.5] * robot.nv), "load and base": rd.Payload(robot.bodies[-1], 0.4) + base}
+    scene = rd.Scene(*terms) + extra[more]
+    tau = robot.rnea(q, v, a, scene)
+    parts = [robot.rnea(q, v, a, (term, extra[more])) - robot.rnea(q, v, a, extra[more]) for term in terms]
+    near = dict(rtol=0, atol=1e-10 * max(np.abs(robot.rnea(q, v, a, (rd.RIGID_BODY, extra[more]))).max(), 1.0))
+    if more != "load and base":
+        assert np.allclose(tau, sum(parts) + robot.rnea(q, v, a, extra[more]), **near)
+        y = robot.regressor(q, v, a, scene).reshape(2, robot.nv, -1)
+        own = robot.rnea(q, v, a, extra[more])
+        assert np.allclose(y @ robot.inertial_parameters(scene).ravel() + own, tau, **near)
+        assert np.allclose(robot.bias(q, v, scene), robot.rnea(q, v, 0 * a, scene), **near)
+    assert np.allclose(robot.rnea_and_wrenches(q, v, a, scene)[0], tau, **near)
+    if rd.Inertia() in terms:
+        for found in (robot.aba, robot.forward_dynamics, lambda *x: robot.forward_dynamics_with_error(*x)[0]):
+            assert np.allclose(found(q, v, tau, scene), a, rtol=0, atol=1e-6)
+        mask = np.broadcast_to(np.arange(robot.nv) % 2.0, v.shape)
+        assert np.allclose(robot.hybrid_dynamics(q, v, np.where(mask, a, tau), mask, scene)[0], tau, rtol=0, atol=1e-6)
+
+
+def test_effects_of_ones_own_are_called_once():
+    robot, calls = rd.Robot("ur5e"), []
+    q, v, a, tau = states(robot, 6)
+
+    def friction(q, qd):
+        calls.append((q.shape, qd.shape))
+        return 3.0 * qd + 0.1 * np.sin(q)
+
+    own, inner = rd.RIGID_BODY + rd.OwnEffect(friction), rd.RIGID_BODY + rd.Viscous([3.0] * 6)
+    assert np.allclose(robot.rnea(q, v, a, own), robot.rnea(q, v, a, inner) + 0.1 * np.sin(q))
+    assert np.allclose(robot.rnea(q.reshape(2, 3, 6), v[0], a[0], own)[1, 2], robot.rnea(q[5], v[0], a[0], own))
+    assert calls[:2] == [((6, 6), (6, 6)), ((2, 3, 6), (2, 3, 6))] and len(calls) == 3
+    assert np.allclose(robot.bias(q, v, own), robot.rnea(q, v, 0 * a, own))
+    assert np.array_equal(robot.gravity(q, own), robot.gravity(q))
+    assert np.allclose(robot.rnea(q, v, a, own, form="engine"), robot.rnea(q, v, a, own))
+    for method in (robot.aba, robot.forward_dynamics):
+        assert np.allclose(method(q, v, robot.rnea(q, v, a, own), own), a, rtol=0, atol=1e-9)
+        assert np.array_equal(method(q, v, tau, own), method(q, v, tau - friction(q, v)))
+    assert own.names[-1] == "OwnEffect" and "OwnEffect" in own and len(own) == 4 and "friction" in repr(own)
+    assert own == rd.RIGID_BODY + rd.OwnEffect(friction) != rd.RIGID_BODY + rd.OwnEffect(len)
+    single = [x.astype(np.float32) for x in (q, v, a)]
+    for refused in (
+        lambda: robot.rnea(*single, own), lambda: robot.crba(q, own),
+        lambda: rd.OwnEffect(3), lambda: robot.rnea(q, v, a, rd.OwnEffect(lambda q, qd: qd[:2])),
+    ):  # fmt: skip
+        with pytest.raises(rd.EffectError) as error:
+            refused()
+        assert error.value.effect == "OwnEffect"
+    with pytest.raises(rd.ShapeError, match="OwnEffect"):
+        robot.rnea(q, v, a, rd.OwnEffect(lambda q, qd: qd[:, :3]))
+    with pytest.raises(ZeroDivisionError):
+        robot.rnea(q, v, a, rd.OwnEffect(lambda q, qd: 1 / 0))

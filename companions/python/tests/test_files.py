@@ -31,6 +31,9 @@ def test_a_file_is_its_text(tmp_path):
 def test_mjcf_has_its_friction():
     robot = rd.Robot.from_text(MJCF)
     assert (robot.damping, robot.friction, robot.armature) == ([0.3], [0.1], [0.02])
+    stated = rd.RIGID_BODY + rd.Viscous([0.3]) + rd.Coulomb([0.1], 0.02) + rd.Armature([0.02])
+    assert robot.scene() == stated and rd.Robot.from_text(PENDULUM).scene() == rd.RIGID_BODY
+    assert robot.scene(0.5).names == stated.names and robot.scene(0.5) != stated
     assert np.allclose(robot.gravity([0.5]), 2 * 9.81 * 0.5 * np.sin(0.5))
 
 
@@ -52,9 +55,12 @@ def test_errors_have_line_and_element():
     with pytest.raises(rd.DescriptionError) as error:
         rd.Robot.from_text(PENDULUM.replace('mass value="2"', 'mass value="two"'))
     assert error.value.line == 1 and "mass" in error.value.problem + error.value.element
-    with pytest.raises(rd.UnreadableFile) as error:
+    with pytest.raises(FileNotFoundError) as error:
         rd.Robot.from_file("/no/such/robot.urdf")
-    assert isinstance(error.value, OSError) and isinstance(error.value, rd.DescriptionError)
+    assert isinstance(error.value, rd.UnreadableFile) and isinstance(error.value, rd.DescriptionError)
+    with pytest.raises(rd.UnreadableFile) as error:
+        rd.Robot.from_file("/")
+    assert not isinstance(error.value, FileNotFoundError)
     with pytest.raises(rd.DescriptionError, match="link `rod`: its mass is -2 kg"):
         rd.Robot.from_text(PENDULUM.replace('mass value="2"', 'mass value="-2"'))
     with pytest.raises(rd.ModelError, match="at most 64") as error:

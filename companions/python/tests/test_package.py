@@ -6,8 +6,14 @@ import json
 import pathlib
 import re
 
+import subprocess
+import sys
+
 import robot_dynamics as rd
 from robot_dynamics import _native
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
+import stubs  # noqa: E402
 
 PUBLIC = [name for name in dir(rd) if not name.startswith("_") and name != "errors"]
 HERE = pathlib.Path(__file__).resolve().parents[1]
@@ -110,13 +116,34 @@ def test_a_new_algorithm_or_a_stale_reason_is_missed():
     assert missing(names, reasons) == (["clusters.aba"], [])
 
 
+def test_editors_see_the_docstrings_of_the_compiled_module():
+    source = stubs.STUB.read_text()
+    assert stubs.documented(source, _native) == source, "stubs.py --write"
+    changed = source.replace("The names of the library's robots.", "")
+    assert changed != source and stubs.documented(changed, _native) == source
+
+
+def test_signatures_have_their_defaults():
+    things = [getattr(rd, name) for name in PUBLIC]
+    things += [getattr(thing, name) for thing in things if inspect.isclass(thing) for name in vars(thing) if not name.startswith("_")]
+    for thing in things:
+        signature = getattr(thing, "__text_signature__", None) or ""
+        assert "..." not in signature, (thing, signature)
+    assert rd.__version__ == importlib.metadata.version("robot_dynamics")
+
+
 def test_everything_native_is_exported():
     hidden = {name for name in dir(_native) if not name.startswith("_")} - set(PUBLIC)
     assert hidden == set()
 
 
-def test_the_notebook_has_no_error_stored():
+def test_the_notebook_has_no_error_stored_and_the_costs_of_today():
     notebook = json.loads((HERE / "five_minutes.ipynb").read_text())
+    stored = "".join(text for cell in notebook["cells"] for out in cell.get("outputs", []) for text in out.get("text", []))
+    (cost,) = [one for one in rd.Robot("ur5e").costs() if (one.algorithm, one.form, one.inputs, one.trigonometry) == ("rnea", "engine", "full", True)]
+    assert f"{cost.cycles} cycles" in stored, "run_notebook.py five_minutes.ipynb --write"
+    done = subprocess.run([sys.executable, HERE / "run_notebook.py"], capture_output=True, text=True)
+    assert done.returncode == 1 and done.stderr.startswith("usage: ")
     code = [cell for cell in notebook["cells"] if cell["cell_type"] == "code"]
     assert len(code) >= 8
     for cell in code:

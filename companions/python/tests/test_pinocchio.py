@@ -19,6 +19,7 @@ ROBOTS = {
     "large": (dict(seed=5, joints=40), False),
     "floating": (dict(seed=6, joints=8, kinds=("revolute", "prismatic")), True),
     "walker": (dict(seed=7, joints=29, kinds=("revolute",)), True),
+    "integers": (dict(seed=4, joints=10), False),
 }
 
 
@@ -27,7 +28,8 @@ def pair(request):
     shape, free = ROBOTS[request.param]
     text = urdf(**shape)
     robot = rd.Robot.from_text(text, free_base=free, exact=False)
-    return robot, Peer(text, free), states(robot, 20)
+    given = states(robot, 20)
+    return robot, Peer(text, free), tuple(x.astype(int) for x in given) if request.param == "integers" else given
 
 
 def near(found, expected, share=FULL_SCALE):

@@ -4,13 +4,16 @@ use std::f64::consts::PI;
 
 use serde::Serialize;
 
+#[cfg(feature = "program")]
 use crate::check::Checked;
 use crate::description::{Description, Format, Joint, Kind, Mimic};
 use crate::inertia::MassProperties;
 pub use crate::physical::TOLERANCE;
 use crate::physical::{impossible, sentence};
 use crate::selection::{Role, Selected};
-use crate::tree::{Body, Tree};
+#[cfg(feature = "program")]
+use crate::tree::Body;
+use crate::tree::Tree;
 
 /// A kind of advice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
@@ -64,11 +67,13 @@ const SLOWEST: f64 = 600.0;
 
 /// The largest ratio of a limit to the torque that a robot needs that passes without a word: legs
 /// that carry a body need more than when they hang from it.
+#[cfg(feature = "program")]
 const MOST_LIMIT: f64 = 30.0;
 
 /// The advice on limits of torque that are far above what the robot needs at the states of a check,
 /// of which each joint's is compared with its limit; none if the limit of one joint, the most
 /// loaded, is near enough.
+#[cfg(feature = "program")]
 pub fn needless_torque(tree: &Tree, checked: &Checked) -> Option<Advice> {
     let mut most = vec![0.0_f64; tree.coordinates()[1]];
     let (mut speed, mut acceleration) = (0.0_f64, 0.0_f64);

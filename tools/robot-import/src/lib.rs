@@ -18,23 +18,31 @@
 #![deny(missing_docs)]
 
 pub mod advice;
+#[cfg(feature = "program")]
 pub mod check;
 pub mod description;
 pub mod dropped;
 pub mod error;
+#[cfg(feature = "program")]
 pub mod estimate;
+#[cfg(feature = "program")]
 pub mod import;
 pub mod inertia;
 pub mod limits;
 pub mod loops;
 pub mod model;
 pub mod number;
+#[cfg(feature = "program")]
 pub mod outputs;
 pub mod physical;
 pub mod plausible;
+#[cfg(feature = "program")]
 mod print;
+#[cfg(feature = "program")]
 pub mod project;
+#[cfg(feature = "program")]
 pub mod report;
+#[cfg(feature = "program")]
 mod rows;
 pub mod selection;
 pub mod snap;

@@ -1,36 +1,24 @@
 //! Inverse dynamics by `Engine`, the form that is specialised to a robot at compile time, over rows
 //! of numbers.
 //!
-//! A scene of the engine is known to the compiler: the wheel has those of rigid bodies, of bias and
-//! of gravity.
+//! A scene of the engine is known to the compiler: the wheel has that of rigid bodies, which is that
+//! of bias and of gravity where rates are zero, but for the signs of zeros.
 
 use dynamics_core::Engine;
-use dynamics_core::effects::{Coriolis, Gravity, RIGID_BODY};
+use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::model::Robot;
 use dynamics_core::robots::{A1, A1Free, A1Leg, Gen3, Iiwa14, Panda, So101, Ur5e, XArm7, Z1};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 use robot_dynamics_kernels::job::{Job, One, Row};
 
-/// The scenes of the earth's gravity.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Scene {
-    /// Gravity, inertia and velocity products.
-    RigidBody,
-    /// Gravity and velocity products.
-    Bias,
-    /// Gravity alone, of a robot at rest.
-    Gravity,
-}
-
 /// A scalar in which the engines are compiled.
 pub trait InEngine: Real {
     /// The function that computes the rows of a robot, if the wheel has an engine for it.
-    fn engine(robot: &str) -> Option<fn(Scene, &mut Job<'_, Self>)>;
+    fn engine(robot: &str) -> Option<fn(&mut Job<'_, Self>)>;
 }
 
 fn rows<T: Robot<B, Q, V>, R: Real, const B: usize, const Q: usize, const V: usize>(
-    scene: Scene,
     job: &mut Job<'_, R>,
 ) {
     let given = job.inputs.len();
@@ -45,11 +33,7 @@ fn rows<T: Robot<B, Q, V>, R: Real, const B: usize, const Q: usize, const V: usi
             qd: part(1),
             qdd: part(2),
         };
-        let tau = match scene {
-            Scene::RigidBody => Engine::<T>::rnea(&state, &RIGID_BODY),
-            Scene::Bias => Engine::<T>::rnea(&state, &(Gravity::EARTH, Coriolis)),
-            Scene::Gravity => Engine::<T>::rnea(&state, &Gravity::EARTH),
-        };
+        let tau = Engine::<T>::rnea(&state, &RIGID_BODY);
         for (i, tau) in tau.into_iter().enumerate() {
             one.put(0, i, tau);
         }
@@ -59,7 +43,7 @@ fn rows<T: Robot<B, Q, V>, R: Real, const B: usize, const Q: usize, const V: usi
 macro_rules! engines {
     ($r:ty: $($name:literal $robot:ident $b:literal $q:literal $v:literal),* $(,)?) => {
         impl InEngine for $r {
-            fn engine(robot: &str) -> Option<fn(Scene, &mut Job<'_, Self>)> {
+            fn engine(robot: &str) -> Option<fn(&mut Job<'_, Self>)> {
                 match robot {
                     $($name => Some(rows::<$robot, $r, $b, $q, $v>),)*
                     _ => None,

@@ -40,6 +40,10 @@ pub struct Call<'a, D, P, R: Real, const V: usize> {
 pub trait Algorithm: Sync {
     /// Whether the library has a form of it for some kinds of robots.
     const FAST: bool = false;
+    /// Whether that form is compiled for scenes with these terms.
+    fn fits(terms: Terms) -> bool;
+    /// Whether it depends on the state and the terms alone, not on torques at joints.
+    const TERMS_ALONE: bool = false;
     /// Whether it computes what fills the model up, too, with the inertia 1: M then has its
     /// factors.
     const WHOLE: bool = false;

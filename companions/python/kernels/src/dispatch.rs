@@ -51,12 +51,21 @@ fn go<
     Ok(())
 }
 
-/// Which scenes an algorithm distinguishes.
+/// Which scenes an algorithm distinguishes: those that have machine code of their own.
 pub mod terms {
     use super::*;
 
     macro_rules! scenes {
-        ($(#[$doc:meta])* $name:ident, $terms:ident => $($pattern:pat => [$a:literal, $c:literal, $x:literal]),*) => {
+        (@of $algorithm:ident $call:ident: $($pattern:pat => [$a:literal, $c:literal, $x:literal]),*) => {{
+            let Terms { inertia, coriolis, extra } = $call.terms;
+            let _ = (inertia, coriolis, extra);
+            match (inertia, coriolis, extra) {
+                $($pattern => go::<O, R, D, P, B, Q, V, $a, $c, $x>($algorithm, $call),)*
+                #[allow(unreachable_patterns, reason = "the rows of some are all that there are")]
+                _ => unreachable!("`fits` refuses these scenes"),
+            }
+        }};
+        ($(#[$doc:meta])* $name:ident, fast { $($fast:tt)* }, any { $($any:tt)* }) => {
             $(#[$doc])*
             pub fn $name<O: Algorithm, R: Real, D, P, const B: usize, const Q: usize, const V: usize>(
                 algorithm: &O,
@@ -66,79 +75,102 @@ pub mod terms {
                 D: RobotModel<R, B, Q, V>,
                 P: Rows<R>,
             {
-                let Terms { inertia, coriolis, extra } = call.terms;
-                let _ = (inertia, coriolis, extra);
-                match (inertia, coriolis, extra) {
-                    $($pattern => go::<O, R, D, P, B, Q, V, $a, $c, $x>(algorithm, call)),*
+                if const { O::FAST && D::SINGLE } {
+                    scenes!(@of algorithm call: $($fast)*)
+                } else {
+                    scenes!(@of algorithm call: $($any)*)
                 }
             }
+        };
+        ($(#[$doc:meta])* $name:ident { $($any:tt)* }) => {
+            scenes! { $(#[$doc])* $name, fast { $($any)* }, any { $($any)* } }
         };
     }
 
     scenes! {
-        /// A variant of the machine code exists for each set of terms.
-        all, terms =>
-        (true, true, false) => [true, true, false],
-        (true, false, false) => [true, false, false],
-        (false, true, false) => [false, true, false],
-        (false, false, false) => [false, false, false],
-        (true, true, true) => [true, true, true],
-        (true, false, true) => [true, false, true],
-        (false, true, true) => [false, true, true],
-        (false, false, true) => [false, false, true]
+        /// Inverse dynamics: scenes without Inertia but with Coriolis, or the reverse, which few
+        /// have, over any joints only.
+        all,
+        fast {
+            (true, true, false) => [true, true, false],
+            (true, true, true) => [true, true, true],
+            (false, false, false) => [false, false, false],
+            (false, false, true) => [false, false, true]
+        },
+        any {
+            (true, true, false) => [true, true, false],
+            (true, true, true) => [true, true, true],
+            (false, false, false) => [false, false, false],
+            (false, false, true) => [false, false, true],
+            (true, false, _) => [true, false, true],
+            (false, true, _) => [false, true, true]
+        }
     }
     scenes! {
-        /// Those with the products of accelerations, which the algorithm needs.
-        moving, terms =>
-        (_, true, false) => [true, true, false],
-        (_, false, false) => [true, false, false],
-        (_, true, true) => [true, true, true],
-        (_, false, true) => [true, false, true]
+        /// Forward dynamics, which needs Inertia.
+        moving,
+        fast {
+            (_, true, false) => [true, true, false],
+            (_, true, true) => [true, true, true]
+        },
+        any {
+            (_, true, false) => [true, true, false],
+            (_, true, true) => [true, true, true],
+            (_, false, _) => [true, false, true]
+        }
     }
     scenes! {
-        /// Whether there are effects at bodies.
-        rigid, terms =>
-        (_, _, false) => [true, true, false],
-        (_, _, true) => [true, true, true]
-    }
-    /// As [`all`], of an algorithm without.
-    pub use all as all_slow;
-    /// As [`moving`], of an algorithm without.
-    pub use moving as moved;
-    scenes! {
-        /// All without effects at bodies.
-        rigid_all, terms =>
-        (true, true, _) => [true, true, false],
-        (true, false, _) => [true, false, false],
-        (false, true, _) => [false, true, false],
-        (false, false, _) => [false, false, false]
+        /// The same by articulated bodies, with Coriolis.
+        articulated {
+            (_, true, false) => [true, true, false],
+            (_, true, true) => [true, true, true]
+        }
     }
     scenes! {
-        /// Those with the products of accelerations and without effects at bodies.
-        rigid_moving, terms =>
-        (_, true, _) => [true, true, false],
-        (_, false, _) => [true, false, false]
+        /// As [`moving`], with effects at bodies where there are any.
+        moved { (_, true, _) => [true, true, true], (_, false, _) => [true, false, true] }
     }
     scenes! {
-        /// The terms do not matter, and there are no effects at bodies.
-        rigid_one, terms =>
-        _ => [true, true, false]
+        /// As [`moved`], of an algorithm with forms for some kinds of robots.
+        estimated,
+        fast { (_, true, _) => [true, true, true] },
+        any { (_, true, _) => [true, true, true], (_, false, _) => [true, false, true] }
     }
+    scenes! {
+        /// Whether there are effects at bodies, where it pays.
+        matrix,
+        fast { (_, _, false) => [true, true, false], (_, _, true) => [true, true, true] },
+        any { _ => [true, true, true] }
+    }
+    scenes! {
+        /// All, with effects at bodies where there are any.
+        wrenched {
+            (true, true, _) => [true, true, true],
+            (true, false, _) => [true, false, true],
+            (false, true, _) => [false, true, true],
+            (false, false, _) => [false, false, true]
+        }
+    }
+    scenes! {
+        /// None: effects at bodies act where there are any, which saves copies of algorithms.
+        machine { _ => [true, true, true] }
+    }
+    /// As [`machine`], of an algorithm with rotors that spin.
+    pub use machine as rigid;
+    /// As [`rigid`], of an algorithm with forms for some kinds of robots.
+    pub use machine as factored;
     /// As [`machine`], of an algorithm with forms for some kinds of robots.
     pub use machine as linked;
-    /// As [`rigid`], of an algorithm without rotors that spin.
-    pub use rigid as unspun;
-    /// As [`rigid`], of an algorithm with forms for some kinds of robots.
-    pub use rigid as matrix;
-
     scenes! {
-        /// None: effects at bodies act where there are any, which saves copies of large algorithms.
-        machine, terms =>
-        _ => [true, true, true]
+        /// The algorithm has no terms.
+        none { _ => [true, true, false] }
     }
     scenes! {
-        /// One variant of the machine code exists, since the algorithm has no terms.
-        none, terms =>
-        _ => [true, true, false]
+        /// [`all`] of blocks of states, without effects at bodies.
+        blocks_all {
+            (true, true, _) => [true, true, false], (false, false, _) => [false, false, false]
+        }
     }
+    /// [`moving`] and [`matrix`] of blocks of states, without effects at bodies.
+    pub use none as blocks;
 }

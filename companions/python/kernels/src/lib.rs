@@ -82,7 +82,8 @@ macro_rules! which {
                         setting: Setting<'_>,
                         rows: &mut Job<'_, Self>,
                     ) -> Result<(), Failure> {
-                        match *which {
+                        let which = which.of(dispatch::terms_of(setting.effects));
+                        match which {
                             $(Which::$name $({ $($field),* })? => {
                                 let algorithm = algorithms::$name { $($($field),*)? };
                                 <$r as WithLanes>::rows(&algorithm, models, setting, rows)
@@ -96,7 +97,7 @@ macro_rules! which {
 }
 
 which! {
-    Rnea { given: usize },
+    Rnea { given: usize, still: bool },
     RneaAndWrenches,
     RneaTwoVelocities,
     Crba,
@@ -190,7 +191,8 @@ impl WithLanes for f32 {
         rows: &mut Job<'_, Self>,
     ) -> Result<(), Failure> {
         let count = rows.rows / LANES;
-        if !O::LANES || count == 0 || dispatch::terms_of(setting.effects).extra {
+        let terms = dispatch::terms_of(setting.effects);
+        if !O::LANES || count == 0 || terms.extra || !O::fits(terms) {
             return over(algorithm, models, setting, rows);
         }
         let Some(lanes) = &models.lanes else {
@@ -265,10 +267,13 @@ fn over<O: Algorithm, R: Real>(
             if O::WHOLE {
                 parts.fill(counts.v);
             }
+            if O::TERMS_ALONE && !terms.coriolis {
+                parts.stop_base();
+            }
             algorithm.all(Call { robot: &Cut($robot, bodies), counts, terms, parts: &parts, rows })
         }};
     }
-    if O::FAST {
+    if O::FAST && O::fits(terms) {
         match &models.fast {
             Fast::Chain(model) => {
                 if let Some(chain) = model.as_revolute_chain() {
@@ -286,5 +291,13 @@ fn over<O: Algorithm, R: Real>(
     match &models.general {
         General::Small(model) => run!(&**model),
         General::Large(model) => run!(&**model),
+    }
+}
+
+impl Which<'_> {
+    /// The algorithm that is compiled for these terms: without Coriolis, M and its factors stand in
+    /// for articulated bodies.
+    fn of(self, terms: Terms) -> Self {
+        if matches!(self, Self::Aba) && !terms.coriolis { Self::ForwardDynamics } else { self }
     }
 }

@@ -101,6 +101,7 @@ where
 }
 
 /// A body with what the library does not tell of it.
+#[derive(Clone)]
 struct Described {
     kind: JointKind,
     parent: usize,
@@ -108,6 +109,7 @@ struct Described {
 }
 
 /// The bodies of a robot as the library describes them.
+#[derive(Clone)]
 pub struct Bodies {
     /// The bodies, parents before their children.
     bodies: Vec<Described>,
@@ -134,6 +136,16 @@ impl Bodies {
             body: Body::new(number(i), link.parent, link.joint),
         });
         Self { bodies: bodies.collect(), links: Some(model.links.to_vec()) }
+    }
+
+    /// The same with a frame more, which is fixed to a body or to the base.
+    #[must_use]
+    pub fn with_frame(&self, on: Option<usize>, xyz: [f64; 3], attitude: Attitude) -> Self {
+        let (i, parent) = (self.bodies.len(), on.unwrap_or(BASE));
+        let body = placed(Body::new(number(i), parent, Joint::fixed()), xyz, attitude);
+        let mut all = self.clone();
+        all.bodies.push(Described { kind: JointKind::Fixed, parent, body });
+        all
     }
 
     /// The numbers of bodies and coordinates.
@@ -236,7 +248,7 @@ impl Bodies {
             problem: error.to_string(),
         })?;
         if let Some(links) = &self.links {
-            model.links[..bodies].copy_from_slice(links);
+            model.links[..links.len()].copy_from_slice(links);
         }
         Ok(Box::new(R::cast(&model)))
     }
@@ -251,6 +263,13 @@ pub fn number(i: usize) -> &'static str {
 const DIGITS: &str = "0001020304050607080910111213141516171819202122232425262728293031323334353637383940414243444546474849\
     5051525354555657585960616263646566676869707172737475";
 
+fn placed(body: Body, xyz: [f64; 3], attitude: Attitude) -> Body {
+    match attitude {
+        Attitude::QuarterTurns(turns) => body.xyz(xyz).quarter_turns(turns),
+        Attitude::Rpy(rpy) => body.xyz(xyz).rpy(rpy),
+    }
+}
+
 /// A body as the library takes it, with the numbers of its file.
 fn described(i: usize, body: &tree::Body) -> Described {
     let joint = match body.kind {
@@ -263,11 +282,7 @@ fn described(i: usize, body: &tree::Body) -> Described {
         Kind::Free => Joint::free(),
     };
     let parent = body.parent.unwrap_or(BASE);
-    let placed = Body::new(number(i), parent, joint).xyz(body.xyz);
-    let placed = match body.attitude {
-        Attitude::QuarterTurns(turns) => placed.quarter_turns(turns),
-        Attitude::Rpy(rpy) => placed.rpy(rpy),
-    };
+    let placed = placed(Body::new(number(i), parent, joint), body.xyz, body.attitude);
     let [lower, upper] = body.limits.position.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
     let body = placed
         .mass(body.inertia.mass)

@@ -11,6 +11,8 @@ use dynamics_core::effects::{
 use dynamics_core::scalar::Real;
 use dynamics_core::spatial::{Force, Motion, SpatialInertia};
 
+use crate::algorithm::Terms;
+
 /// The most harmonics of cogging.
 pub const HARMONICS: usize = 8;
 
@@ -45,6 +47,8 @@ pub enum AtBody<R: Real> {
 
 /// The effects besides the terms of the equations of motion.
 pub struct Parts<R: Real, const V: usize> {
+    /// The terms of the equations of motion.
+    pub terms: Terms,
     /// g, m/s²; zero where gravity is not named.
     pub gravity: R::Vec3,
     /// The effects that act at joints.
@@ -207,6 +211,13 @@ impl<R: Real, const V: usize> Parts<R, V> {
     pub fn fill(&mut self, own: usize) {
         let armature = self.armature.get_or_insert([R::ZERO; V]);
         armature[own..].fill(R::ONE);
+    }
+
+    /// Takes the velocity of the base away.
+    pub fn stop_base(&mut self) {
+        if let Some((velocity, _)) = &mut self.base {
+            *velocity = Motion::ZERO;
+        }
     }
 
     fn add_payloads(&self, body: usize, inertia: &mut SpatialInertia<R>) {

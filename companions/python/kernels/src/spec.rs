@@ -9,6 +9,7 @@ use dynamics_core::scalar::{Real, Vector};
 use dynamics_core::spatial::{Force, Motion};
 use serde::{Deserialize, Serialize};
 
+use crate::dispatch::terms_of;
 use crate::scene::{At, AtBody, AtJoint, HARMONICS, Parts};
 
 /// A body by its number or its name.
@@ -47,7 +48,8 @@ pub type Six = [f64; 6];
 pub type Points = Vec<(BodyRef, Three)>;
 
 /// Gives a macro all effects but those of rigid bodies: the documentation, the name, and the
-/// fields with the type, and the value if none is given.
+/// fields with the type, and the value if none is given; where a value is no number, the signature
+/// in Python.
 #[macro_export]
 macro_rules! effects {
     ($then:ident) => {
@@ -114,6 +116,7 @@ macro_rules! effects {
             /// A load on a body: mass kg, centre of mass m in the body's frame, inertia about it
             /// (xx, xy, xz, yy, yz, zz) kg·m².
             Payload { body: BodyRef, mass: Number, com: Three = [0.0; 3], inertia: Six = [0.0; 6] }
+            "(body, mass, com=[0.0, 0.0, 0.0], inertia=[0.0, 0.0, 0.0, 0.0, 0.0, 0.0])"
 
             /// A wrench on a body in its own frame: couple N·m, then force N.
             BodyWrench { body: BodyRef, wrench: Six }
@@ -184,7 +187,7 @@ impl Field for Points {
 macro_rules! spec {
     ($($(#[$doc:meta])* $name:ident {
         $($field:ident: $kind:ident $(= $default:expr)?),*
-    })*) => {
+    } $($text:literal)?)*) => {
         /// An effect as Python describes it.
         #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
         pub enum Spec {
@@ -373,6 +376,7 @@ pub(crate) fn parts<R: Real, const V: usize>(
     body: &dyn Fn(&BodyRef) -> usize,
 ) -> Parts<R, V> {
     let mut parts = Parts {
+        terms: terms_of(specs),
         gravity: <R::Vec3 as Vector<R>>::ZERO,
         joints: Vec::new(),
         armature: None,

@@ -18,6 +18,7 @@ __all__ = [
     "LinkageError",
     "LoopModelError",
     "LoopOpen",
+    "MissingFile",
     "ModeError",
     "ModelError",
     "MotionError",
@@ -67,6 +68,10 @@ class UnreadableFile(DescriptionError, OSError):
     """A file that the operating system does not give."""
 
 
+class MissingFile(UnreadableFile, FileNotFoundError):
+    """A file that does not exist."""
+
+
 class ModelError(RobotDynamicsError, ValueError):
     """A robot that the library refuses: too large, or with impossible numbers."""
 
@@ -112,7 +117,7 @@ class ArgumentError(RobotDynamicsError, TypeError, ValueError):
 
 
 class DtypeError(RobotDynamicsError, TypeError):
-    """An array that is neither all float32 nor all float64, or no array of numbers."""
+    """An array that is neither float32 nor float64 nor of integers, or arrays of both."""
 
     argument: str
 

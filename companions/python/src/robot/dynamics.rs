@@ -1,15 +1,15 @@
 //! Inverse, forward and hybrid dynamics, and the matrices that they need.
 
 use pyo3::prelude::*;
-use robot_dynamics_engines::Scene as EngineScene;
 use robot_dynamics_kernels::Which;
 use robot_dynamics_kernels::spec::Spec;
 
 use super::{Array, Robot, frame_of, with_inertia, without_rotors};
 use crate::arrays::Argument;
-use crate::effects::given as effects_of;
+use crate::effects::{RIGID_BODY, given as effects_of, with_own};
 use crate::error::wanted;
 use crate::methods::{Machine, methods};
+use crate::request::By;
 
 impl Robot {
     /// Inverse dynamics in a form, of q and as many derivatives as there are more arguments, under
@@ -17,16 +17,71 @@ impl Robot {
     fn inverse_dynamics<'py>(
         &self,
         py: Python<'py>,
-        (form, scene): (&str, EngineScene),
+        form: &str,
         effects: Option<&Bound<'py, PyAny>>,
         keeps: impl Fn(&Spec) -> bool,
         arguments: &[Argument<'_, 'py>],
     ) -> PyResult<Array<'py>> {
-        let effects = effects_of(effects)?;
-        let effects: Vec<Spec> = effects.iter().filter(|spec| keeps(spec)).cloned().collect();
-        let which = Which::Rnea { given: arguments.len() };
-        let by = self.by(py, form, which, scene, &effects)?;
-        self.one(py, by, &effects, arguments, &[&[self.counts.v]])
+        let shape: &[&[usize]] = &[&[self.counts.v]];
+        if effects.is_none() && arguments.len() == 3 && form == "core" {
+            let which = Which::Rnea { given: 3, still: false };
+            return self.one(py, which, &RIGID_BODY, arguments, shape);
+        }
+        let scene = with_own(effects)?;
+        let mut effects: Vec<Spec> = scene.iter().filter(|spec| keeps(spec)).cloned().collect();
+        let mut given = arguments.len();
+        let mut by = self.by(py, form, given, &effects)?;
+        // Few scenes have machine code of their own. Without Inertia, the acceleration is zero but
+        // for motors; without Coriolis, the velocity but for joints.
+        let has = |spec| effects.contains(&spec);
+        let [inertia, coriolis] = [has(Spec::Inertia), has(Spec::Coriolis)];
+        let turns =
+            |spec: &Spec| matches!(spec, Spec::Armature { .. } | Spec::GyroscopicRotors { .. });
+        let (mut joints, mut still) = (Vec::new(), false);
+        if matches!(by, By::Model(_)) && coriolis && !inertia {
+            if given < 3 || !effects.iter().any(turns) {
+                given = given.min(2);
+                effects.push(Spec::Inertia);
+            }
+        } else if inertia && !coriolis && !effects.iter().any(Spec::is_extra) {
+            still = true;
+            let whole =
+                |spec: &Spec| turns(spec) || matches!(spec, Spec::Gravity(_) | Spec::Inertia);
+            (effects, joints) = effects.into_iter().partition(whole);
+            effects.push(Spec::Coriolis);
+        }
+        if matches!(by, By::Model(_)) {
+            by = Which::Rnea { given, still }.into();
+        }
+        let mut tau = self.one(py, by, &effects, arguments, shape)?;
+        if !joints.is_empty() {
+            let which = Which::Rnea { given: 2, still: false };
+            tau = tau.add(self.one(py, which, &joints, arguments, shape)?)?;
+        }
+        // Gravity has no velocities.
+        match if arguments.len() > 1 { scene.own_torque(py, arguments)? } else { None } {
+            Some(own) => tau.add(own),
+            None => Ok(tau),
+        }
+    }
+
+    /// Forward dynamics of q, q̇ and τ.
+    fn accelerations<'py>(
+        &self,
+        py: Python<'py>,
+        which: Which<'static>,
+        [q, qd, tau]: [&Array<'py>; 3],
+        effects: Option<&Array<'py>>,
+    ) -> PyResult<Array<'py>> {
+        let scene = with_own(effects)?;
+        with_inertia(py, &scene)?;
+        let mut arguments = [self.q("q", q), self.v("qd", qd), self.v("tau", tau)];
+        let own = scene.own_torque(py, &arguments)?;
+        let rest =
+            own.map(|own| PyModule::import(py, "numpy")?.call_method1("subtract", (tau, own)));
+        let rest = rest.transpose()?;
+        arguments[2] = self.v("tau", rest.as_ref().unwrap_or(tau));
+        self.one(py, which, &scene, &arguments, &[&[self.counts.v]])
     }
 }
 
@@ -45,7 +100,7 @@ impl Robot {
         form: &str,
     ) -> PyResult<Array<'py>> {
         let given = [self.q("q", q), self.v("qd", qd), self.v("qdd", qdd)];
-        self.inverse_dynamics(py, (form, EngineScene::RigidBody), effects, |_| true, &given)
+        self.inverse_dynamics(py, form, effects, |_| true, &given)
     }
 
     /// The torques (…, nv), N·m or N, at q (…, nq) and q̇ (…, nv) without acceleration: C(q, q̇)
@@ -61,7 +116,7 @@ impl Robot {
     ) -> PyResult<Array<'py>> {
         let keeps = |spec: &Spec| !matches!(spec, Spec::Inertia);
         let given = [self.q("q", q), self.v("qd", qd)];
-        self.inverse_dynamics(py, (form, EngineScene::Bias), effects, keeps, &given)
+        self.inverse_dynamics(py, form, effects, keeps, &given)
     }
 
     /// The torques (…, nv), N·m or N, that hold the robot against gravity at q (…, nq). No other
@@ -76,7 +131,35 @@ impl Robot {
     ) -> PyResult<Array<'py>> {
         let keeps = |spec: &Spec| matches!(spec, Spec::Gravity(_) | Spec::Payload { .. });
         let given = [self.q("q", q)];
-        self.inverse_dynamics(py, (form, EngineScene::Gravity), effects, keeps, &given)
+        self.inverse_dynamics(py, form, effects, keeps, &given)
+    }
+
+    /// Forward dynamics by articulated bodies: q̈ (…, nv), rad/s² or m/s², for q (…, nq), q̇ and τ
+    /// (…, nv).
+    #[pyo3(signature = (q, qd, tau, effects = None))]
+    fn aba<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Array<'py>,
+        qd: &Array<'py>,
+        tau: &Array<'py>,
+        effects: Option<&Array<'py>>,
+    ) -> PyResult<Array<'py>> {
+        self.accelerations(py, Which::Aba, [q, qd, tau], effects)
+    }
+
+    /// Forward dynamics by M and its factors: q̈ (…, nv), rad/s² or m/s², for q (…, nq), q̇ and τ
+    /// (…, nv).
+    #[pyo3(signature = (q, qd, tau, effects = None))]
+    fn forward_dynamics<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Array<'py>,
+        qd: &Array<'py>,
+        tau: &Array<'py>,
+        effects: Option<&Array<'py>>,
+    ) -> PyResult<Array<'py>> {
+        self.accelerations(py, Which::ForwardDynamics, [q, qd, tau], effects)
     }
 
     /// J (…, 6, nv), J M⁻¹ (…, 6, nv), Λ⁻¹ and Λ (…, 6, 6) of a body, Λ damped by ``damping``
@@ -91,10 +174,11 @@ impl Robot {
         effects: Option<&Bound<'py, PyAny>>,
         #[pyo3(from_py_with = wanted)] damping: f64,
     ) -> PyResult<Array<'py>> {
-        let (body, frame, v) = (self.body(body)?, frame_of(py, frame)?, self.counts.v);
+        let ((framed, body), frame, v) = (self.at(body)?, frame_of(py, frame)?, self.counts.v);
+        let of = framed.as_ref().map_or(self, |framed| framed.get());
         let which = Which::OperationalSpaceOf { body, frame, damping };
         let results: &[&[usize]] = &[&[6, v], &[6, v], &[6, 6], &[6, 6]];
-        self.several(py, which, &effects_of(effects)?, &[self.q("q", q)], results)
+        of.several(py, which, &effects_of(effects)?, &[of.q("q", q)], results)
     }
 }
 
@@ -114,14 +198,6 @@ methods! {
     /// M(q), the joint-space inertia matrix (…, nv, nv), kg·m² or kg, with the motors' `Armature`;
     /// q (…, nq).
     crba(q: q; under effects) = one(Crba): [v, v];
-
-    /// Forward dynamics by articulated bodies: q̈ (…, nv), rad/s² or m/s², for q (…, nq), q̇ and τ
-    /// (…, nv).
-    aba(q: q, qd: v, tau: v; under effects with_inertia) = one(Aba): [v];
-
-    /// Forward dynamics by M and its factors: q̈ (…, nv), rad/s² or m/s², for q (…, nq), q̇ and τ
-    /// (…, nv).
-    forward_dynamics(q: q, qd: v, tau: v; under effects with_inertia) = one(ForwardDynamics): [v];
 
     /// Forward dynamics by M and its factors, with the error that rounding leaves: q̈ and its
     /// estimated error, each (…, nv), rad/s² or m/s², for q (…, nq), q̇ and τ (…, nv). It says

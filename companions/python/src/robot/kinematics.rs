@@ -3,6 +3,7 @@
 use pyo3::prelude::*;
 use robot_dynamics_kernels::Which;
 
+use super::frames::only;
 use super::{Array, Robot, argument, frame_of};
 use crate::effects::given as effects_of;
 use crate::methods::{Machine, methods};
@@ -17,8 +18,10 @@ impl Robot {
     }
 
     /// Spatial velocities (rad/s, m/s) and accelerations (rad/s², m/s²) of all bodies, each (…,
-    /// bodies, 6), angular part first; q (…, nq), q̇ and q̈ (…, nv).
-    #[pyo3(signature = (q, qd, qdd, frame = "local", effects = None))]
+    /// bodies, 6), angular part first, or of the body or frame ``at``, (…, 6); q (…, nq), q̇ and q̈
+    /// (…, nv).
+    #[pyo3(signature = (q, qd, qdd, frame = "local", effects = None, at = None))]
+    #[allow(clippy::too_many_arguments, reason = "arguments of an algorithm")]
     fn kinematics<'py>(
         &self,
         py: Python<'py>,
@@ -27,11 +30,33 @@ impl Robot {
         qdd: &Array<'py>,
         frame: &str,
         effects: Option<&Bound<'py, PyAny>>,
+        at: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Array<'py>> {
         let which = Which::Kinematics { frame: frame_of(py, frame)? };
-        let (effects, each) = (effects_of(effects)?, [self.counts.bodies, 6]);
-        let given = [self.q("q", q), self.v("qd", qd), self.v("qdd", qdd)];
-        self.several(py, which, &effects, &given, &[&each, &each])
+        let effects = effects_of(effects)?;
+        let (framed, body) = at.map(|at| self.at(at)).transpose()?.unzip();
+        let of = framed.as_ref().and_then(Option::as_ref).map_or(self, |framed| framed.get());
+        let given = [of.q("q", q), of.v("qd", qd), of.v("qdd", qdd)];
+        let each = [of.counts.bodies, 6];
+        let all = of.several(py, which, &effects, &given, &[&each, &each])?;
+        body.map_or(Ok(all.clone()), |body| only(&all, body, [1, 1]))
+    }
+
+    /// Rotation matrices (…, bodies, 3, 3) from each body's frame to the base's, and positions (…,
+    /// bodies, 3), m, or those of the body or frame ``at``, (…, 3, 3) and (…, 3); q (…, nq).
+    #[pyo3(signature = (q, at = None))]
+    fn poses<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Array<'py>,
+        at: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Array<'py>> {
+        let (framed, body) = at.map(|at| self.at(at)).transpose()?.unzip();
+        let of = framed.as_ref().and_then(Option::as_ref).map_or(self, |framed| framed.get());
+        let bodies = of.counts.bodies;
+        let results: &[&[usize]] = &[&[bodies, 3, 3], &[bodies, 3]];
+        let all = of.several(py, Which::Poses, &[], &[of.q("q", q)], results)?;
+        body.map_or(Ok(all.clone()), |body| only(&all, body, [2, 1]))
     }
 }
 
@@ -47,10 +72,6 @@ methods! {
     /// acceleration, as that of `kinematics` at q̈ = 0; in "local_world_aligned" its linear part is
     /// the acceleration of the body's origin, and that of `kinematics` is less by ω × v.
     bias_acceleration(q: q, qd: v; at body, frame) = one(BiasAcceleration { body, frame }): [6];
-
-    /// Rotation matrices (…, bodies, 3, 3) from each body's frame to the base's, and positions (…,
-    /// bodies, 3), m; q (…, nq).
-    poses(q: q) = several(Poses): [bodies, 3, 3], [bodies, 3];
 
     /// Mass (…), kg, position (…, 3), m, and velocity (…, 3), m/s, of the centre of mass; q (…,
     /// nq), q̇ (…, nv).

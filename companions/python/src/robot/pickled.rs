@@ -1,6 +1,8 @@
 //! Robots that are pickled and copied. A robot of the library is its name; one of a file is the
 //! numbers that were read, so that it is the same where the file is not.
 
+use std::hash::{DefaultHasher, Hash, Hasher};
+
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
@@ -20,15 +22,28 @@ impl Robot {
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         let native = py.import("robot_dynamics._native")?;
-        let (maker, given) = match &self.read {
-            Some(read) => {
-                let numbers = serde_json::to_string(read);
-                let text = numbers.map_err(|error| of_pickle(py, &error.to_string()))?;
-                (native.getattr("_robot")?, text)
-            }
-            None => (native.getattr("Robot")?, self.label().to_owned()),
+        let maker = if self.read.is_some() { "_robot" } else { "Robot" };
+        (native.getattr(maker)?, (self.numbers(py)?,)).into_pyobject(py)
+    }
+
+    fn __eq__(&self, py: Python<'_>, other: &Self) -> PyResult<bool> {
+        Ok(self.read.is_some() == other.read.is_some() && self.numbers(py)? == other.numbers(py)?)
+    }
+
+    fn __hash__(&self) -> u64 {
+        let mut hasher = DefaultHasher::new();
+        (self.label(), self.counts.q, self.counts.v).hash(&mut hasher);
+        hasher.finish()
+    }
+}
+
+impl Robot {
+    /// What makes it equal to another: its name in the library, or the numbers that were read.
+    fn numbers(&self, py: Python<'_>) -> PyResult<String> {
+        let Some(read) = &self.read else {
+            return Ok(self.label().to_owned());
         };
-        (maker, (given,)).into_pyobject(py)
+        serde_json::to_string(read).map_err(|error| of_pickle(py, &error.to_string()))
     }
 }
 

@@ -1,6 +1,9 @@
 //! The importer's words on a file: advice, notes, and joints that follow others.
 
+use std::sync::Arc;
+
 use pyo3::prelude::*;
+use robot_dynamics_kernels::spec::Spec;
 use robot_import::advice::{self, Topic, advice};
 use robot_import::description::Description;
 use robot_import::dropped::dropped;
@@ -9,7 +12,9 @@ use robot_import::selection::{Selected, Selection};
 use robot_import::tree::Tree;
 use serde::{Deserialize, Serialize};
 
-use super::Robot;
+use super::{BodyInfo, Robot};
+use crate::effects::{PyScene, RIGID_BODY, wide};
+use crate::error::wanted;
 
 /// A piece of advice on a file, as ``cargo xtask import`` prints it.
 #[pyclass(frozen, get_all, module = "robot_dynamics", name = "Advice")]
@@ -119,6 +124,37 @@ impl Robot {
 
 #[pymethods]
 impl Robot {
+    /// The scene of a rigid body and of what the file states: damping, friction, which is full
+    /// beyond the speed ``width``, rad/s or m/s, armatures and springs, as in what ``cargo xtask
+    /// import`` writes.
+    #[pyo3(signature = (width = 0.02))]
+    fn scene(
+        &self,
+        py: Python<'_>,
+        #[pyo3(from_py_with = wanted)] width: f64,
+    ) -> PyResult<PyScene> {
+        wide(py, "Coulomb", width)?;
+        let list = |of: fn(&BodyInfo) -> f64| self.per_coordinate(of);
+        let stated = [
+            Spec::Viscous { coefficients: list(|body| body.damping) },
+            Spec::Coulomb { torque: list(|body| body.friction), width },
+            Spec::Armature { inertia: list(|body| body.armature) },
+            Spec::Spring {
+                stiffness: list(|body| body.spring[0]),
+                rest: list(|body| body.spring[1]),
+            },
+        ];
+        let mut all = RIGID_BODY.to_vec();
+        all.extend(stated.into_iter().filter(|spec| match spec {
+            Spec::Viscous { coefficients: all }
+            | Spec::Coulomb { torque: all, .. }
+            | Spec::Armature { inertia: all }
+            | Spec::Spring { stiffness: all, .. } => all.iter().any(|&x| x != 0.0),
+            _ => true,
+        }));
+        Ok(Arc::new(all).into())
+    }
+
     /// Advice on the file, as ``cargo xtask import`` prints it, but for what that finds at random
     /// states: impossible inertias, numbers in other units, limits of torque below gravity's, and
     /// what is left out. Options in it are those of the command: ``--motors`` is ``actuated`` of

@@ -29,9 +29,10 @@ struct Tip {
 
 impl Tip {
     fn of(robot: &Bound<'_, Robot>, body: &Bound<'_, PyAny>) -> PyResult<Self> {
-        let (counts, body) = (robot.get().counts, robot.get().body(body)?);
+        let (counts, (framed, body)) = (robot.get().counts, robot.get().at(body)?);
         if counts.q == counts.v {
-            return Ok(Self { robot: robot.clone().unbind(), body, joints: counts.v });
+            let robot = framed.unwrap_or_else(|| robot.clone().unbind());
+            return Ok(Self { robot, body, joints: counts.v });
         }
         Err(refused(robot.py(), None, "inverse kinematics is for joints of one coordinate each"))
     }

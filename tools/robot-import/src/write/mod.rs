@@ -3,6 +3,7 @@
 mod body;
 mod constants;
 mod names;
+#[cfg(feature = "program")]
 mod rustfmt;
 
 use std::collections::BTreeSet;
@@ -10,6 +11,7 @@ use std::fmt::Write as _;
 
 pub use body::placed;
 pub use names::{given_type_name, renamed, type_name, type_of};
+#[cfg(feature = "program")]
 pub use rustfmt::formatted;
 
 use crate::physical::{TOLERANCE, impossible, sentence};

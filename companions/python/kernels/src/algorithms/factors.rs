@@ -87,7 +87,7 @@ algorithm! {
 
 algorithm! {
     /// L and D⁻¹ of q, without M.
-    SpatialOperatorLtdl, unspun, |this, robot, counts, scene, row| {
+    SpatialOperatorLtdl, machine, |this, robot, counts, scene, row| {
         let q = filled::<R, Q>(row, 0, counts.q);
         put_ltdl(row, &algorithms::spatial_operator_ltdl(robot, &q, scene)?, counts);
     }
@@ -95,7 +95,7 @@ algorithm! {
 
 algorithm! {
     /// M⁻¹ of q, without M.
-    SpatialOperatorInverse, unspun, |this, robot, counts, scene, row| {
+    SpatialOperatorInverse, machine, |this, robot, counts, scene, row| {
         let q = filled::<R, Q>(row, 0, counts.q);
         let m_inv = algorithms::spatial_operator_inverse(robot, &q, scene)?;
         put_matrix(row, 0, &m_inv, counts.v);
@@ -104,7 +104,7 @@ algorithm! {
 
 algorithm! {
     /// The inverse M(q)⁻¹ of the inertia matrix.
-    InverseMass, matrix, |this, robot, counts, scene, row| {
+    InverseMass, factored, |this, robot, counts, scene, row| {
         let q = filled::<R, Q>(row, 0, counts.q);
         let factors = factors::<R, D, B, Q, V, X>(robot, &q, parts_of(scene), counts)?;
         put_inverse(robot, &factors, row, counts);
@@ -144,18 +144,18 @@ algorithm! {
 
 algorithm! {
     /// q̈ of q, q̇ and τ, and the error that rounding leaves in it.
-    ForwardWithError, moving, |this, robot, counts, scene, row| {
+    ForwardWithError, estimated, |this, robot, counts, scene, row| {
         let (state, tau) = (state(row, counts, 2), filled(row, 2, counts.v));
         let parts = parts_of(scene);
-        let bias = algorithms::rnea(robot, &state, &Scene::<R, V, false, C, X, true>(parts, false));
+        let bias = bias::<R, D, B, Q, V, C, X>(robot, &state, (parts, false));
         let mut rest = algorithms::transmitted_torque(robot, &state, &tau, scene);
         let mut terms = rest.map(R::abs);
         for ((rest, terms), bias) in rest.iter_mut().zip(&mut terms).zip(bias) {
             *rest -= bias;
             *terms += bias.abs();
         }
-        let whole = Scene::<R, V, true, true, X, true>(parts, true);
-        let m = algorithms::crba(robot, &state.q, &whole).plus_diagonal(&fillers(counts));
+        let m = inertia::<R, D, B, Q, V, X>(robot, &state.q, parts);
+        let m = m.plus_diagonal(&fillers(counts));
         let factors = algorithms::ltdl(robot, &m)?;
         let qdd = algorithms::solve(robot, &factors, &rest);
         let error = algorithms::acceleration_error(robot, (&m, &factors), &qdd, &terms);

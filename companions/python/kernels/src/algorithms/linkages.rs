@@ -37,6 +37,21 @@ where
     Ok((tree, trig))
 }
 
+/// Inverse dynamics of the tree.
+#[inline(never)]
+fn torques<R: Real, D, const B: usize, const Q: usize, const V: usize>(
+    robot: &D,
+    trig: &JointTrig<R, Q>,
+    state: &State<R, Q, V>,
+    parts: &Parts<R, V>,
+) -> [R; V]
+where
+    D: RobotModel<R, B, Q, V>,
+{
+    let scene = Scene::<R, V, true, true, true, false>(parts, true);
+    algorithms::rnea(robot, trig.with(state), &scene)
+}
+
 algorithm! {
     /// q, q̇ and q̈ of the tree, G, and whether a linkage is near a singularity, of y, ẏ and ÿ.
     LinkageMotion<'a> { linkages: &'a Linkages }, none, |this, robot, counts, scene, row| {
@@ -54,7 +69,7 @@ algorithm! {
     LinkageRnea<'a> { linkages: &'a Linkages }, linked, |this, robot, counts, scene, row| {
         let (tree, trig) = motion::<R, D, B, Q, V>(robot, this.linkages, row, 3)?;
         let state = State { q: tree.q, qd: tree.qd, qdd: tree.qdd };
-        let tau = tree.torque(&algorithms::rnea(robot, trig.with(&state), scene));
+        let tau = tree.torque(&torques(robot, &trig, &state, parts_of(scene)));
         let tau = &tau[..this.linkages.sizes[1]];
         if !all_finite(tau) {
             return Err(tree.not_finite(tau).into());
@@ -69,7 +84,7 @@ algorithm! {
         let count = this.linkages.sizes[1];
         let (tree, trig) = motion::<R, D, B, Q, V>(robot, this.linkages, row, 2)?;
         let state = State { q: tree.q, qd: tree.qd, qdd: tree.qdd };
-        let bias = tree.torque(&algorithms::rnea(robot, trig.with(&state), scene));
+        let bias = tree.torque(&torques(robot, &trig, &state, parts_of(scene)));
         let mut rest: [R; V] = filled(row, 2, count);
         for (rest, bias) in rest.iter_mut().zip(bias) {
             *rest -= bias;

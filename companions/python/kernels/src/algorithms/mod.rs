@@ -8,7 +8,7 @@ use dynamics_core::scalar::{Matrix, Real, Vector};
 use dynamics_core::spatial::{Force, Motion};
 use dynamics_core::state::State;
 
-use crate::algorithm::{Algorithm, Call, Done};
+use crate::algorithm::{Algorithm, Call, Done, Terms};
 use crate::dispatch::terms;
 use crate::job::{Problem, Row, Rows};
 use crate::lanes::Lanes;
@@ -17,9 +17,9 @@ use crate::scene::{Parts, Scene};
 
 /// An algorithm: which scenes it distinguishes, what it reads and what it writes.
 macro_rules! algorithm {
-    (@blocks Rnea, $this:ident, $call:ident) => { terms::rigid_all($this, $call) };
-    (@blocks Crba, $this:ident, $call:ident) => { terms::rigid_one($this, $call) };
-    (@blocks Aba, $this:ident, $call:ident) => { terms::rigid_moving($this, $call) };
+    (@blocks Rnea, $this:ident, $call:ident) => { terms::blocks_all($this, $call) };
+    (@blocks Crba, $this:ident, $call:ident) => { terms::blocks($this, $call) };
+    (@blocks Aba, $this:ident, $call:ident) => { terms::blocks($this, $call) };
     (@blocks $other:ident, $this:ident, $call:ident) => {{
         let _ = ($this, $call);
         unreachable!("it does not compute several states at once")
@@ -37,15 +37,24 @@ macro_rules! algorithm {
     (@whole ModesAtRest) => { true };
     (@whole FeedforwardTick) => { true };
     (@whole $other:ident) => { false };
-    (@spins unspun) => { false };
     (@spins linked) => { false };
     (@spins machine) => { false };
     (@spins $other:ident) => { true };
     (@fast all) => { true };
     (@fast moving) => { true };
+    (@fast articulated) => { true };
+    (@fast estimated) => { true };
     (@fast matrix) => { true };
+    (@fast factored) => { true };
     (@fast linked) => { true };
     (@fast $other:ident) => { false };
+    (@fits all, $terms:ident) => { $terms.inertia == $terms.coriolis };
+    (@fits moving, $terms:ident) => { $terms.coriolis };
+    (@fits estimated, $terms:ident) => { $terms.coriolis };
+    (@fits $other:ident, $terms:ident) => {{ let _ = $terms; true }};
+    (@terms_alone Regressor) => { true };
+    (@terms_alone RegressorRow) => { true };
+    (@terms_alone $other:ident) => { false };
     ($(#[$doc:meta])* $name:ident $(<$life:lifetime>)? $({ $($field:ident: $type:ty),* })?, $scenes:ident,
      |$this:ident, $robot:ident, $counts:ident, $scene:ident, $row:ident| $body:expr) => {
         $(#[$doc])*
@@ -54,6 +63,11 @@ macro_rules! algorithm {
             const FAST: bool = algorithm!(@fast $scenes);
             const WHOLE: bool = algorithm!(@whole $name);
             const LANES: bool = algorithm!(@lanes $name);
+            const TERMS_ALONE: bool = algorithm!(@terms_alone $name);
+
+            fn fits(terms: Terms) -> bool {
+                algorithm!(@fits $scenes, terms)
+            }
 
             #[inline(always)]
             fn row<
@@ -172,27 +186,6 @@ fn fillers<R: Real, const V: usize>(counts: Counts) -> [R; V] {
     std::array::from_fn(|i| if i < counts.v { R::ZERO } else { R::ONE })
 }
 
-/// The factors of the inertia matrix M.
-#[inline(always)]
-fn factors<
-    R: Real,
-    D: RobotModel<R, B, Q, V>,
-    const B: usize,
-    const Q: usize,
-    const V: usize,
-    const X: bool,
->(
-    robot: &D,
-    q: &[R; Q],
-    parts: &Parts<R, V>,
-    counts: Counts,
-) -> Result<algorithms::Ltdl<R, V>, Problem> {
-    let scene = Scene::<R, V, true, true, X, true>(parts, true);
-    let m = algorithms::crba(robot, q, &scene);
-    // x + 0 would change the sign of no pivot; the robot's own diagonal stays as it is.
-    Ok(algorithms::ltdl(robot, &m.plus_diagonal(&fillers(counts)))?)
-}
-
 /// A frame that is known at run time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AnyFrame {
@@ -224,6 +217,76 @@ macro_rules! in_frame {
     };
 }
 
+// Parts of several algorithms are compiled once.
+
+/// The torques of all effects but those of accelerations, with the friction of gears or without.
+#[inline(never)]
+fn bias<
+    R: Real,
+    D: RobotModel<R, B, Q, V>,
+    const B: usize,
+    const Q: usize,
+    const V: usize,
+    const C: bool,
+    const X: bool,
+>(
+    robot: &D,
+    state: &State<R, Q, V>,
+    (parts, gears): (&Parts<R, V>, bool),
+) -> [R; V] {
+    algorithms::rnea(robot, state, &Scene::<R, V, false, C, X, true>(parts, gears))
+}
+
+/// The inertia matrix M.
+#[inline(never)]
+fn inertia<
+    R: Real,
+    D: RobotModel<R, B, Q, V>,
+    const B: usize,
+    const Q: usize,
+    const V: usize,
+    const X: bool,
+>(
+    robot: &D,
+    q: &[R; Q],
+    parts: &Parts<R, V>,
+) -> MassMatrix<R, V> {
+    algorithms::crba(robot, q, &Scene::<R, V, true, true, X, true>(parts, true))
+}
+
+/// The columns of the Jacobian of a body.
+#[inline(never)]
+fn columns<R: Real, D, const B: usize, const Q: usize, const V: usize>(
+    robot: &D,
+    q: &[R; Q],
+    (body, frame): (usize, AnyFrame),
+) -> [Motion<R>; V]
+where
+    D: RobotModel<R, B, Q, V>,
+{
+    in_frame!(frame, frame => algorithms::jacobian(robot, q, body, frame))
+}
+
+/// The factors of the inertia matrix M.
+#[inline(never)]
+fn factors<
+    R: Real,
+    D: RobotModel<R, B, Q, V>,
+    const B: usize,
+    const Q: usize,
+    const V: usize,
+    const X: bool,
+>(
+    robot: &D,
+    q: &[R; Q],
+    parts: &Parts<R, V>,
+    counts: Counts,
+) -> Result<algorithms::Ltdl<R, V>, Problem> {
+    let m = inertia::<R, D, B, Q, V, X>(robot, q, parts);
+    // x + 0 would change the sign of no pivot; the robot's own diagonal stays as it is.
+    Ok(algorithms::ltdl(robot, &m.plus_diagonal(&fillers(counts)))?)
+}
+
 mod drivetrain;
 mod factors;
 mod flexible;
@@ -241,17 +304,24 @@ pub use manifold::*;
 pub use regressors::*;
 
 algorithm! {
-    /// τ of q, q̇ and q̈.
-    Rnea { given: usize }, all, |this, robot, counts, scene, row| {
-        let state = state(row, counts, this.given);
-        let tau = algorithms::rnea(robot, &state, scene);
+    /// τ of so many of q, q̇ and q̈, or of q and q̈ at rest.
+    Rnea { given: usize, still: bool }, all, |this, robot, counts, scene, row| {
+        let mut state = state(row, counts, this.given);
+        if this.still {
+            state.qd = [R::ZERO; V];
+        }
+        let tau = if const { !A && C } {
+            bias::<R, D, B, Q, V, C, X>(robot, &state, (parts_of(scene), true))
+        } else {
+            algorithms::rnea(robot, &state, scene)
+        };
         put(row, 0, 0, &tau[..counts.v]);
     }
 }
 
 algorithm! {
     /// τ of q, q̇ and q̈, and the wrenches in the joints of all bodies.
-    RneaAndWrenches, all_slow, |this, robot, counts, scene, row| {
+    RneaAndWrenches, wrenched, |this, robot, counts, scene, row| {
         let found = algorithms::rnea_and_wrenches(robot, &state(row, counts, 3), scene);
         put(row, 0, 0, &found.tau[..counts.v]);
         for (i, f) in found.wrenches[..counts.bodies].iter().enumerate() {
@@ -272,14 +342,15 @@ algorithm! {
 algorithm! {
     /// The inertia matrix M(q).
     Crba, matrix, |this, robot, counts, scene, row| {
-        let m = algorithms::crba(robot, &filled::<R, Q>(row, 0, counts.q), scene);
+        let q = filled(row, 0, counts.q);
+        let m = inertia::<R, D, B, Q, V, X>(robot, &q, parts_of(scene));
         put_matrix(row, 0, &m, counts.v);
     }
 }
 
 algorithm! {
     /// q̈ of q, q̇ and τ, by articulated bodies.
-    Aba, moving, |this, robot, counts, scene, row| {
+    Aba, articulated, |this, robot, counts, scene, row| {
         let (state, tau) = (state(row, counts, 2), filled(row, 2, counts.v));
         let qdd = algorithms::aba(robot, &state, &tau, scene)?;
         put(row, 0, 0, &qdd[..counts.v]);
@@ -291,7 +362,7 @@ algorithm! {
     ForwardDynamics, moving, |this, robot, counts, scene, row| {
         let (state, tau) = (state(row, counts, 2), filled(row, 2, counts.v));
         let parts = parts_of(scene);
-        let bias = algorithms::rnea(robot, &state, &Scene::<R, V, false, C, X, true>(parts, false));
+        let bias = bias::<R, D, B, Q, V, C, X>(robot, &state, (parts, false));
         let mut rest = algorithms::transmitted_torque(robot, &state, &tau, scene);
         for (rest, bias) in rest.iter_mut().zip(bias) {
             *rest -= bias;
@@ -332,7 +403,7 @@ algorithm! {
     /// J of a body: three rows of angular, three of linear velocity.
     Jacobian { body: usize, frame: AnyFrame }, none, |this, robot, counts, scene, row| {
         let q = filled::<R, Q>(row, 0, counts.q);
-        let columns = in_frame!(this.frame, frame => algorithms::jacobian(robot, &q, this.body, frame));
+        let columns = columns(robot, &q, (this.body, this.frame));
         put_rows(row, 0, &jacobian_rows(&columns), counts.v);
     }
 }
@@ -410,7 +481,7 @@ algorithm! {
 
 algorithm! {
     /// The matrix from q̇ to that momentum.
-    CentroidalMatrix, unspun, |this, robot, counts, scene, row| {
+    CentroidalMatrix, machine, |this, robot, counts, scene, row| {
         let q = filled::<R, Q>(row, 0, counts.q);
         let columns = algorithms::centroidal_matrix(robot, &q, scene);
         for (j, h) in columns.iter().enumerate().take(counts.v) {
@@ -470,7 +541,7 @@ algorithm! {
 
 algorithm! {
     /// The inverse Λ⁻¹ of the operational-space inertia of a body.
-    OsimInverse { body: usize, frame: AnyFrame }, unspun, |this, robot, counts, scene, row| {
+    OsimInverse { body: usize, frame: AnyFrame }, machine, |this, robot, counts, scene, row| {
         let q = filled::<R, Q>(row, 0, counts.q);
         let found = in_frame!(this.frame, frame => {
             algorithms::osim_inverse(robot, &q, this.body, frame, scene)
@@ -492,7 +563,7 @@ algorithm! {
     OperationalSpaceOf { body: usize, frame: AnyFrame, damping: f64 }, rigid,
     |this, robot, counts, scene, row| {
         let q = filled::<R, Q>(row, 0, counts.q);
-        let columns = in_frame!(this.frame, frame => algorithms::jacobian(robot, &q, this.body, frame));
+        let columns = columns(robot, &q, (this.body, this.frame));
         let factors = factors::<R, D, B, Q, V, X>(robot, &q, parts_of(scene), counts)?;
         let damping = Damping::relative(R::from_f64(this.damping));
         let solve = |tau: &[R; V]| algorithms::solve(robot, &factors, tau);

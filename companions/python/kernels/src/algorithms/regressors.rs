@@ -7,10 +7,27 @@ use dynamics_core::scalar::Real;
 
 use super::*;
 
+/// q, q̇ and q̈ of a row, of which a scene's terms see so many.
+#[inline(always)]
+fn felt<R: Real, const Q: usize, const V: usize>(
+    row: &impl Row<R>,
+    counts: Counts,
+    parts: &Parts<R, V>,
+) -> State<R, Q, V> {
+    let state = state(row, counts, 3);
+    let none = [R::ZERO; V];
+    let Terms { inertia, coriolis, .. } = parts.terms;
+    State {
+        qd: if coriolis { state.qd } else { none },
+        qdd: if inertia { state.qdd } else { none },
+        ..state
+    }
+}
+
 algorithm! {
     /// Y with τ = Y φ, of the bodies from the first to the one before the end.
-    Regressor { first: usize, end: usize }, all_slow, |this, robot, counts, scene, row| {
-        let state = state(row, counts, 3);
+    Regressor { first: usize, end: usize }, rigid, |this, robot, counts, scene, row| {
+        let state = felt(row, counts, parts_of(scene));
         let bodies = this.end - this.first;
         for body in this.first..this.end {
             let columns = algorithms::regressor_columns(robot, &state, scene, body);
@@ -23,8 +40,8 @@ algorithm! {
 
 algorithm! {
     /// The row of Y of a velocity coordinate.
-    RegressorRow { coordinate: usize }, all_slow, |this, robot, counts, scene, row| {
-        let state = state(row, counts, 3);
+    RegressorRow { coordinate: usize }, rigid, |this, robot, counts, scene, row| {
+        let state = felt(row, counts, parts_of(scene));
         let found = algorithms::regressor_row(robot, &state, scene, this.coordinate);
         put(row, 0, 0, found[..counts.bodies].as_flattened());
     }

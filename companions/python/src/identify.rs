@@ -26,7 +26,7 @@ use crate::error::Exception;
 ///
 /// Raises IdentificationError; of a robot of more than eight joints, too.
 #[pyfunction]
-#[pyo3(signature = (robot_file, time, q, tau, *, joints = None, effects = vec!["viscous".into(), "coulomb".into(), "armature".into(), "offset".into()], width = 0.02, cutoff = None))]
+#[pyo3(signature = (robot_file, time, q, tau, *, joints = None, effects = vec!["viscous".into(), "coulomb".into(), "armature".into(), "offset".into()], width = 0.02, cutoff = None), text_signature = "(robot_file, time, q, tau, *, joints=None, effects=('viscous', 'coulomb', 'armature', 'offset'), width=0.02, cutoff=None)")]
 #[allow(clippy::too_many_arguments, reason = "they are those of Python, most by name")]
 pub fn identify<'py>(
     py: Python<'py>,

@@ -86,7 +86,7 @@ def identify(
     effects: Sequence[str] = ...,
     width: float = 0.02,
     cutoff: float | None = None,
-) -> dict[str, Any]: ...
+) -> dict[str, Any]: "Masses, inertias and frictions of the robot of a URDF or MJCF from a recording of any motion:\ntime (n,), s, q (n, joints), rad or m, and tau (n, joints), N·m or N, all float64. Times may be\nuneven, have gaps, and start anywhere. It computes without the interpreter's lock.\n\n`joints` names the columns of q and tau; the robot's other joints are locked. Without it they\nare the robot's joints.\n`effects` are of \"viscous\", \"coulomb\", \"armature\", \"load\", \"preslide\", \"offset\", \"stribeck\" and\n\"asymmetric\"; `width` is the speed below which Coulomb friction fades, rad/s or m/s, and torques\nare compared up to `cutoff`, Hz, or the highest frequency that the rate allows. The dict is the\nJSON of `cargo xtask identify`.\n\nRaises IdentificationError; of a robot of more than eight joints, too."
 def robots() -> list[str]: "The names of the library's robots."
 def threads() -> int: "The number of threads that a batch uses."
 @final

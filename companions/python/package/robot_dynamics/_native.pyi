@@ -67,6 +67,7 @@ __all__ = [
     "__version__",
     "_robot",
     "_scene",
+    "identify",
     "robots",
     "threads",
 ]

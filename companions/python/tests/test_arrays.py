@@ -110,7 +110,7 @@ def test_integers_are_float64(method, names, name):
     robot = rd.Robot(name)
     given, call = arguments(robot, names, 3, np.float64), getattr(robot, method)
     arrays = [isinstance(x, np.ndarray) for x in given]
-    # Of M and its factors, and of attitudes, those that are whole: the identity.
+    # M, its factors and attitudes are whole as identities.
     for x, kind in zip(given, names.split()):
         if kind in "ML":
             x[:] = np.eye(robot.nv)

@@ -128,7 +128,7 @@ export class View {
     this.stale = false;
     this.ground.draw(this.orbit, this.extent, this.size);
     this.shape.place(this.poses, this.loads, this.drag && [this.point(this.drag.body), this.drag.to]);
-    // What moves, is dragged or pushed out of the picture is brought back.
+    // A robot that moves, is dragged or is pushed out of the picture is brought back.
     const balls = this.whole && !this.drag ? this.shape.balls() : [];
     if (balls.some(([p]) => this.orbit.project(p, ...this.size).slice(0, 2).some((x, k) => x < 0 || x > this.size[k]))) {
       this.balls.push(...balls);

@@ -36,8 +36,8 @@ use crate::state::{Configuration, RobotState, State};
 use crate::trig::Kernel;
 
 impl<Arm, Sines> Engine<Arm, Sines> {
-    /// ∂τ/∂q and ∂τ/∂q̇ of inverse dynamics τ = ID(q, q̇, q̈) under the effects of the scene, N·m/rad
-    /// and N·m·s/rad between revolute joints; ∂τ/∂q̈ is M, that of [`Engine::crba`].
+    /// ∂τ/∂q and ∂τ/∂q̇ of inverse dynamics τ = ID(q, q̇, q̈) under the effects of the scene,
+    /// N·m/rad and N·m·s/rad between revolute joints; ∂τ/∂q̈ is M, that of [`Engine::crba`].
     ///
     /// The same as [`rnea_derivatives`](crate::algorithms::rnea_derivatives()), for robots of
     /// revolute and prismatic joints; others do not compile.
@@ -98,7 +98,7 @@ const fn takes_single_joints<Tree: Compiled>() {
     }
 }
 
-/// What a change of a joint's position or rate changes beyond it; see the module.
+/// The change of all motion beyond a joint by its position or its rate: see the module.
 #[derive(Clone, Copy)]
 struct Change<Scalar> {
     omega: Vec3<Scalar>,
@@ -117,7 +117,7 @@ struct Composite<Scalar> {
     wrench: Wrench<Scalar>,
 }
 
-/// What a joint feels of a change: g δa + κ β + 2 s δω.
+/// The coefficients of the torque by which a joint feels a change: g δa + κ β + 2 s δω.
 #[derive(Clone, Copy)]
 struct Felt<Scalar> {
     /// (g, κ): the wrench of a unit acceleration.
@@ -129,7 +129,7 @@ struct Felt<Scalar> {
 struct Task<'a, Scalar: Real, Tree, Effects, const B: usize, const Q: usize, const V: usize> {
     call: Call<'a, Scalar, Tree, Effects, B, Q, V>,
     state: &'a State<Scalar, Q, V>,
-    /// What the changes by each joint are made of.
+    /// The parts of the changes by each joint.
     kept: [Kept<Scalar>; V],
     gradient: &'a mut TorqueGradient<Scalar, V>,
 }
@@ -220,7 +220,7 @@ where
         ])
     }
 
-    /// The changes by the parent of joint K. Of a revolute joint on a base at rest, ω and α are
+    /// The changes by the parent of joint K: ω and α of a revolute joint on a base at rest are
     /// along z.
     #[cfg_attr(optimised, inline(always))]
     fn changes_of_parent<const K: usize>(&self) -> [Change<Scalar>; 2] {
@@ -360,7 +360,7 @@ impl<Scalar: Real> Composite<Scalar> {
         Wrench { f, n: h.cross(change.accel) + spin + half_n + half_n }
     }
 
-    /// What the joint feels of a change.
+    /// The coefficients of the joint's torque.
     #[cfg_attr(optimised, inline(always))]
     fn felt(&self, is_prismatic: bool) -> Felt<Scalar> {
         let (zero, [hx, hy, _]) = (Folded::ZERO, self.inertia.moment.0);

@@ -1,6 +1,6 @@
 //! Frames that are fixed to bodies, such as a tool's: links of a file that move with another.
 //!
-//! What is asked of one is computed of a robot with one body more, which has no mass.
+//! Algorithms see one as a body of its own, without mass.
 
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
@@ -73,7 +73,7 @@ impl Robot {
     }
 }
 
-/// Of results (…, bodies, …), each with so many axes of a body, those of one.
+/// The results of one body, from results (…, bodies, …), each with so many axes of a body.
 pub fn only<'py>(all: &Array<'py>, body: usize, axes: [i32; 2]) -> PyResult<Array<'py>> {
     let py = all.py();
     let mut of_body = Vec::new();

@@ -38,7 +38,7 @@ impl Robot {
 }
 
 impl Robot {
-    /// What makes it equal to another: its name in the library, or the numbers that were read.
+    /// The name in the library, or the numbers that were read: two robots are equal if these are.
     fn numbers(&self, py: Python<'_>) -> PyResult<String> {
         let Some(read) = &self.read else {
             return Ok(self.label().to_owned());

@@ -31,14 +31,15 @@ pub struct AccelerationGradient<R, const V: usize> {
 /// ∂FD/∂q = −M⁻¹ ∂ID/∂q      ∂FD/∂q̇ = −M⁻¹ ∂ID/∂q̇      at q̈ = FD(q, q̇, τ)
 /// ```
 ///
-/// The derivative with respect to q is along [`integrate`](crate::state::manifold::integrate()), and
-/// the effects are those of [`rnea_derivatives`]. `state.qdd` is not read.
+/// The derivative with respect to q is along
+/// [`integrate`](crate::state::manifold::integrate()), and the effects are those of
+/// [`rnea_derivatives`]. `state.qdd` is not read.
 ///
 /// # Shape
 /// V × V each, not symmetric.
 ///
 /// # Cost
-/// That of [`rnea_derivatives`], of [`crba`](crate::algorithms::crba()) and its factors, and 4 V³
+/// The cost of [`rnea_derivatives`], of [`crba`](crate::algorithms::crba()) and its factors, and 4 V³
 /// flops on a chain.
 ///
 /// # Source

@@ -38,8 +38,9 @@ pub struct TorqueGradient<R, const V: usize> {
 /// ```
 ///
 /// The derivative with respect to q is that along q ⊕ δ of
-/// [`integrate`](crate::state::manifold::integrate()) at δ = 0: at a spherical, planar or free joint
-/// along its velocities, in the body's frame, which are q̇'s coordinates; elsewhere along q itself.
+/// [`integrate`](crate::state::manifold::integrate()) at δ = 0: at a spherical, planar or free
+/// joint along its velocities, in the body's frame, which are q̇'s coordinates; elsewhere along q
+/// itself.
 ///
 /// Gravity, inertia, velocity products, payloads, armatures and a base of given motion are part of
 /// it, and joint torques by the derivatives that an effect names
@@ -48,12 +49,12 @@ pub struct TorqueGradient<R, const V: usize> {
 /// input gives a non-finite output.
 ///
 /// # Shape
-/// Two of V × V, not symmetric; an entry between joints of which neither is an ancestor of the other
-/// is exactly zero.
+/// Two of V × V, not symmetric; an entry between joints of which neither is an ancestor of the
+/// other is exactly zero.
 ///
 /// # Cost
-/// For B revolute joints some 800 B flops, and 190 for each pair of a joint and its ancestor: B² / 2
-/// pairs on a chain.
+/// For B revolute joints some 800 B flops, and 190 for each pair of a joint and its ancestor: B² /
+/// 2 pairs on a chain.
 ///
 /// # Source
 /// Singh, Russell & Wensing (2022); the universal joint, whose S depends on q, by differentiation.

@@ -19,12 +19,12 @@ where
 {
     assert!(
         !E::WRENCH,
-        "an effect of the scene has a wrench on a body, whose derivatives it cannot name: leave it out of \
-         the scene whose derivatives are computed"
+        "an effect of the scene has a wrench on a body, whose derivatives it cannot name: leave it \
+         out of the scene whose derivatives are computed"
     );
     assert!(
         !(E::GYROSCOPIC_ROTORS | E::LOAD_DEPENDENT | E::ELASTICITY),
-        "the derivatives of rotors that spin as bodies, of friction that depends on the load, and of links \
-         that bend are not computed: use `Armature`, `Viscous` and `Coulomb`"
+        "the derivatives of rotors that spin as bodies, of friction that depends on the load, and \
+         of links that bend are not computed: use `Armature`, `Viscous` and `Coulomb`"
     );
 }

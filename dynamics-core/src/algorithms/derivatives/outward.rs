@@ -43,8 +43,8 @@ impl<R: Real> Body<'_, R> {
     }
 }
 
-/// What moves all bodies from a joint on when one of its coordinates or rates changes, in the
-/// coordinates of its body.
+/// The changes of velocity and acceleration of all bodies from a joint on by one of its coordinates
+/// and by its rate, in the coordinates of its body.
 #[derive(Clone, Copy)]
 pub(super) struct Column<R: Real> {
     /// S, of ∂/∂q̇ the change of velocity.

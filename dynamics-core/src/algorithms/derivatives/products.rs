@@ -40,6 +40,7 @@ use crate::state::{Configuration, RobotState, entry};
 ///     assert!((row.iter().sum::<f64>() * 0.1 - product).abs() < 1e-13);
 /// }
 /// ```
+#[doc(alias = "Jacobian-vector product")]
 #[cfg_attr(optimised, inline(always))]
 #[must_use]
 pub fn rnea_along<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
@@ -129,6 +130,7 @@ where
 ///     assert!((by.dq.iter().map(|row| row[k]).sum::<f64>() * 0.1 - product).abs() < 1e-13);
 /// }
 /// ```
+#[doc(alias = "vector-Jacobian product")]
 #[cfg_attr(optimised, inline(always))]
 #[must_use]
 pub fn rnea_transposed<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(

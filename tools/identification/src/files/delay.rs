@@ -2,8 +2,8 @@
 //! itself.
 //!
 //! The sum of the squares of the residuals is nearly a parabola in this time, as long as the time
-//! is short relative to the periods of the motion. Of a scan, the minimum of the parabola through the
-//! least value and its neighbours is taken.
+//! is short relative to the periods of the motion. The result of a scan is the minimum of the
+//! parabola through the least value and its neighbours.
 
 use crate::{Fit, Fitted, IdentificationError};
 

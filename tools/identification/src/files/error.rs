@@ -70,7 +70,7 @@ pub enum Error {
     Json(#[from] serde_json::Error),
 }
 
-/// What a position beyond the limits may be.
+/// The likely reason for a position beyond the limits.
 fn beyond(position: f64, [lower, upper]: [f64; 2]) -> &'static str {
     match (lower - 0.1..=upper + 0.1).contains(&position.to_radians()) {
         true => "are the positions in degrees? A map says so: position_unit = \"deg\" (--columns)",

@@ -1,6 +1,6 @@
 //! The kinds of friction that the model lacks and the recording carries.
 //!
-//! What the model leaves of the torques of a joint is fitted by each kind, Stribeck's effect at some
+//! The residual torque of a joint is fitted by each kind, Stribeck's effect at some
 //! speeds, together with changes of its viscous and Coulomb friction and of its offset, and compared
 //! with torques that were not fitted: what only describes noise does not lower the residuals there.
 
@@ -45,7 +45,7 @@ pub(crate) fn carried<const V: usize>(
     let kinds: Vec<(JointEffect, Option<f64>)> = kinds.collect();
     let mut found = Vec::new();
     for (j, joint) in names.iter().enumerate() {
-        // What is left of the torques, and the columns of smooth sign, speed, offset and a kind.
+        // The residual torques, and the columns of smooth sign, speed, offset and a kind.
         let equations = |of: &Comparison<V>, kind: Option<(JointEffect, Option<f64>)>| {
             let mut rows = DMatrix::zeros(of.times.len(), 4);
             let left = |k: usize| of.measured[k][j] - of.modelled[1][k][j];
@@ -79,7 +79,7 @@ pub(crate) fn carried<const V: usize>(
         let mut own: Vec<Carried> = kinds.iter().map(of).collect();
         own.retain(|one| one.residuals[1] < (LEFT * before).min(before - LOWERED));
         own.sort_by(|a, b| a.residuals[1].total_cmp(&b.residuals[1]));
-        // Of Stribeck's effect the best speed.
+        // The best speed of Stribeck's effect.
         let mut first = true;
         own.retain(|one| one.speed.is_none() || std::mem::take(&mut first));
         found.extend(own);

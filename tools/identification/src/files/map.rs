@@ -30,7 +30,7 @@ const LISTED: usize = 40;
 #[derive(Clone, Debug)]
 pub struct Map {
     all: OfAll,
-    /// Of all joints, and of single ones.
+    /// The entries of all joints, and of single ones.
     each: Table<String, Value>,
 }
 
@@ -89,7 +89,7 @@ pub(crate) struct Columns {
     pub titles: Vec<String>,
     /// The column, and its unit in s.
     pub time: (usize, f64),
-    /// Of each joint the columns, the unit of the position with the reading at zero, and the unit
+    /// The columns of each joint, the unit of the position with the reading at zero, and the unit
     /// of the torque.
     pub joints: Vec<OfColumns>,
     pub rows: Option<(usize, String)>,
@@ -122,7 +122,7 @@ impl Map {
     /// Reads a text.
     ///
     /// # Errors
-    /// What is wrong in it.
+    /// The error in it.
     pub fn of(text: &str) -> std::result::Result<Self, String> {
         Self::from(toml_edit::de::from_str(text).map_err(|error| error.to_string())?)
     }
@@ -263,7 +263,7 @@ fn listed(titles: &[String]) -> String {
     shown.join(", ") + more
 }
 
-/// What is looked for in the titles, and what was not found.
+/// The titles that are looked for, and those that were not found.
 struct Finder<'a> {
     titles: &'a [String],
     missing: Vec<String>,

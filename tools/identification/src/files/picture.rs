@@ -1,4 +1,4 @@
-//! Of each joint three charts as an SVG: its torque by time, measured, by the description and by
+//! Three charts of each joint as an SVG: its torque by time, measured, by the description and by
 //! what was found; what is left of it; and its friction by speed.
 
 use std::fmt::Write as _;

@@ -125,7 +125,7 @@ impl Rows {
             }
             None => {
                 self.left_out += 1;
-                // Where single rows lack a number, such as one that another topic has, the rows
+                // If single rows lack a number, such as one that another topic has, the rows
                 // about them are a stretch all the same.
                 if !counts {
                     self.breaks.push(self.times.len());

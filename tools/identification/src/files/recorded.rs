@@ -43,7 +43,7 @@ pub(crate) struct Rows {
 }
 
 impl Recorded {
-    /// Of arrays: times, s, positions, rad or m, and torques, N·m or N, row by row.
+    /// A recording from arrays: times, s, positions, rad or m, and torques, N·m or N, row by row.
     ///
     /// # Errors
     /// [`Error`] names the row.

@@ -21,7 +21,7 @@ const INTERVALS: std::ops::RangeInclusive<f64> = 2e-5..=0.5;
 const JITTER: f64 = 0.4;
 const BACKWARD: f64 = 0.01;
 
-/// What of a record was left out or made even.
+/// The rows of a record that were left out, and how it was made even.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Sampling {
     /// Rows on hold or stopped, and rows that lack a number.

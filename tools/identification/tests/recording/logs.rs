@@ -35,7 +35,7 @@ pub fn so101() -> Robot {
     Robot::read(Path::new(file), None, &Selection::default()).expect("a robot")
 }
 
-/// What is wrong in a log.
+/// The mistake in a log.
 #[derive(Clone, Copy, Default)]
 pub struct Wrong {
     pub reversed: bool,

@@ -17,7 +17,7 @@ const POINTS: i32 = 16;
 /// The left upper and the right lower corner.
 type Corners = [Place; 2];
 
-/// What names must not cover.
+/// The places that names must not cover.
 pub struct Names {
     boxes: Vec<Corners>,
     /// The edges within which names are.

@@ -45,7 +45,8 @@ pub fn inverse<T: Robot<B, N, N>, E: Effect<f32, B, N>, const B: usize, const N:
 type Gradient<S, const N: usize> = fn(S, &RigidBody) -> TorqueGradient<f32, N>;
 type RigidBody = (Gravity, Inertia, Coriolis);
 
-/// Derivatives of inverse dynamics by the engine, with sines and cosines computed inside and before.
+/// Derivatives of inverse dynamics by the engine, with sines and cosines computed inside and
+/// before.
 fn derivatives<T: Robot<B, N, N>, const B: usize, const N: usize>(asks: &[Ask<N>; STATES]) {
     let row = |trig| Row::of::<T, B, N>("rnea_derivatives", "engine", "full", trig);
     let run: Gradient<&State<f32, N, N>, N> = Engine::<T>::rnea_derivatives;

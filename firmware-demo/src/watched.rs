@@ -4,7 +4,7 @@ use core::marker::PhantomData;
 use core::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 use dynamics_core::model::{JointKind, model};
-use heapless::{String, Vec};
+use heapless::String;
 use joint_drivers::{Phase, Probe, Telemetry};
 use motion_control::{Detectors, Mode, Reference};
 use telemetry::{Axis, Machine, Producer, Sample};
@@ -242,13 +242,18 @@ where
     };
     let limits = S::limits().into_iter().enumerate();
     let joints = limits.map(|(joint, limits)| Axis { limits, prismatic: slides(joint) });
-    let mut name = String::new();
+    machine_of(S::NAME, S::TICK, timer_hz, joints)
+}
+
+/// The constants of a machine with ticks of so many seconds.
+pub fn machine_of<const N: usize>(
+    name: &str,
+    tick: f32,
+    timer_hz: u32,
+    joints: impl Iterator<Item = Axis>,
+) -> Machine<N> {
+    let mut short = String::new();
     // Longer names are cut short.
-    let _ = S::NAME.chars().try_for_each(|letter| name.push(letter));
-    Machine {
-        name,
-        tick_us: (S::TICK * 1e6 + 0.5) as u32,
-        timer_hz,
-        joints: joints.collect::<Vec<_, N>>(),
-    }
+    let _ = name.chars().try_for_each(|letter| short.push(letter));
+    Machine { name: short, tick_us: (tick * 1e6 + 0.5) as u32, timer_hz, joints: joints.collect() }
 }

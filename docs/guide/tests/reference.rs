@@ -11,7 +11,7 @@ use std::sync::LazyLock;
 use crate::files::{files, root};
 
 /// Items of other crates and of written files, options, and parameters.
-const OTHERS: [&str; 12] = [
+const OTHERS: [&str; 11] = [
     "BODY",
     "Deserialize",
     "Format",
@@ -19,7 +19,6 @@ const OTHERS: [&str; 12] = [
     "InterruptExecutor",
     "MEMORY",
     "MyRobot",
-    "PYTHONPATH",
     "R",
     "Serialize",
     "T",

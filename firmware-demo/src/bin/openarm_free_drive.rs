@@ -4,5 +4,8 @@
 
 #[cortex_m_rt::entry]
 fn main() -> ! {
-    firmware_demo::target::guided::scene()
+    #[cfg(not(feature = "telemetry"))]
+    firmware_demo::target::guided::scene();
+    #[cfg(feature = "telemetry")]
+    firmware_demo::target::watch::trials()
 }

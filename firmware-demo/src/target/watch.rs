@@ -7,18 +7,22 @@
 use core::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 use cortex_m::peripheral::SYST;
+use dynamics_core::model::Robot;
+use dynamics_core::robots::OpenArm;
 use embedded_io::Write;
 use stm32f4xx_hal::gpio::GpioExt;
 use stm32f4xx_hal::pac;
 use stm32f4xx_hal::rcc::{Rcc, RccExt};
 use stm32f4xx_hal::serial::config::{Config, InvalidConfig};
 use stm32f4xx_hal::serial::{SerialExt, Tx};
-use telemetry::{Consumer, Message, Queue, Slots, capacity, encode, split};
+use telemetry::{Axis, Consumer, Message, Queue, Sample, Slots, capacity, encode, split};
 
 use super::{CLOCK, Tick, fail, leave, microseconds, start};
-use crate::scene::Scene;
+use crate::scene::{PlantModel, Scene};
+use crate::scenes::openarm_free_drive::TICK;
+use crate::scenes::openarm_free_drive::trial::{Less, Trial};
 use crate::sim_io::Wires;
-use crate::watched::{Options, Timer, Watched, machine};
+use crate::watched::{Options, Timer, Watched, fill, machine, machine_of};
 
 /// Ticks that wait for the port at most.
 pub const QUEUE: usize = 64;
@@ -103,6 +107,39 @@ where
             leave(cortex_m_semihosting::debug::EXIT_SUCCESS);
         }
         cortex_m::asm::wfi();
+    }
+}
+
+/// Runs the trial of the scene that is led by hand over and over, and sends its ticks from the loop
+/// that runs it: it has no interrupt, and no timer.
+pub fn trials() -> ! {
+    let Some(Ok(mut port)) = pac::Peripherals::take().map(port) else {
+        fail("the serial port is taken, or cannot have this rate");
+    };
+    let last = argument(b"ticks").unwrap_or(0);
+    let links = OpenArm::MODEL.to_f32().links.into_iter();
+    let axes = links.map(|link| Axis { limits: link.limits, prismatic: false });
+    let constants = Message::Machine(machine_of("openarm_free_drive", TICK, 0, axes));
+    let (mut number, mut sample) = (0_u32, Sample::default());
+    let mut send_tick = |telemetry: &joint_drivers::Telemetry<7>| {
+        if number.is_multiple_of(MACHINE) {
+            send(&constants, &mut port);
+        }
+        fill(&mut sample, telemetry);
+        sample.number = number;
+        send(&Message::Tick(sample.message(0)), &mut port);
+        number = number.wrapping_add(1);
+        if number == last {
+            defmt::println!("sent {=u32} of {=u32} ticks", number, last);
+            defmt::println!("done");
+            leave(cortex_m_semihosting::debug::EXIT_SUCCESS);
+        }
+    };
+    loop {
+        let trial = Trial::of_scene(Less::Nothing, PlantModel::Exact, true);
+        if trial.run_seen(&mut send_tick).is_none() {
+            fail("the simulated arm has no forward dynamics any more");
+        }
     }
 }
 

@@ -42,8 +42,6 @@ pub enum Topic {
     LeftOut,
     /// A type with another name than the robot.
     Renamed,
-    /// A peer that may be there did not answer.
-    Peer,
 }
 
 /// A piece of advice.

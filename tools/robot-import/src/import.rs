@@ -1,15 +1,14 @@
 //! `robot-import import`: a file becomes a Rust file, with advice and a check.
 
 use std::path::{Path, PathBuf};
-use std::time::Duration;
 
 use crate::advice::{Advice, Topic, advice, needless_torque};
-use crate::check::{self, NoPeer, Python, STATES};
-use crate::description::{Description, Format, shortened};
+use crate::check::{self, STATES};
+use crate::description::{Description, shortened};
 use crate::dropped::dropped;
 use crate::error::{ImportError, Problem, Result};
 use crate::estimate;
-use crate::limits::{LEAST, MOST_JOINTS_OF_PROJECT, PEER_TIME};
+use crate::limits::{LEAST, MOST_JOINTS_OF_PROJECT};
 use crate::loops::{Closed, Motors};
 use crate::model::AnyModel;
 use crate::outputs::{self, are_apart};
@@ -49,7 +48,7 @@ pub struct Args {
     pub report: Option<PathBuf>,
 }
 
-/// Which part of a file becomes the robot, and how it is checked.
+/// Which part of a file becomes the robot.
 #[derive(Clone, Debug, Default, clap::Args)]
 pub struct Options {
     /// The link that stands still; the root of the file if not given
@@ -73,38 +72,15 @@ pub struct Options {
     /// The joints that have motors, of a machine with loops; those of the file if not given
     #[arg(long, value_name = "A,B,C", value_delimiter = ',')]
     pub motors: Vec<String>,
-    /// Compare with Pinocchio or MuJoCo, too, and fail if they are not there
-    #[arg(long)]
-    pub check: bool,
     /// Take the nearest physical inertia where one is not physical
     #[arg(long)]
     pub repair: bool,
     /// Keep roundings of right angles and of zero
     #[arg(long)]
     pub keep_roundings: bool,
-    /// The Python that has Pinocchio or MuJoCo; `none` compares with neither
-    #[arg(long, value_name = "PROGRAM", default_value = "python3")]
-    pub python: String,
-    /// Let that Python see PYTHONPATH and the packages of `pip install --user`; otherwise it is
-    /// isolated
-    #[arg(long)]
-    pub python_environment: bool,
-    /// The time that the comparison may take, s
-    #[arg(long, value_name = "SECONDS", default_value_t = PEER_TIME.as_secs_f64())]
-    pub peer_time: f64,
     /// Let an MJCF include files below this folder, too; otherwise those below its own
     #[arg(long, value_name = "FOLDER")]
     pub include_root: Option<PathBuf>,
-}
-
-impl Options {
-    /// The time that a comparison may take: a minute if none or an impossible one is given.
-    fn peer_time(&self) -> Duration {
-        let given = Duration::try_from_secs_f64(self.peer_time).ok();
-        given
-            .filter(|time| !time.is_zero() && *time < Duration::from_secs(1 << 20))
-            .unwrap_or(PEER_TIME)
-    }
 }
 
 impl Args {
@@ -258,12 +234,6 @@ pub fn import(args: &Args, today: &str) -> Result<Imported> {
         ))
         .into());
     }
-    let mut complaint = None;
-    let (peer, no_peer) = match compared(args, &robot, &selected, &tree, &checked, &mut complaint)?
-    {
-        Ok(peer) => (Some(peer), None),
-        Err(no_peer) => (None, Some(no_peer)),
-    };
     if tree.has_followers() && !tree.is_single() {
         notes.push(
             "Couplings of joints are left out: they need joints of one coordinate.".to_owned(),
@@ -283,11 +253,6 @@ pub fn import(args: &Args, today: &str) -> Result<Imported> {
     let mut own = advice(&robot, &selected, &tree);
     // The motors of a machine with loops share what its joints need.
     own.extend(needless_torque(&tree, &checked).filter(|_| closed.is_empty()));
-    if let Some(NoPeer::Failed(reason)) = &no_peer {
-        let text = format!("The import was compared with no peer: {reason}.");
-        own.push(of_file(Topic::Peer, text));
-    }
-    own.extend(complaint.map(|text| of_file(Topic::Peer, text)));
     own.extend(plausible(&tree, &name));
     let left_out = notes.iter().cloned();
     own.extend(left_out.map(|note| of_file(Topic::LeftOut, note)));
@@ -324,90 +289,11 @@ pub fn import(args: &Args, today: &str) -> Result<Imported> {
         exact: estimate::savings(&robot, &selected, &tree),
         exact_inertias: roundings(&tree).collect(),
         check: checked,
-        peer,
-        no_peer: no_peer.map(|no_peer| no_peer.reason().to_owned()),
         estimated_cycles: estimate::cycles(&tree),
         estimated_flash: estimate::flash(&tree),
         name: name.clone(),
     };
     Ok(Imported { robot, selected, tree, again: args.again(&name), name, source, report })
-}
-
-/// The comparison with a peer, or why there is none.
-///
-/// # Errors
-/// A peer that differs, or none where one is required.
-fn compared(
-    args: &Args,
-    robot: &Description,
-    selected: &Selected,
-    tree: &Tree,
-    checked: &check::Checked,
-    complaint: &mut Option<String>,
-) -> Result<std::result::Result<check::Peer, NoPeer>> {
-    let options = &args.options;
-    let peer = match options.repair || options.base.is_some() || !options.without.is_empty() {
-        true => Err(NoPeer::Absent(
-            "a changed base, fewer links or a changed inertia are not the file's".to_owned(),
-        )),
-        false => {
-            let python = Python {
-                program: options.python.clone(),
-                environment: options.python_environment,
-                time: options.peer_time(),
-            };
-            let text = source::for_peer(&args.file, options.include_root.as_deref())?;
-            let compare =
-                |text: &str| check::compare(&python, text, robot, selected, tree, checked);
-            match (compare(&text), robot.format) {
-                (Ok(peer), Format::Urdf)
-                    if peer.difference > check::MOST && !peer.complaint.is_empty() =>
-                {
-                    let plain = compare(&source::with_plain_numbers(&args.file)?);
-                    match plain.ok().filter(|plain| plain.difference <= check::MOST) {
-                        Some(plain) => {
-                            *complaint = Some(misread(&peer));
-                            Ok(plain)
-                        }
-                        None => Ok(peer),
-                    }
-                }
-                (peer, _) => peer,
-            }
-        }
-    };
-    match &peer {
-        Err(no_peer) if options.check => {
-            Err(Problem::Value(format!("no peer to compare with: {}", no_peer.reason())).into())
-        }
-        Ok(peer) if peer.difference > check::MOST => Err(Problem::Value(format!(
-            "the import differs from {} by {:.1e} of full scale, at most {:.0e}, most at joint \
-             `{}`: nothing that the import leaves out explains it, so that one of the two misreads \
-             the file{}; with `--python none` the import is compared with no peer",
-            peer.name,
-            peer.difference,
-            check::MOST,
-            peer.joint,
-            match peer.complaint.as_str() {
-                "" => String::new(),
-                words => format!(", of which {} says: \"{words}\"", peer.name),
-            }
-        ))
-        .into()),
-        _ => Ok(peer),
-    }
-}
-
-/// The advice on a file of which a peer leaves a part out that it takes where the same numbers have
-/// no blanks around them.
-fn misread(peer: &check::Peer) -> String {
-    format!(
-        "{} misreads the file and says: \"{}\". Its torques then differ by {:.1e} of full scale, \
-         most at joint `{}`. Where the numbers of the file have no blanks and line ends around \
-         them, which XML allows, it has the torques of the import. Programs that read the file as \
-         it does leave that out: remove them.",
-        peer.name, peer.complaint, peer.difference, peer.joint
-    )
 }
 
 fn file_name(path: &Path) -> String {

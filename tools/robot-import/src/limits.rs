@@ -1,8 +1,6 @@
 //! The bounds of what is read, each with its reason. A description from elsewhere is hostile until
 //! it is read; no robot comes near to one of them.
 
-use std::time::Duration;
-
 /// The largest file, bytes: with its included files, a hundred times the largest public
 /// description.
 pub const MOST_BYTES: usize = 16 << 20;
@@ -55,15 +53,6 @@ pub const MOST_WORK: usize = 20_000;
 /// The work of M in a check: states times the square of the coordinates. A robot of up to 16 has M
 /// of every state.
 pub const MOST_WORK_OF_INERTIA: usize = 25_600;
-/// The most bytes of a peer's answer: 100 states of 136 coordinates are 300 kB.
-pub const MOST_ANSWER: usize = 8 << 20;
-/// The bytes of a peer's last messages that are kept.
-pub const MOST_MESSAGES: usize = 4_096;
-/// The lines of them that are shown.
-pub const MOST_COMPLAINTS: usize = 4;
-/// The time that a comparison with a peer may take: the first start of a Python with large packages
-/// takes ten seconds.
-pub const PEER_TIME: Duration = Duration::from_secs(60);
 /// The longest name in a line of a report or of an error, characters.
 pub const MOST_SHOWN: usize = 60;
 /// The longest cell of a table but in its last column, characters: each of its rows is as wide.

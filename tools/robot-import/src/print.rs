@@ -134,16 +134,6 @@ impl Report {
             format!("{:.1e}", check.energy),
             format!("at most {MOST:.0e}"),
         ]];
-        rows.push(match (&self.peer, &self.no_peer) {
-            (Some(peer), _) => vec![
-                peer.name.clone(),
-                format!("{:.1e}", peer.difference),
-                format!("at most {MOST:.0e}"),
-            ],
-            (None, reason) => {
-                vec!["no peer".to_owned(), String::new(), reason.clone().unwrap_or_default()]
-            }
-        });
         rows.push(vec![
             "exact values in place of roundings".to_owned(),
             format!("{:.1e}", check.snapping),

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::advice::Advice;
-use crate::check::{Checked, Peer};
+use crate::check::Checked;
 use crate::estimate;
 use crate::tree::{Body, Tree};
 
@@ -36,10 +36,6 @@ pub struct Report {
     pub exact_inertias: Vec<String>,
     /// The results of the check.
     pub check: Checked,
-    /// The comparison with a peer.
-    pub peer: Option<Peer>,
-    /// The reason if there is no peer.
-    pub no_peer: Option<String>,
     /// Cycles of inverse dynamics by the engine, estimated.
     pub estimated_cycles: Option<u64>,
     /// Bytes of its code, estimated.

@@ -54,7 +54,7 @@ fn project(folder: &Folder, name: &str, file: &Path) -> (Project, Vec<String>) {
     let args = Args {
         file: file.to_path_buf(),
         name: Some(name.to_owned()),
-        options: Options { python: "none".to_owned(), ..Options::default() },
+        options: Options::default(),
         ..Args::default()
     };
     let imported = import(&args, "today").unwrap_or_else(|error| panic!("{error}"));

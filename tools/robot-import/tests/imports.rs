@@ -3,8 +3,8 @@
 mod changes;
 mod extensions;
 mod locks;
-mod peer;
 mod subjects;
+mod terms;
 
 use std::path::Path;
 

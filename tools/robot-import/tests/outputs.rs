@@ -11,13 +11,7 @@ const PENDULUM: &str = "<robot name='r'><link name='a'/><link name='b'><inertial
     <parent link='a'/><child link='b'/><axis xyz='0 1 0'/><limit effort='9' velocity='9'/></joint></robot>";
 
 fn args(file: PathBuf, out: Option<PathBuf>, report: Option<PathBuf>) -> Args {
-    Args {
-        file,
-        out,
-        report,
-        options: Options { python: "none".to_owned(), ..Options::default() },
-        ..Args::default()
-    }
+    Args { file, out, report, options: Options::default(), ..Args::default() }
 }
 
 #[test]

@@ -342,7 +342,7 @@ fn a_robot_that_is_imported_again_keeps_its_type() {
     };
     for (kind, name) in [("", "my-arm"), ("--c", "arm-c"), ("--board pico2", "arm-b")] {
         let line = format!(
-            "robot-import new {name} --robot \"it's kestrel.urdf\" --python none --tip wrist_link --library . {kind}"
+            "robot-import new {name} --robot \"it's kestrel.urdf\" --tip wrist_link --library . {kind}"
         );
         shell(&scratch, &line);
         let project = scratch.join(name);

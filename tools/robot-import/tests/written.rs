@@ -39,7 +39,6 @@ fn imported(file: &str, name: &str, without: &[&str], written: &str) -> (String,
         file: Path::new(env!("CARGO_MANIFEST_DIR")).join("tests").join(file),
         name: Some(name.to_owned()),
         options: Options {
-            python: "none".to_owned(),
             without: without.iter().map(|&link| link.to_owned()).collect(),
             ..Options::default()
         },
@@ -103,7 +102,6 @@ fn a_loop_without_enough_motors_gets_advice() {
         let args = Args {
             file: Path::new(env!("CARGO_MANIFEST_DIR")).join("tests").join(file),
             options: Options {
-                python: "none".to_owned(),
                 motors: motors.iter().map(|&name| name.to_owned()).collect(),
                 ..Options::default()
             },
@@ -144,7 +142,7 @@ fn a_refused_loop_is_named_with_its_line() {
     ];
     let text = ends.iter().fold(text.to_owned(), |text, (from, to)| text.replace(from, to));
     std::fs::write(&file, text).expect("a model");
-    let options = Options { python: "none".to_owned(), ..Options::default() };
+    let options = Options::default();
     let args = Args { file, options, ..Args::default() };
     let error = import(&args, "today").expect_err("open").to_string();
     let words = "loop `loop_0`: one link is longer than all the others together";

@@ -142,7 +142,7 @@ fn imported(
         spinner.say(format!("importing {}", entry.name));
         let path = unpacked.join(&package.folder).join(&entry.file);
         let path = path.to_string_lossy().into_owned();
-        let words = [&*path, "--name", &entry.name, "--python", python];
+        let words = [&*path, "--name", &entry.name];
         let imported =
             importer::import(workspace, &words, folder.join(format!("{}.rs", entry.name)));
         let (report, refused) = match imported {

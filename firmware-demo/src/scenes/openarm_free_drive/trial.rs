@@ -4,7 +4,7 @@ use dynamics_core::effects::{Gravity, LoadFriction};
 use dynamics_core::state::State;
 use glam::Vec3;
 use joint_drivers::can::ClassicFrame;
-use joint_drivers::{ControlLoop, NoBrake, Phase, Probe};
+use joint_drivers::{ControlLoop, NoBrake, Phase, Probe, Telemetry};
 use motion_control::{Breakaway, Gains, Mode, MotionController, Status};
 
 use super::plant::{Plant, Q, Random, Replies};
@@ -150,10 +150,11 @@ fn direction(random: &mut Random) -> Vec3 {
     }
 }
 
-/// The markers of a tick whose frames are unpacked before the loop's own, as part of the reading.
-struct Unpacked;
+/// The markers of a tick whose frames are unpacked before the loop's own, as part of the reading,
+/// and who sees its record.
+struct Unpacked<F>(F);
 
-impl Probe<7> for Unpacked {
+impl<F: FnMut(&Telemetry<7>)> Probe<7> for Unpacked<F> {
     #[inline(always)]
     fn begin(&mut self, phase: Phase) {
         if !matches!(phase, Phase::Tick | Phase::Read) {
@@ -167,23 +168,29 @@ impl Probe<7> for Unpacked {
             Probe::<7>::end(&mut Marked(()), phase);
         }
     }
+
+    #[inline(always)]
+    fn record(&mut self, telemetry: &Telemetry<7>) {
+        (self.0)(telemetry);
+    }
 }
 
 type Loop<'a> = ControlLoop<Kept<'a, &'a Joints>, &'a Joints, NoBrake, 7>;
 
 /// A tick from the frames that came to those that are sent, between the markers of its regions.
 #[inline(never)]
-fn marked_tick(
+fn marked_tick<F: FnMut(&Telemetry<7>)>(
     control: &mut Loop<'_>,
     joints: &Joints,
     law: &FreeDrive,
     reference: &State<f32, 7, 7>,
     came: &Replies<ClassicFrame>,
+    seen: &mut F,
 ) -> (Replies<ClassicFrame>, Status) {
     marker::start::<WHOLE>();
     marker::start::<READ>();
     came.iter().flatten().for_each(|frame| joints.receive(frame));
-    let status = control.tick_probed::<Free, _, _>(reference, law, &mut Unpacked).status;
+    let status = control.tick_probed::<Free, _, _>(reference, law, &mut Unpacked(seen)).status;
     let commands = joints.commands();
     marker::stop::<WHOLE>();
     (commands, status)
@@ -191,11 +198,17 @@ fn marked_tick(
 
 /// The address of the function that is called each tick.
 pub fn tick_at() -> usize {
-    marked_tick as *const () as usize
+    fn with<F: FnMut(&Telemetry<7>)>(_: F) -> usize {
+        marked_tick::<F> as *const () as usize
+    }
+    with(nobody)
 }
 
+/// Nobody sees the record of a tick.
+fn nobody(_: &Telemetry<7>) {}
+
 /// The arm in its loop.
-struct Cell<'a> {
+struct Cell<'a, F> {
     control: Loop<'a>,
     joints: &'a Joints,
     law: &'a FreeDrive,
@@ -204,12 +217,13 @@ struct Cell<'a> {
     plant: Plant,
     seconds: [f32; 4],
     out: Outcome,
+    seen: F,
 }
 
-impl Cell<'_> {
+impl<F: FnMut(&Telemetry<7>)> Cell<'_, F> {
     fn tick(&mut self) -> Option<()> {
-        let Self { control, joints, law, reference, replies, plant, out, .. } = self;
-        let (commands, status) = marked_tick(control, joints, law, reference, replies);
+        let Self { control, joints, law, reference, replies, plant, out, seen, .. } = self;
+        let (commands, status) = marked_tick(control, joints, law, reference, replies, seen);
         if !out.status.is_some_and(|status| status.mode != Mode::Full) {
             out.status = Some(status);
         }
@@ -315,6 +329,11 @@ impl Trial {
 
     /// Runs it; nothing if there were no such law, or if the arm had no forward dynamics.
     pub fn run(&self) -> Option<Outcome> {
+        self.run_seen(nobody)
+    }
+
+    /// The same; `seen` gets the record of each tick.
+    pub fn run_seen(&self, seen: impl FnMut(&Telemetry<7>)) -> Option<Outcome> {
         let (near, [way, back]) = (self.posture, self.ways);
         let plant = Plant::new(near, self.tool, self.plant, self.random);
         let (law, joints) = (law(self.less, self.tool)?, joints(&near).ok()?);
@@ -323,7 +342,7 @@ impl Trial {
         let control = ControlLoop::new(Kept(&joints, &law), &joints, NoBrake, gains, gate, ());
         let (joints, law, replies) = (&joints, &law, [const { None }; 7]);
         let (reference, seconds, out) = (State::at(near), self.seconds, Outcome::default());
-        let mut cell = Cell { control, joints, law, reference, replies, plant, seconds, out };
+        let mut cell = Cell { control, joints, law, reference, replies, plant, seconds, out, seen };
         // The first replies, to zero torque: friction holds the arm for a tick.
         cell.replies = cell.plant.tick(&joints.commands(), &[0.0; 7])?;
         for _ in 0..ticks(seconds[0]) {

@@ -34,7 +34,7 @@ impl Robot {
         let args = import::Args {
             file: path.to_owned(),
             name: name.map(str::to_owned),
-            options: Options { python: "none".to_owned(), ..options.clone() },
+            options: options.clone(),
             ..import::Args::default()
         };
         let imported = import::import(&args, "this day")

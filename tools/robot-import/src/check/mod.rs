@@ -3,12 +3,9 @@
 pub mod coordinates;
 pub mod energy;
 mod loops;
-mod peer;
-mod process;
 mod random;
 
 pub use loops::loops;
-pub use peer::{NoPeer, Peer, Python, compare};
 
 use crate::description::Description;
 use crate::error::Result;
@@ -46,7 +43,7 @@ pub struct Checked {
     /// The logarithm of the condition number of M, the largest of the states, or of the first of
     /// them for a large robot.
     pub condition: f64,
-    /// The motions and the torques, for peers.
+    /// The motions and the torques.
     #[serde(skip)]
     pub samples: Vec<(Motion, Vec<f64>)>,
 }

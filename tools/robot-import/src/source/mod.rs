@@ -5,7 +5,6 @@ mod extensions;
 mod limits;
 mod lines;
 mod mjcf;
-mod plain;
 mod tolerant;
 mod urdf;
 mod xacro;
@@ -77,37 +76,6 @@ pub fn read_below(path: &Path, include_root: Option<&Path>) -> Result<Descriptio
     let mut robot = on_a_large_stack(|| described(&text, Folders::of(path, include_root)))?;
     robot.notes.splice(0..0, note);
     Ok(robot)
-}
-
-/// The description in a file as another reader is given it: a URDF as it is, an MJCF with its
-/// included files and without the names of others, so that the reader opens none.
-///
-/// # Errors
-/// As [`read`].
-pub fn for_peer(path: &Path, include_root: Option<&Path>) -> Result<String> {
-    let (text, _) = text(path)?;
-    on_a_large_stack(|| {
-        let xml = Xml::of(&text)?;
-        let document = xml.document()?;
-        match xml::tag(document.root_element()) {
-            "mujoco" => mjcf::text::of(document.root_element(), Folders::of(path, include_root)),
-            _ => Ok(text.trim_start_matches('\u{feff}').to_owned()),
-        }
-    })
-}
-
-/// A URDF with its numbers as every reader takes them, without blanks and line ends around them,
-/// which XML allows.
-///
-/// # Errors
-/// As [`read`].
-pub fn with_plain_numbers(path: &Path) -> Result<String> {
-    let (text, _) = text(path)?;
-    on_a_large_stack(|| {
-        let xml = Xml::of(&text)?;
-        let document = xml.document()?;
-        Ok(plain::of(document.root_element()))
-    })
 }
 
 /// The text of a file that is not too large, and a sentence if it is not of the encoding that it

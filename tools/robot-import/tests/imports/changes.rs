@@ -10,11 +10,7 @@ fn imported(text: &str, name: &str) -> Imported {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join(name);
     std::fs::write(&file, text).expect("a file");
-    let args = Args {
-        file,
-        options: Options { python: "none".to_owned(), ..Options::default() },
-        ..Args::default()
-    };
+    let args = Args { file, options: Options::default(), ..Args::default() };
     import(&args, "today").unwrap_or_else(|error| panic!("{error}\n{text}"))
 }
 

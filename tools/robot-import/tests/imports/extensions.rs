@@ -20,7 +20,6 @@ fn with(text: &str, options: Options) -> Result<Imported, String> {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("r.urdf");
     fs::write(&file, text).expect("a robot");
-    let options = Options { python: "none".to_owned(), ..options };
     let args = Args { file, options, ..Args::default() };
     import(&args, "today").map_err(|error| error.to_string())
 }

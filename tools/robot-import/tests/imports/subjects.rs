@@ -6,7 +6,6 @@ fn tried(text: &str, name: &str, options: Options) -> Result<Imported, String> {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join(name);
     std::fs::write(&file, text).expect("a file");
-    let options = Options { python: "none".to_owned(), ..options };
     let args = Args { file, options, ..Args::default() };
     import(&args, "today").map_err(|error| error.to_string())
 }

@@ -18,11 +18,7 @@ fn imported() -> Vec<Imported> {
     paths.sort();
     assert!(paths.len() > 30);
     let of = |file: &std::path::PathBuf| {
-        let args = Args {
-            file: file.clone(),
-            options: Options { python: "no-python".to_owned(), ..Options::default() },
-            ..Args::default()
-        };
+        let args = Args { file: file.clone(), options: Options::default(), ..Args::default() };
         import(&args, "2026-11-23").unwrap_or_else(|error| panic!("{}: {error}", file.display()))
     };
     paths.iter().map(of).collect()

@@ -76,7 +76,6 @@ pub fn measure(workspace: &Workspace, tools: &Tools) -> Result<Vec<Profile>> {
         folder.display().to_string(),
         format!("--robot={}", of_workspace(ROBOT)),
         format!("--library={}", of_workspace("dynamics-core")),
-        "--python=none".to_owned(),
     ];
     importer::command(workspace, "new", &words)?;
     workspace::write(&folder.join("memory.x"), MEMORY)?;

@@ -34,7 +34,6 @@ mod inertia;
 mod joint;
 mod mimic;
 mod pose;
-pub mod text;
 
 use roxmltree::Node;
 

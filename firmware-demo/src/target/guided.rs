@@ -7,7 +7,7 @@ use motion_control::Status;
 use super::{Words, fail, leave, stack_peak};
 use crate::scene::PlantModel::{self, Exact, Mismatched};
 use crate::scenes::openarm_free_drive::TICK;
-use crate::scenes::openarm_free_drive::trial::{BOUND, Less, Trial, tick_at};
+use crate::scenes::openarm_free_drive::trial::{BOUND, Less, Seen, Trial, tick_at};
 
 /// The runs of the whole law and of gravity compensation alone, and that without a tool.
 const RUNS: [(PlantModel, &str, Less, bool); 5] = [
@@ -47,7 +47,7 @@ pub fn scene() -> ! {
 /// Runs a trial and logs its figures: the tip is the one joint.
 fn run(plant: PlantModel, less: &str, law: &str, trial: &Trial) {
     defmt::println!("run {=str} {=str}{=str} {=u32:#x}", plant.name(), less, law, tick_at() as u32);
-    let Some(out) = trial.run() else {
+    let Some(out) = trial.run(Seen::default()) else {
         fail("the simulated arm failed: it has no forward dynamics, or there is no such law");
     };
     defmt::println!("rms{}", Words(&[out.rms]));

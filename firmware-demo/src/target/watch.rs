@@ -20,7 +20,7 @@ use telemetry::{Axis, Consumer, Message, Queue, Sample, Slots, capacity, encode,
 use super::{CLOCK, Tick, fail, leave, microseconds, start};
 use crate::scene::{PlantModel, Scene};
 use crate::scenes::openarm_free_drive::TICK;
-use crate::scenes::openarm_free_drive::trial::{Less, Trial};
+use crate::scenes::openarm_free_drive::trial::{Less, Seen, Trial};
 use crate::sim_io::Wires;
 use crate::watched::{Options, Timer, Watched, fill, machine, machine_of};
 
@@ -119,7 +119,7 @@ pub fn trials() -> ! {
     let last = argument(b"ticks").unwrap_or(0);
     let links = OpenArm::MODEL.to_f32().links.into_iter();
     let axes = links.map(|link| Axis { limits: link.limits, prismatic: false });
-    let constants = Message::Machine(machine_of("openarm_free_drive", TICK, 0, axes));
+    let constants = Message::Machine(machine_of::<7>("openarm_free_drive", TICK, 0, axes));
     let (mut number, mut sample) = (0_u32, Sample::default());
     let mut send_tick = |telemetry: &joint_drivers::Telemetry<7>| {
         if number.is_multiple_of(MACHINE) {
@@ -137,7 +137,7 @@ pub fn trials() -> ! {
     };
     loop {
         let trial = Trial::of_scene(Less::Nothing, PlantModel::Exact, true);
-        if trial.run_seen(&mut send_tick).is_none() {
+        if trial.run(Seen::by(&mut send_tick)).is_none() {
             fail("the simulated arm has no forward dynamics any more");
         }
     }

@@ -1,5 +1,7 @@
 //! A trial: a hand leads the arm, over the frames of its bus, lets it go, and it rests.
 
+use core::marker::PhantomData;
+
 use dynamics_core::effects::{Gravity, LoadFriction};
 use dynamics_core::state::State;
 use glam::Vec3;
@@ -152,9 +154,9 @@ fn direction(random: &mut Random) -> Vec3 {
 
 /// The markers of a tick whose frames are unpacked before the loop's own, as part of the reading,
 /// and who sees its record.
-struct Unpacked<F>(F);
+struct Unpacked<'s>(Seen<'s>);
 
-impl<F: FnMut(&Telemetry<7>)> Probe<7> for Unpacked<F> {
+impl Probe<7> for Unpacked<'_> {
     #[inline(always)]
     fn begin(&mut self, phase: Phase) {
         if !matches!(phase, Phase::Tick | Phase::Read) {
@@ -171,7 +173,7 @@ impl<F: FnMut(&Telemetry<7>)> Probe<7> for Unpacked<F> {
 
     #[inline(always)]
     fn record(&mut self, telemetry: &Telemetry<7>) {
-        (self.0)(telemetry);
+        self.0.record(telemetry);
     }
 }
 
@@ -179,13 +181,13 @@ type Loop<'a> = ControlLoop<Kept<'a, &'a Joints>, &'a Joints, NoBrake, 7>;
 
 /// A tick from the frames that came to those that are sent, between the markers of its regions.
 #[inline(never)]
-fn marked_tick<F: FnMut(&Telemetry<7>)>(
+fn marked_tick(
     control: &mut Loop<'_>,
     joints: &Joints,
     law: &FreeDrive,
     reference: &State<f32, 7, 7>,
     came: &Replies<ClassicFrame>,
-    seen: &mut F,
+    seen: Seen<'_>,
 ) -> (Replies<ClassicFrame>, Status) {
     marker::start::<WHOLE>();
     marker::start::<READ>();
@@ -198,17 +200,44 @@ fn marked_tick<F: FnMut(&Telemetry<7>)>(
 
 /// The address of the function that is called each tick.
 pub fn tick_at() -> usize {
-    fn with<F: FnMut(&Telemetry<7>)>(_: F) -> usize {
-        marked_tick::<F> as *const () as usize
-    }
-    with(nobody)
+    marked_tick as *const () as usize
 }
 
-/// Nobody sees the record of a tick.
-fn nobody(_: &Telemetry<7>) {}
+/// Who sees the record of each tick: nobody where the program sends no telemetry.
+#[derive(Default)]
+pub struct Seen<'a>(
+    #[cfg(feature = "telemetry")] Option<&'a mut dyn FnMut(&Telemetry<7>)>,
+    PhantomData<&'a ()>,
+);
+
+impl<'a> Seen<'a> {
+    /// By a function.
+    #[cfg(feature = "telemetry")]
+    pub fn by(function: &'a mut dyn FnMut(&Telemetry<7>)) -> Self {
+        Self(Some(function), PhantomData)
+    }
+
+    #[inline(always)]
+    fn again(&mut self) -> Seen<'_> {
+        Seen(
+            #[cfg(feature = "telemetry")]
+            self.0.as_mut().map(|seen| &mut **seen as _),
+            PhantomData,
+        )
+    }
+
+    #[inline(always)]
+    #[cfg_attr(not(feature = "telemetry"), expect(unused_variables, reason = "nobody sees it"))]
+    fn record(&mut self, telemetry: &Telemetry<7>) {
+        #[cfg(feature = "telemetry")]
+        if let Some(seen) = &mut self.0 {
+            seen(telemetry);
+        }
+    }
+}
 
 /// The arm in its loop.
-struct Cell<'a, F> {
+struct Cell<'a, 's> {
     control: Loop<'a>,
     joints: &'a Joints,
     law: &'a FreeDrive,
@@ -217,13 +246,14 @@ struct Cell<'a, F> {
     plant: Plant,
     seconds: [f32; 4],
     out: Outcome,
-    seen: F,
+    seen: Seen<'s>,
 }
 
-impl<F: FnMut(&Telemetry<7>)> Cell<'_, F> {
+impl Cell<'_, '_> {
     fn tick(&mut self) -> Option<()> {
         let Self { control, joints, law, reference, replies, plant, out, seen, .. } = self;
-        let (commands, status) = marked_tick(control, joints, law, reference, replies, seen);
+        let (commands, status) =
+            marked_tick(control, joints, law, reference, replies, seen.again());
         if !out.status.is_some_and(|status| status.mode != Mode::Full) {
             out.status = Some(status);
         }
@@ -328,12 +358,7 @@ impl Trial {
     }
 
     /// Runs it; nothing if there were no such law, or if the arm had no forward dynamics.
-    pub fn run(&self) -> Option<Outcome> {
-        self.run_seen(nobody)
-    }
-
-    /// The same; `seen` gets the record of each tick.
-    pub fn run_seen(&self, seen: impl FnMut(&Telemetry<7>)) -> Option<Outcome> {
+    pub fn run(&self, seen: Seen<'_>) -> Option<Outcome> {
         let (near, [way, back]) = (self.posture, self.ways);
         let plant = Plant::new(near, self.tool, self.plant, self.random);
         let (law, joints) = (law(self.less, self.tool)?, joints(&near).ok()?);

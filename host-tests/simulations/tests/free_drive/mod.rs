@@ -3,7 +3,7 @@
 
 use std::sync::LazyLock;
 
-use firmware_demo::scenes::openarm_free_drive::trial::{Less, Outcome, Trial};
+use firmware_demo::scenes::openarm_free_drive::trial::{Less, Outcome, Seen, Trial};
 use host_tests::everyday_or_full;
 
 const RUNS: u32 = everyday_or_full(16, 200);
@@ -11,7 +11,7 @@ const RUNS: u32 = everyday_or_full(16, 200);
 const TABLE: u32 = everyday_or_full(5, 16);
 
 fn run(seed: u32, less: Less, tool: bool) -> Outcome {
-    Trial::drawn(seed, less, tool).run().expect("a law and dynamics")
+    Trial::drawn(seed, less, tool).run(Seen::default()).expect("a law and dynamics")
 }
 
 fn median(mut of: Vec<f32>) -> f32 {

@@ -43,10 +43,10 @@ pub struct TorqueGradient<R, const V: usize> {
 /// itself.
 ///
 /// Gravity, inertia, velocity products, payloads, armatures and a base of given motion are part of
-/// it, and joint torques by the derivatives that an effect names
-/// ([`Effect::derivatives`]): what it does not name counts as constant. A scene with wrenches on
-/// bodies, rotors that spin as bodies or friction of loaded gears does not compile. A non-finite
-/// input gives a non-finite output.
+/// it, and joint torques by the derivatives that an effect names ([`Effect::slopes`]). A scene with
+/// an effect that names none, such as wrenches on bodies, does not compile unless the scene says
+/// that it counts as constant ([`Frozen`](crate::effects::Frozen)); nor do rotors that spin as
+/// bodies and friction of loaded gears. A non-finite input gives a non-finite output.
 ///
 /// # Shape
 /// Two of V × V, not symmetric; an entry between joints of which neither is an ancestor of the
@@ -74,15 +74,20 @@ pub struct TorqueGradient<R, const V: usize> {
 /// }
 /// ```
 ///
-/// A wrench whose derivatives nothing names:
+/// An effect that names no derivatives:
 ///
 /// ```compile_fail,E0080
 /// use dynamics_core::algorithms::rnea_derivatives;
-/// use dynamics_core::effects::{BodyWrench, RIGID_BODY};
-/// use dynamics_core::spatial::Force;
+/// use dynamics_core::effects::{Effect, JointState, RIGID_BODY};
 /// use dynamics_core::{model::Robot, robots::Ur5e, state::State};
-/// let scene = (RIGID_BODY, BodyWrench { body: 5, wrench: Force::<f64>::ZERO });
-/// let _ = rnea_derivatives(&Ur5e::MODEL, &State::at([0.0; 6]), &scene);
+/// struct Drag;
+/// impl<const B: usize, const V: usize> Effect<f64, B, V> for Drag {
+///     fn torque(&self, _: usize, at: JointState<f64>, tau: &mut f64) {
+///         *tau += at.qd * at.qd.abs();
+///     }
+/// }
+/// let _ = rnea_derivatives(&Ur5e::MODEL, &State::at([0.0; 6]), &(RIGID_BODY, Drag));
+/// // error: an effect of the scene has no derivatives: `Frozen(effect)` counts it as constant, and ..
 /// ```
 #[doc(alias = "computeRNEADerivatives")]
 #[doc(alias = "inverse dynamics derivatives")]
@@ -201,7 +206,7 @@ fn add_joint_derivatives<R: Real, E, const B: usize, const Q: usize, const V: us
 {
     for k in link.coordinates() {
         let mut by = TorqueDerivatives::default();
-        effects.derivatives(k, joint_state(link, state, k), &mut by);
+        effects.slopes(k, joint_state(link, state, k), &mut by);
         gradient.add(k, k, [by.dq, by.dqd]);
     }
 }

@@ -18,9 +18,9 @@ where
     E: Effect<R, B, V>,
 {
     assert!(
-        !E::WRENCH,
-        "an effect of the scene has a wrench on a body, whose derivatives it cannot name: leave it \
-         out of the scene whose derivatives are computed"
+        E::DIFFERENTIABLE,
+        "an effect of the scene has no derivatives: `Frozen(effect)` counts it as constant, and an \
+         effect of one's own whose `slopes` are all it has sets `DIFFERENTIABLE`"
     );
     assert!(
         !(E::GYROSCOPIC_ROTORS | E::LOAD_DEPENDENT | E::ELASTICITY),

@@ -93,7 +93,7 @@ where
             let accel = column.s_accel * by_q + column.s_rates * by_qd;
             up += body.force(rate, accel) + (column.s * by_q).cross_force(body.fc);
             let mut by = TorqueDerivatives::default();
-            effects.derivatives(k, joint_state(&body.link, state, k), &mut by);
+            effects.slopes(k, joint_state(&body.link, state, k), &mut by);
             add(&mut tau, k, by.dq * by_q + by.dqd * by_qd);
             if let Some(bend) = body.link.bend(turns, place) {
                 add(&mut tau, body.link.idx_v(), bend.column.dot(body.fc) * by_q);
@@ -179,7 +179,7 @@ where
             inward += column.s.cross_force(body.fc);
             let of_row = |rate: Motion<R>, accel: Motion<R>| couple.dot(rate.ang) + accel.dot(row);
             let mut by = TorqueDerivatives::default();
-            effects.derivatives(k, joint_state(&body.link, state, k), &mut by);
+            effects.slopes(k, joint_state(&body.link, state, k), &mut by);
             let x_k = entry(x, k);
             let of_q = of_row(column.s_rate, column.s_accel) + before.dot(inward);
             let of_qd =

@@ -36,7 +36,8 @@ fn scene<R: Real>() -> impl Effect<R, B, V> + Copy {
         acceleration: motion([-1.0, 2.0, 0.5], [0.4, 1.0, -2.0]),
     };
 
-    (RIGID_BODY, Armature([of(0.3); V]), load, ship, Viscous([of(0.7); V]))
+    let springs = Spring { stiffness: [of(7.0); V], rest: [of(0.2); V] };
+    (RIGID_BODY, Armature([of(0.3); V]), load, ship, Viscous([of(0.7); V]), springs)
 }
 
 fn unit(k: usize) -> [f64; V] {

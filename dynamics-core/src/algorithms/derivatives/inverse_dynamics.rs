@@ -6,14 +6,14 @@
 
 use core::borrow::Borrow;
 
-use super::named_derivatives;
 use super::outward::{Body, Column, outward};
+use super::{joint_slopes, named_derivatives};
 use crate::algorithms::tree_pass::inward;
-use crate::effects::{Effect, Scene, TorqueDerivatives, joint_state};
-use crate::model::{JointCoordinate, LinkView, RobotModel};
+use crate::effects::{Effect, Scene};
+use crate::model::{JointCoordinate, RobotModel};
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::Motion;
-use crate::state::{Configuration, RobotState, State};
+use crate::state::{Configuration, RobotState};
 
 /// The derivatives of inverse dynamics at a state, by rows of τ.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -118,7 +118,13 @@ where
         for (k, j) in body.link.coordinates().enumerate() {
             gradient.pair_up(body, inner, (k, j), &columns, turns);
         }
-        add_joint_derivatives(effects, &body.link, state, &mut gradient);
+        for k in body.link.coordinates() {
+            let at = (&body.link, &turns[..]);
+            let by_qd = joint_slopes(effects, at, state, k, |j, by_q| {
+                gradient.add(k, j, [by_q, R::ZERO]);
+            });
+            gradient.add(k, k, [R::ZERO, by_qd]);
+        }
     }
     gradient
 }
@@ -192,21 +198,4 @@ impl<R: Real, const V: usize> TorqueGradient<R, V> {
 #[cfg_attr(optimised, inline(always))]
 fn entry_of<R: Real, const V: usize>(rows: &[[R; V]; V], i: usize, j: usize) -> R {
     rows.get(i).and_then(|row| row.get(j)).copied().unwrap_or(R::ZERO)
-}
-
-/// Adds what the effects name at one joint's coordinates to the diagonals.
-#[cfg_attr(optimised, inline(always))]
-fn add_joint_derivatives<R: Real, E, const B: usize, const Q: usize, const V: usize>(
-    effects: &E,
-    link: &LinkView<'_, R>,
-    state: &State<R, Q, V>,
-    gradient: &mut TorqueGradient<R, V>,
-) where
-    E: Effect<R, B, V>,
-{
-    for k in link.coordinates() {
-        let mut by = TorqueDerivatives::default();
-        effects.slopes(k, joint_state(link, state, k), &mut by);
-        gradient.add(k, k, [by.dq, by.dqd]);
-    }
 }

@@ -19,6 +19,8 @@ struct GasSpring<R> {
 const SHOULDER: usize = 1;
 
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for GasSpring<R> {
+    const DIFFERENTIABLE: bool = true;
+
     /// The torque that the motor must supply: the spring reduces it.
     #[inline(always)]
     fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
@@ -27,7 +29,7 @@ impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for GasSpring<R> {
         }
     }
 
-    /// ∂τ/∂q, for simulations and linearised torques; an effect in a controller does not need it.
+    /// ∂τ/∂q, for simulations and derivatives of dynamics; an effect in a controller does not need it.
     #[inline(always)]
     fn derivatives(&self, joint: usize, at: JointState<R>, derivatives: &mut TorqueDerivatives<R>) {
         if joint == SHOULDER {

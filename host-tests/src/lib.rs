@@ -3,6 +3,7 @@
 
 pub mod carried;
 pub mod controller;
+pub mod dual;
 pub mod export;
 pub mod friction;
 pub mod fuzz;

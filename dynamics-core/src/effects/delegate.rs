@@ -94,7 +94,7 @@ macro_rules! delegate_effect {
         |$this:ident| { $($inner:ty => $to:expr),* $(,)? } $(, $advance:ident)?
     ) => {
         $crate::delegate_effect! {
-            @if [true, true, true]
+            @if [true, true, true, true]
             impl[$($generics)*] Effect<$R, $B, $V> for $type $(where [$($bounds)*])?,
             |$this| { $($inner => $to),* } $(, $advance)?
         }
@@ -105,15 +105,15 @@ macro_rules! delegate_effect {
         |$this:ident| { $($inner:ty => $to:expr),* $(,)? } $(, $advance:ident)?
     ) => {
         $crate::delegate_effect! {
-            @if [$on, true, true]
+            @if [$on, true, true, true]
             impl[$($generics)*] Effect<$R, $B, $V> for $type $(where [$($bounds)*])?,
             |$this| { $($inner => $to),* } $(, $advance)?
         }
     };
     // All hooks, where `on` is true; those that go with q̈, where `accelerations` is true; those at
-    // joints, where `joints` is.
+    // joints, where `joints` is; the derivatives of these, where `slopes` is.
     (
-        @if [$on:expr, $accelerations:expr, $joints:expr]
+        @if [$on:expr, $accelerations:expr, $joints:expr, $slopes:expr]
         impl[$($generics:tt)*] Effect<$R:ty, $B:tt, $V:tt> for $type:ty $(where [$($bounds:tt)*])?,
         |$this:ident| { $($inner:ty => $to:expr),* } $(, $advance:ident)?
     ) => {
@@ -152,6 +152,8 @@ macro_rules! delegate_effect {
                 & (false $(| <$inner as $crate::effects::Effect<$R, $B, $V>>::VELOCITY_PRODUCTS)*);
             const ELASTICITY: bool = ($on)
                 & (false $(| <$inner as $crate::effects::Effect<$R, $B, $V>>::ELASTICITY)*);
+            const DIFFERENTIABLE: bool = !(($on) & ($slopes))
+                | (true $(& <$inner as $crate::effects::Effect<$R, $B, $V>>::DIFFERENTIABLE)*);
             const ONCE: $crate::effects::Once = $crate::effects::Once::forwarded(
                 $on,
                 &[$(<$inner as $crate::effects::Effect<$R, $B, $V>>::ONCE),*],
@@ -174,8 +176,22 @@ macro_rules! delegate_effect {
                     derivatives: &mut $crate::effects::TorqueDerivatives<$R>,
                 ) {
                     let $this = self;
-                    if const { ($on) & ($joints) } {
+                    if const { ($on) & ($joints) & ($slopes) } {
                         $(<$inner as $crate::effects::Effect<$R, $B, $V>>::derivatives(&$to, joint, at, derivatives);)*
+                    }
+                }
+            }
+
+            $crate::inlined! {
+                fn slopes(
+                    &self,
+                    joint: usize,
+                    at: $crate::effects::JointState<$R>,
+                    slopes: &mut $crate::effects::TorqueDerivatives<$R>,
+                ) {
+                    let $this = self;
+                    if const { ($on) & ($joints) & ($slopes) } {
+                        $(<$inner as $crate::effects::Effect<$R, $B, $V>>::slopes(&$to, joint, at, slopes);)*
                     }
                 }
             }

@@ -30,7 +30,7 @@ delegate_effect! {
 struct Bodies<'a, E>(&'a E);
 
 delegate_effect! {
-    @if [true, true, false]
+    @if [true, true, false, true]
     impl[R: Real, E: Effect<R, B, V>, const B: usize, const V: usize]
     Effect<R, B, V> for Bodies<'_, E>,
     |this| { E => *this.0 }

@@ -18,6 +18,7 @@
 //! | a joint: friction | [`Viscous`], [`Coulomb`], [`AsymmetricCoulomb`], [`Stribeck`], [`Lugre`], [`LoadFriction`], [`PreslidingLoadFriction`] |
 //! | a joint: position | [`Spring`], [`EndStops`], [`Cogging`]; in any state [`ConstantTorque`] |
 //! | a motor | [`Armature`], [`GyroscopicRotors`]; [`crate::sim::Actuator`] and [`crate::drivetrain`] stand between command and joint |
+//! | where derivatives are computed | [`Frozen`] counts an effect as constant |
 //!
 //! A user adds other effects by an `impl` of the same trait, for core, engine and plant alike:
 //!
@@ -88,6 +89,7 @@ mod body;
 mod declared;
 mod delegate;
 mod friction;
+mod frozen;
 mod gates;
 pub mod hook;
 mod hook_args;
@@ -110,6 +112,7 @@ pub use friction::{
     AsymmetricCoulomb, Coulomb, LoadFriction, Lugre, PreslidingLoadFriction, Stribeck, Viscous,
     smooth_sign, smooth_sign_slope,
 };
+pub use frozen::Frozen;
 #[doc(hidden)]
 pub use hook::RegroupedInertia;
 pub use hook_args::{BodyState, BodyVelocity, JointState, LoadFactors, TorqueDerivatives};
@@ -195,6 +198,10 @@ pub trait Effect<R: Real, const B: usize, const V: usize>: Sized {
     const VELOCITY_PRODUCTS: bool = false;
     /// The scene has the stiffness and damping of links that bend ([`crate::flexible`]).
     const ELASTICITY: bool = false;
+    /// What the effect adds has derivatives that are known: of what `torque` adds, those of
+    /// `slopes`. A scene with an effect of which this is false does not compile where derivatives
+    /// of dynamics are computed; [`Frozen`] counts it as constant. A wrench on a body has none.
+    const DIFFERENTIABLE: bool = false;
     /// A scene may contain this effect once: a scene with two does not compile. Any number of times
     /// for an effect of one's own, unless it takes this constant from one of the library, such as
     /// `<Viscous<R, V> as Effect<R, B, V>>::ONCE`.
@@ -213,6 +220,13 @@ pub trait Effect<R: Real, const B: usize, const V: usize>: Sized {
     #[cfg_attr(optimised, inline(always))]
     fn derivatives(&self, joint: usize, at: JointState<R>, derivatives: &mut TorqueDerivatives<R>) {
         let _ = (joint, at, derivatives);
+    }
+
+    /// Adds to ∂τ/∂q and ∂τ/∂q̇ of what `torque` adds, for the derivatives of dynamics: those of
+    /// `derivatives`, unless these leave out what an implicit step would not be the stabler for.
+    #[cfg_attr(optimised, inline(always))]
+    fn slopes(&self, joint: usize, at: JointState<R>, slopes: &mut TorqueDerivatives<R>) {
+        self.derivatives(joint, at, slopes);
     }
 
     /// The inertia at `joint`, kg·m² or kg, which the library adds to M's diagonal and, times q̈,

@@ -16,6 +16,7 @@ macro_rules! tuple {
 
 /// The empty scene.
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for () {
+    const DIFFERENTIABLE: bool = true;
     #[cfg_attr(optimised, inline(always))]
     fn torque(&self, _: usize, _: JointState<R>, _: &mut R) {}
 }

@@ -257,7 +257,7 @@ where
         let mut felt = all.felt(joint.prismatic);
         let mut own = TorqueDerivatives::default();
         let state = self.call.joint_state::<I>(self.state);
-        self.call.effects.derivatives(I, state, &mut own);
+        self.call.effects.slopes(I, state, &mut own);
         self.gradient.dq[I][I] = (by_q.along(joint, length_inv) * unit).get() + own.dq;
         self.gradient.dqd[I][I] = (by_qd.along(joint, length_inv) * unit).get() + own.dqd;
         by_q = by_q + all.turned_wrench(joint.prismatic);

@@ -221,6 +221,24 @@ impl<R: Real> LinkView<'_, R> {
         }
     }
 
+    /// The derivative of the [position](Self::position) that belongs to k along the coordinate j of
+    /// q ⊕ δ, which at planar and free joints moves the body along its own axes.
+    #[cfg_attr(optimised, inline(always))]
+    pub(crate) fn position_slope(&self, turns: &[JointCoordinate<R>], k: usize, j: usize) -> R {
+        let q = |k| entry(turns, self.idx_q + k);
+        let (first, e) = match self.kind {
+            Spherical => return R::ZERO,
+            Planar => (self.idx_v + 1, q(0).about_z(&R::Mat3::IDENTITY)),
+            Free => (self.idx_v + 3, rotation([q(0).q, q(1).q, q(2).q, q(3).q])),
+            _ => return if k == j { R::ONE } else { R::ZERO },
+        };
+        match (k.checked_sub(first), j.checked_sub(first)) {
+            (Some(k), Some(j)) => entry(&entry(&e.cols(), k).array(), j),
+            (None, None) if self.kind == Planar => R::ONE,
+            _ => R::ZERO,
+        }
+    }
+
     /// The dependence of S on the joint's coordinate k, if there is one.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn bend(&self, turns: &[JointCoordinate<R>], k: usize) -> Option<Bend<R>> {

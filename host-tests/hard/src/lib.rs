@@ -15,6 +15,7 @@ pub mod energy;
 pub mod engine;
 pub mod far_slide;
 pub mod friction;
+pub mod gradients;
 pub mod impedance;
 pub mod invariances;
 pub mod masses;
@@ -54,6 +55,7 @@ pub const CASES: &[&[Case]] = &[
     continuous_turns::CASES,
     engine::CASES,
     impedance::CASES,
+    gradients::CASES,
 ];
 
 /// The numbers of all cases, as a constant: a program that names [`CASES`] has the code of all of

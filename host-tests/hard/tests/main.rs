@@ -8,6 +8,7 @@ mod elbow;
 mod energy;
 mod engine;
 mod friction;
+mod gradients;
 mod impedance;
 mod invariances;
 mod masses;

@@ -16,6 +16,7 @@ use firmware_demo::scene::Without;
 use std::cell::Cell;
 use std::fmt::Debug;
 
+/// A field, and no derivatives.
 const FIELD: u32 = 1;
 const ACCELERATIONS: u32 = 2;
 const VELOCITY_PRODUCTS: u32 = 4;
@@ -52,6 +53,7 @@ impl<R: Real, const FLAGS: u32, const B: usize, const V: usize> Effect<R, B, V> 
     const ACCELERATIONS: bool = has(FLAGS, ACCELERATIONS);
     const VELOCITY_PRODUCTS: bool = has(FLAGS, VELOCITY_PRODUCTS);
     const ELASTICITY: bool = has(FLAGS, ELASTICITY);
+    const DIFFERENTIABLE: bool = !has(FLAGS, FIELD);
     const ONCE: Once =
         if has(FLAGS, ONCE) { <Viscous<R, V> as Effect<R, B, V>>::ONCE } else { Once::NONE };
     const EXTERNAL_WRENCH: hook::Wrench<Self, R> =
@@ -118,6 +120,10 @@ impl<R: Real, const FLAGS: u32, const B: usize, const V: usize> Effect<R, B, V> 
     fn derivatives(&self, joint: usize, _: JointState<R>, derivatives: &mut TorqueDerivatives<R>) {
         derivatives.dq += of(2.0 + joint as f64);
         derivatives.dqd += of(0.3);
+    }
+    fn slopes(&self, joint: usize, _: JointState<R>, slopes: &mut TorqueDerivatives<R>) {
+        slopes.dq += of(2.5 + joint as f64);
+        slopes.dqd += of(0.4);
     }
     fn advance(&mut self, joint: usize, at: JointState<R>, h: R) {
         ADVANCED.with(|sum| sum.set(sum.get() + joint as f64 + (at.q + at.qd + h).to_f64()));
@@ -274,7 +280,13 @@ fn declarations(hooks: &str) -> Vec<f64> {
 
 /// The constants of a scene and the contributions of its hooks, in numbers.
 fn observed<R: Real, E: Effect<R, 6, 3> + Debug>(scene: &E) -> Vec<f64> {
-    let flags = [E::ACCELERATIONS, E::VELOCITY_PRODUCTS, E::ELASTICITY, E::ONCE != Once::NONE];
+    let flags = [
+        E::ACCELERATIONS,
+        E::VELOCITY_PRODUCTS,
+        E::ELASTICITY,
+        E::DIFFERENTIABLE,
+        E::ONCE != Once::NONE,
+    ];
     let mut numbers = flags.map(|flag| f64::from(u8::from(flag))).to_vec();
     let hooks = [
         format!("{:?}", E::GRAVITY_FIELD),
@@ -309,10 +321,12 @@ fn added<R: Real, E: Effect<R, 6, 3>>(scene: &E) -> Vec<R> {
     hook::add_wrench(scene, 2, &at, &mut fx);
     numbers.extend([v.ang, v.lin, a.ang, a.lin, fx.ang, fx.lin].map(Vector::array).as_flattened());
     let at = JointState::new(of(0.3), of(-0.7));
-    let (mut tau, mut derivatives) = (R::ZERO, TorqueDerivatives::default());
+    let (mut tau, [mut derivatives, mut slopes_of_torque]) =
+        (R::ZERO, [TorqueDerivatives::default(); 2]);
     let mut coupling = R::ZERO;
     scene.torque(1, at, &mut tau);
     scene.derivatives(1, at, &mut derivatives);
+    scene.slopes(1, at, &mut slopes_of_torque);
     call_hook!(E::ROTOR.add, scene, 1, &mut coupling);
     let [mut factors, mut slopes] = [LoadFactors::default(); 2];
     call_hook!(E::LOAD_FRICTION.factors, scene, 1, at, &mut factors);
@@ -324,7 +338,10 @@ fn added<R: Real, E: Effect<R, 6, 3>>(scene: &E) -> Vec<R> {
     call_hook!(E::REGROUPED.load, scene, 1, &mut RegroupedInertia::default());
     numbers.push(of(LOADED.get() as f64));
     let inertia = scene.inertia(1).unwrap_or(R::ZERO);
-    numbers.extend([tau, derivatives.dq, derivatives.dqd, inertia, coupling]);
+    for TorqueDerivatives { dq, dqd } in [derivatives, slopes_of_torque] {
+        numbers.extend([dq, dqd]);
+    }
+    numbers.extend([tau, inertia, coupling]);
     numbers
 }
 

@@ -6,14 +6,14 @@
 
 use core::borrow::Borrow;
 
-use super::named_derivatives;
 use super::outward::{Body, Column, outward};
+use super::{joint_slopes, named_derivatives};
 use crate::algorithms::tree_pass::inward;
-use crate::effects::{Effect, Scene, TorqueDerivatives, joint_state};
-use crate::model::{JointCoordinate, LinkView, RobotModel};
+use crate::effects::{Effect, Scene};
+use crate::model::{JointCoordinate, RobotModel};
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::Motion;
-use crate::state::{Configuration, RobotState, State};
+use crate::state::{Configuration, RobotState};
 
 /// The derivatives of inverse dynamics at a state, by rows of τ.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,10 +43,10 @@ pub struct TorqueGradient<R, const V: usize> {
 /// itself.
 ///
 /// Gravity, inertia, velocity products, payloads, armatures and a base of given motion are part of
-/// it, and joint torques by the derivatives that an effect names
-/// ([`Effect::derivatives`]): what it does not name counts as constant. A scene with wrenches on
-/// bodies, rotors that spin as bodies or friction of loaded gears does not compile. A non-finite
-/// input gives a non-finite output.
+/// it, and joint torques by the derivatives that an effect names ([`Effect::slopes`]). A scene with
+/// an effect that names none, such as wrenches on bodies, does not compile unless the scene says
+/// that it counts as constant ([`Frozen`](crate::effects::Frozen)); nor do rotors that spin as
+/// bodies and friction of loaded gears. A non-finite input gives a non-finite output.
 ///
 /// # Shape
 /// Two of V × V, not symmetric; an entry between joints of which neither is an ancestor of the
@@ -74,15 +74,20 @@ pub struct TorqueGradient<R, const V: usize> {
 /// }
 /// ```
 ///
-/// A wrench whose derivatives nothing names:
+/// An effect that names no derivatives:
 ///
 /// ```compile_fail,E0080
 /// use dynamics_core::algorithms::rnea_derivatives;
-/// use dynamics_core::effects::{BodyWrench, RIGID_BODY};
-/// use dynamics_core::spatial::Force;
+/// use dynamics_core::effects::{Effect, JointState, RIGID_BODY};
 /// use dynamics_core::{model::Robot, robots::Ur5e, state::State};
-/// let scene = (RIGID_BODY, BodyWrench { body: 5, wrench: Force::<f64>::ZERO });
-/// let _ = rnea_derivatives(&Ur5e::MODEL, &State::at([0.0; 6]), &scene);
+/// struct Drag;
+/// impl<const B: usize, const V: usize> Effect<f64, B, V> for Drag {
+///     fn torque(&self, _: usize, at: JointState<f64>, tau: &mut f64) {
+///         *tau += at.qd * at.qd.abs();
+///     }
+/// }
+/// let _ = rnea_derivatives(&Ur5e::MODEL, &State::at([0.0; 6]), &(RIGID_BODY, Drag));
+/// // error: an effect of the scene has no derivatives: `Frozen(effect)` counts it as constant, and ..
 /// ```
 #[doc(alias = "computeRNEADerivatives")]
 #[doc(alias = "inverse dynamics derivatives")]
@@ -113,7 +118,13 @@ where
         for (k, j) in body.link.coordinates().enumerate() {
             gradient.pair_up(body, inner, (k, j), &columns, turns);
         }
-        add_joint_derivatives(effects, &body.link, state, &mut gradient);
+        for k in body.link.coordinates() {
+            let at = (&body.link, &turns[..]);
+            let by_qd = joint_slopes(effects, at, state, k, |j, by_q| {
+                gradient.add(k, j, [by_q, R::ZERO]);
+            });
+            gradient.add(k, k, [R::ZERO, by_qd]);
+        }
     }
     gradient
 }
@@ -187,21 +198,4 @@ impl<R: Real, const V: usize> TorqueGradient<R, V> {
 #[cfg_attr(optimised, inline(always))]
 fn entry_of<R: Real, const V: usize>(rows: &[[R; V]; V], i: usize, j: usize) -> R {
     rows.get(i).and_then(|row| row.get(j)).copied().unwrap_or(R::ZERO)
-}
-
-/// Adds what the effects name at one joint's coordinates to the diagonals.
-#[cfg_attr(optimised, inline(always))]
-fn add_joint_derivatives<R: Real, E, const B: usize, const Q: usize, const V: usize>(
-    effects: &E,
-    link: &LinkView<'_, R>,
-    state: &State<R, Q, V>,
-    gradient: &mut TorqueGradient<R, V>,
-) where
-    E: Effect<R, B, V>,
-{
-    for k in link.coordinates() {
-        let mut by = TorqueDerivatives::default();
-        effects.derivatives(k, joint_state(link, state, k), &mut by);
-        gradient.add(k, k, [by.dq, by.dqd]);
-    }
 }

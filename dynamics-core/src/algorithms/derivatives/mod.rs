@@ -9,8 +9,31 @@ pub use forward_dynamics::{AccelerationGradient, forward_dynamics_derivatives};
 pub use inverse_dynamics::{TorqueGradient, rnea_derivatives};
 pub use products::{rnea_along, rnea_transposed};
 
-use crate::effects::{Declared, Effect};
+use crate::effects::{Declared, Effect, TorqueDerivatives, joint_state};
+use crate::model::{JointCoordinate, LinkView};
 use crate::scalar::Real;
+use crate::state::State;
+
+/// ∂τ_k/∂q̇_k of what the effects add at coordinate k; `add` is called with each coordinate j of the
+/// joint and ∂τ_k/∂q_j.
+#[cfg_attr(optimised, inline(always))]
+fn joint_slopes<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+    effects: &E,
+    (link, turns): (&LinkView<'_, R>, &[JointCoordinate<R>]),
+    state: &State<R, Q, V>,
+    k: usize,
+    mut add: impl FnMut(usize, R),
+) -> R
+where
+    E: Effect<R, B, V>,
+{
+    let mut by = TorqueDerivatives::default();
+    effects.slopes(k, joint_state(link, state, k), &mut by);
+    for j in link.coordinates() {
+        add(j, by.dq * link.position_slope(turns, k, j));
+    }
+    by.dqd
+}
 
 /// The effects of a scene name the derivatives of what they add.
 pub(crate) const fn named_derivatives<R: Real, E, const B: usize, const V: usize>()
@@ -18,9 +41,9 @@ where
     E: Effect<R, B, V>,
 {
     assert!(
-        !E::WRENCH,
-        "an effect of the scene has a wrench on a body, whose derivatives it cannot name: leave it \
-         out of the scene whose derivatives are computed"
+        E::DIFFERENTIABLE,
+        "an effect of the scene has no derivatives: `Frozen(effect)` counts it as constant, and an \
+         effect of one's own whose `slopes` are all it has sets `DIFFERENTIABLE`"
     );
     assert!(
         !(E::GYROSCOPIC_ROTORS | E::LOAD_DEPENDENT | E::ELASTICITY),

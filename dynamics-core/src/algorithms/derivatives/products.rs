@@ -6,10 +6,10 @@ use core::borrow::Borrow;
 
 use heapless::Vec;
 
-use super::named_derivatives;
 use super::outward::outward;
+use super::{joint_slopes, named_derivatives};
 use crate::algorithms::tree_pass::{inward, per_body};
-use crate::effects::{Effect, Scene, TorqueDerivatives, joint_state};
+use crate::effects::{Effect, Scene};
 use crate::model::RobotModel;
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::{Force, Motion};
@@ -92,9 +92,10 @@ where
             let rate = column.s_rate * by_q + column.s * by_qd;
             let accel = column.s_accel * by_q + column.s_rates * by_qd;
             up += body.force(rate, accel) + (column.s * by_q).cross_force(body.fc);
-            let mut by = TorqueDerivatives::default();
-            effects.derivatives(k, joint_state(&body.link, state, k), &mut by);
-            add(&mut tau, k, by.dq * by_q + by.dqd * by_qd);
+            let mut own = R::ZERO;
+            let at = (&body.link, &turns[..]);
+            let slope = joint_slopes(effects, at, state, k, |j, by| own += by * entry(dq, j));
+            add(&mut tau, k, own + slope * by_qd);
             if let Some(bend) = body.link.bend(turns, place) {
                 add(&mut tau, body.link.idx_v(), bend.column.dot(body.fc) * by_q);
             }
@@ -178,14 +179,13 @@ where
             let mut inward = body.force(column.s_rate, column.s_accel);
             inward += column.s.cross_force(body.fc);
             let of_row = |rate: Motion<R>, accel: Motion<R>| couple.dot(rate.ang) + accel.dot(row);
-            let mut by = TorqueDerivatives::default();
-            effects.derivatives(k, joint_state(&body.link, state, k), &mut by);
-            let x_k = entry(x, k);
+            let (x_k, at) = (entry(x, k), (&body.link, &turns[..]));
+            let slope = joint_slopes(effects, at, state, k, |j, by| add(&mut by_q, j, by * x_k));
             let of_q = of_row(column.s_rate, column.s_accel) + before.dot(inward);
             let of_qd =
                 of_row(column.s, column.s_rates) + before.dot(body.force(column.s, column.s_rates));
-            add(&mut by_q, k, of_q + by.dq * x_k);
-            add(&mut by_qd, k, of_qd + by.dqd * x_k);
+            add(&mut by_q, k, of_q);
+            add(&mut by_qd, k, of_qd + slope * x_k);
             if let Some(bend) = body.link.bend(turns, place) {
                 let first = entry(x, body.link.idx_v());
                 add(&mut by_q, k, bend.column.dot(body.fc) * first);

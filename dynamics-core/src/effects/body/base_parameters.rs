@@ -67,6 +67,7 @@ impl<T, R: Real, const B: usize, const Q: usize, const V: usize> Effect<R, B, V>
 where
     T: Robot<B, Q, V>,
 {
+    const DIFFERENTIABLE: bool = true;
     const REGROUPED: hook::Regrouped<Self, R> = hook::Regrouped::loaded(T::MODEL.name, Self::load);
 }
 

@@ -175,6 +175,7 @@ impl core::error::Error for InvalidPayload {}
 impl<R: Real, const BODY: usize, const B: usize, const V: usize> Effect<R, B, V>
     for Payload<R, BODY>
 {
+    const DIFFERENTIABLE: bool = true;
     const ADDED_INERTIA: hook::Inertia<Self, R, B> = hook::Inertia::on_body(BODY, Self::add_to);
 }
 

@@ -42,9 +42,17 @@ impl<R: Real, const V: usize> AsymmetricCoulomb<R, V> {
         let (ahead, back) = (entry(&self.forward, joint), entry(&self.backward, joint));
         (half * (ahead + back), half * (ahead - back))
     }
+
+    /// dτ/dq̇.
+    #[cfg_attr(optimised, inline(always))]
+    fn slope(&self, joint: usize, qd: R) -> R {
+        let ((even, odd), u) = (self.halves(joint), qd * self.width.inverse());
+        (even + (odd + odd) * smooth_sign(u)) * smooth_sign_slope(u) * self.width.inverse()
+    }
 }
 
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for AsymmetricCoulomb<R, V> {
+    const DIFFERENTIABLE: bool = true;
     const ONCE: Once = Once::of(Kind::AsymmetricCoulomb);
 
     #[cfg_attr(optimised, inline(always))]
@@ -55,10 +63,12 @@ impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for AsymmetricCoul
 
     #[cfg_attr(optimised, inline(always))]
     fn derivatives(&self, joint: usize, at: JointState<R>, derivatives: &mut TorqueDerivatives<R>) {
-        let ((even, odd), u) = (self.halves(joint), at.qd * self.width.inverse());
-        let rise = even + (odd + odd) * smooth_sign(u);
         // If friction falls with speed, an implicit step would not be the stabler one.
-        derivatives.dqd +=
-            crate::scalar::positive_part(rise) * smooth_sign_slope(u) * self.width.inverse();
+        derivatives.dqd += crate::scalar::positive_part(self.slope(joint, at.qd));
+    }
+
+    #[cfg_attr(optimised, inline(always))]
+    fn slopes(&self, joint: usize, at: JointState<R>, slopes: &mut TorqueDerivatives<R>) {
+        slopes.dqd += self.slope(joint, at.qd);
     }
 }

@@ -68,6 +68,7 @@ fn sliding<R: Real>(force: R, scaled: R) -> R {
 }
 
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Coulomb<R, V> {
+    const DIFFERENTIABLE: bool = true;
     const ONCE: Once = Once::of(Kind::Coulomb);
 
     #[cfg_attr(optimised, inline(always))]

@@ -46,6 +46,7 @@ impl<R: Real, const V: usize> Stribeck<R, V> {
 }
 
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Stribeck<R, V> {
+    const DIFFERENTIABLE: bool = true;
     const ONCE: Once = Once::of(Kind::Stribeck);
 
     #[cfg_attr(optimised, inline(always))]
@@ -57,5 +58,14 @@ impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Stribeck<R, V>
     fn derivatives(&self, joint: usize, at: JointState<R>, derivatives: &mut TorqueDerivatives<R>) {
         let rise = self.width.inverse() * smooth_sign_slope(at.qd * self.width.inverse());
         derivatives.dqd += self.left(joint, at.qd) * rise;
+    }
+
+    #[cfg_attr(optimised, inline(always))]
+    fn slopes(&self, joint: usize, at: JointState<R>, slopes: &mut TorqueDerivatives<R>) {
+        Effect::<R, B, V>::derivatives(self, joint, at, slopes);
+        // The fall of e^{−(q̇/v_s)²}, with which an implicit step would not be the stabler one.
+        let [fade, u] = [self.stribeck_speed, self.width].map(|width| at.qd * width.inverse());
+        let fall = (fade + fade) * self.stribeck_speed.inverse();
+        slopes.dqd -= fall * self.left(joint, at.qd) * smooth_sign(u);
     }
 }

@@ -26,6 +26,7 @@ use crate::scalar::Real;
 pub struct Viscous<R, const V: usize>(pub [R; V]);
 
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Viscous<R, V> {
+    const DIFFERENTIABLE: bool = true;
     const ONCE: Once = Once::of(Kind::Viscous);
 
     #[cfg_attr(optimised, inline(always))]

@@ -21,6 +21,7 @@ use crate::scalar::Real;
 pub struct Armature<R, const V: usize>(pub [R; V]);
 
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Armature<R, V> {
+    const DIFFERENTIABLE: bool = true;
     const ONCE: Once = Once::of(Kind::Armature);
 
     // Its only hook is the next one.

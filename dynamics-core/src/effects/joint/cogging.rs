@@ -56,6 +56,8 @@ impl<R: Real, const H: usize, const V: usize> Cogging<R, H, V> {
 }
 
 impl<R: Real, const H: usize, const B: usize, const V: usize> Effect<R, B, V> for Cogging<R, H, V> {
+    const DIFFERENTIABLE: bool = true;
+
     #[cfg_attr(optimised, inline(always))]
     fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
         *tau += self.at(joint, at.q).0;
@@ -65,5 +67,10 @@ impl<R: Real, const H: usize, const B: usize, const V: usize> Effect<R, B, V> fo
     fn derivatives(&self, joint: usize, at: JointState<R>, derivatives: &mut TorqueDerivatives<R>) {
         // If it pushes away from a slot, an implicit step would not be the stabler one.
         derivatives.dq += positive_part(self.at(joint, at.q).1);
+    }
+
+    #[cfg_attr(optimised, inline(always))]
+    fn slopes(&self, joint: usize, at: JointState<R>, slopes: &mut TorqueDerivatives<R>) {
+        slopes.dq += self.at(joint, at.q).1;
     }
 }

@@ -22,6 +22,7 @@ pub struct ConstantTorque<R, const V: usize>(
 );
 
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for ConstantTorque<R, V> {
+    const DIFFERENTIABLE: bool = true;
     #[cfg_attr(optimised, inline(always))]
     fn torque(&self, joint: usize, _: JointState<R>, tau: &mut R) {
         *tau += entry(&self.0, joint);

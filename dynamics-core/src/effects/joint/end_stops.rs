@@ -5,7 +5,9 @@
 //! image. Hunt & Crossley, "Coefficient of restitution interpreted as damping in vibroimpact"
 //! (1975).
 
-use crate::effects::{Effect, JointState, TorqueDerivatives, Width, smooth_sign};
+use crate::effects::{
+    Effect, JointState, TorqueDerivatives, Width, smooth_sign, smooth_sign_slope,
+};
 use crate::scalar::Real;
 use crate::scalar::positive_part;
 use crate::state::entry;
@@ -47,6 +49,8 @@ pub struct EndStops<R, const V: usize> {
 struct Push<R> {
     force: R,
     derivatives: TorqueDerivatives<R>,
+    /// The part of ∂τ/∂q by which the damping grows with the depth.
+    growth: R,
 }
 
 impl<R: Real, const V: usize> EndStops<R, V> {
@@ -54,13 +58,19 @@ impl<R: Real, const V: usize> EndStops<R, V> {
     #[cfg_attr(optimised, inline(always))]
     fn push(&self, beyond: R, rate: R) -> Push<R> {
         let depth = positive_part(beyond);
-        let b = self.damping * smooth_sign(depth * self.damping_depth.inverse());
+        let u = depth * self.damping_depth.inverse();
+        let b = self.damping * smooth_sign(u);
         let force = positive_part(self.stiffness * depth + b * rate);
         // 1 where it pushes, else 0, without a comparison.
         let active = force / (force + R::MIN_POSITIVE);
         Push {
             force,
             derivatives: TorqueDerivatives { dq: self.stiffness * active, dqd: b * active },
+            growth: self.damping
+                * smooth_sign_slope(u)
+                * self.damping_depth.inverse()
+                * rate
+                * active,
         }
     }
 
@@ -75,6 +85,8 @@ impl<R: Real, const V: usize> EndStops<R, V> {
 }
 
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for EndStops<R, V> {
+    const DIFFERENTIABLE: bool = true;
+
     #[cfg_attr(optimised, inline(always))]
     fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
         let [upper, lower] = self.ends(joint, at);
@@ -86,6 +98,14 @@ impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for EndStops<R, V>
         for push in self.ends(joint, at) {
             derivatives.dq += push.derivatives.dq;
             derivatives.dqd += push.derivatives.dqd;
+        }
+    }
+
+    #[cfg_attr(optimised, inline(always))]
+    fn slopes(&self, joint: usize, at: JointState<R>, slopes: &mut TorqueDerivatives<R>) {
+        Effect::<R, B, V>::derivatives(self, joint, at, slopes);
+        for push in self.ends(joint, at) {
+            slopes.dq += push.growth;
         }
     }
 }

@@ -24,6 +24,7 @@ pub struct Spring<R, const V: usize> {
 }
 
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Spring<R, V> {
+    const DIFFERENTIABLE: bool = true;
     #[cfg_attr(optimised, inline(always))]
     fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
         *tau += entry(&self.stiffness, joint) * (at.q - entry(&self.rest, joint));

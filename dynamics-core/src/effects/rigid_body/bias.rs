@@ -9,7 +9,7 @@ use crate::scalar::Real;
 pub(crate) struct Bias<'a, E>(pub(crate) &'a E);
 
 delegate_effect! {
-    @if [true, false, true]
+    @if [true, false, true, true]
     impl[R: Real, E: Effect<R, B, V>, const B: usize, const V: usize] Effect<R, B, V> for Bias<'_, E>,
     |this| { E => *this.0 }
 }
@@ -18,7 +18,7 @@ delegate_effect! {
 pub(crate) struct OfBodies<'a, E>(pub(crate) &'a E);
 
 delegate_effect! {
-    @if [true, true, false]
+    @if [true, true, false, true]
     impl[R: Real, E: Effect<R, B, V>, const B: usize, const V: usize] Effect<R, B, V> for OfBodies<'_, E>,
     |this| { E => *this.0 }
 }

@@ -72,6 +72,7 @@ impl<D: Direction> Gravity<D> {
 }
 
 impl<R: Real, D: Direction, const B: usize, const V: usize> Effect<R, B, V> for Gravity<D> {
+    const DIFFERENTIABLE: bool = true;
     const GRAVITY_FIELD: hook::Field<Self, R> = hook::Field::gravity(Self::field::<R>).along([
         D::UNIT[0] != 0.0,
         D::UNIT[1] != 0.0,

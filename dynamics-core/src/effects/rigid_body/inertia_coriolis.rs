@@ -29,11 +29,13 @@ impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Elasticity {
 }
 
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Inertia {
+    const DIFFERENTIABLE: bool = true;
     const ONCE: Once = Once::of(Kind::Inertia);
     const ACCELERATIONS: bool = true;
 }
 
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Coriolis {
+    const DIFFERENTIABLE: bool = true;
     const ONCE: Once = Once::of(Kind::Coriolis);
     const VELOCITY_PRODUCTS: bool = true;
 }

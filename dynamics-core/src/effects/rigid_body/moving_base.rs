@@ -46,6 +46,7 @@ impl<R: Real> MovingBase<R> {
 }
 
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for MovingBase<R> {
+    const DIFFERENTIABLE: bool = true;
     const ONCE: Once = Once::of(Kind::MovingBase);
     const BASE: hook::Base<Self, R> = hook::Base::moving(Self::add_to);
 }
@@ -87,6 +88,7 @@ impl<R: Real> GravityVector<R> {
 }
 
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for GravityVector<R> {
+    const DIFFERENTIABLE: bool = true;
     const GRAVITY_FIELD: hook::Field<Self, R> = hook::Field::gravity(Self::add_to);
 }
 

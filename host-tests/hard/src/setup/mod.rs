@@ -4,7 +4,7 @@ pub mod list;
 
 use std::path::PathBuf;
 
-use dynamics_core::model::{ArmModel, BASE, JointKind, Link, RobotModel};
+use dynamics_core::model::{ArmModel, BASE, JointKind, Link, Model, RobotModel};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 use fixtures::hard::{Answers, Extras, GRAVITY, Revolute, answers_to, scene};
@@ -134,10 +134,10 @@ pub fn widened<const Q: usize, const V: usize>(state: &State<f32, Q, V>) -> Stat
 
 /// The f32 numbers in f64, except that rotations are replaced by the nearest orthonormal ones: a
 /// general rotation is no longer one after rounding, and has no exact result.
-pub fn same_in_f64<const N: usize>(
-    arm: &ArmModel<f64, N>,
-    single: &ArmModel<f32, N>,
-) -> ArmModel<f64, N> {
+pub fn same_in_f64<const B: usize, const Q: usize, const V: usize>(
+    arm: &Model<f64, B, Q, V>,
+    single: &Model<f32, B, Q, V>,
+) -> Model<f64, B, Q, V> {
     let mut wide = literally_in_f64(arm, single);
     for link in &mut wide.links {
         link.placement.rot = nearest_rotation(link.placement.rot);
@@ -147,10 +147,10 @@ pub fn same_in_f64<const N: usize>(
 }
 
 /// The f32 numbers in f64, rotations too.
-pub fn literally_in_f64<const N: usize>(
-    arm: &ArmModel<f64, N>,
-    single: &ArmModel<f32, N>,
-) -> ArmModel<f64, N> {
+pub fn literally_in_f64<const B: usize, const Q: usize, const V: usize>(
+    arm: &Model<f64, B, Q, V>,
+    single: &Model<f32, B, Q, V>,
+) -> Model<f64, B, Q, V> {
     let mut wide = *arm;
     for (link, rounded) in std::iter::zip(&mut wide.links, &single.links) {
         link.to_joint_frame = rounded.to_joint_frame.as_dmat3();

@@ -1,0 +1,8 @@
+//! Derivatives of inverse dynamics keep their digits where differences lose them.
+
+use crate::demand;
+
+#[test]
+fn derivatives_are_accurate_where_differences_are_not() {
+    (71..=80).for_each(demand);
+}

@@ -108,12 +108,12 @@ pub use estimate::{
     SelectedParameters, SensorLoad, SensorLoadError, SensorLoadFit, TipWrench, TipWrenchConfig,
 };
 pub use law::{
-    Breakaway, BreakawayConfig, CartesianImpedance, FirstOrderHold, Gains, HandGuiding,
+    Breakaway, BreakawayConfig, CartesianImpedance, FirstOrderHold, GainTable, Gains, HandGuiding,
     HandGuidingConfig, HandOver, ImpedanceConfig, ImpedanceTorque, InertiaShaping,
     InertiaShapingConfig, InertiaUpdate, Interpolator, LimitedSpring, ModeSearch, PassivityGains,
-    SlidingVariable, SpeedBrake, TaskCommand, TaskDeviation, TaskForce, TaskFrame, TaskMotion,
-    ZeroOrderHold, feedback, hybrid_motion_force, orientation_error, passivity_based_torque,
-    pose_error, quaternion_error,
+    SlidingVariable, SpeedBrake, TablePlace, TaskCommand, TaskDeviation, TaskForce, TaskFrame,
+    TaskMotion, ZeroOrderHold, feedback, hybrid_motion_force, orientation_error,
+    passivity_based_torque, pose_error, quaternion_error,
 };
 pub use limits::{
     Circles, Command, ConfigError, ConfigParameter, Fault, LimitKind, Mode, MotionLimits, Reaction,

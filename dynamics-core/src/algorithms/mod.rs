@@ -30,7 +30,7 @@ pub use coriolis_matrix::coriolis_matrix;
 pub use crba_jacobian::crba_jacobian;
 pub(crate) use derivatives::named_derivatives;
 pub use derivatives::{
-    AccelerationGradient, TorqueGradient, forward_dynamics_derivatives, rnea_along,
+    AccelerationGradient, Linearisation, TorqueGradient, forward_dynamics_derivatives, rnea_along,
     rnea_derivatives, rnea_transposed,
 };
 pub use energy::{kinetic_energy, potential_energy};

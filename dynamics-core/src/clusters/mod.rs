@@ -72,6 +72,7 @@ mod passes;
 mod places;
 mod set;
 mod status;
+mod stiffness;
 mod tree_motion;
 
 pub use aba::ForwardError;

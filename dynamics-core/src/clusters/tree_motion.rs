@@ -152,19 +152,23 @@ where
     /// Y times.
     #[must_use]
     pub fn inertia(&self, m: &MassMatrix<R, V>) -> MassMatrix<R, Y> {
-        // M G by columns, and Gᵀ of each.
+        MassMatrix { rows: self.through(&m.rows).map(|column| self.torque(&column)) }
+    }
+
+    /// A G of a matrix A of the tree, by columns.
+    pub(super) fn through(&self, a: &[[R; V]; V]) -> [[R; V]; Y] {
         let mut columns = [[R::ZERO; V]; Y];
         for v in 0..V {
             let (first, g, _) = self.row(v);
             for (k, &g) in g.iter().enumerate() {
                 if let Some(column) = columns.get_mut(first + k) {
-                    for (i, entry) in column.iter_mut().enumerate() {
-                        *entry += m.get(i, v) * g;
+                    for (sum, row) in column.iter_mut().zip(a) {
+                        *sum += entry(row, v) * g;
                     }
                 }
             }
         }
-        MassMatrix { rows: columns.map(|column| self.torque(&column)) }
+        columns
     }
 
     /// J G: the Jacobian of a body with respect to ẏ, by columns, of that of the tree.

@@ -14,6 +14,7 @@ pub mod ship;
 mod space_arm;
 mod stewart;
 pub mod two_link;
+mod wheel_leg;
 
 pub use ankle_leg::{AnkleLeg, RODS};
 pub use delta::{Delta, FlatDelta};
@@ -28,3 +29,4 @@ pub use ship::Ship;
 pub use space_arm::SpaceArm;
 pub use stewart::{ABOVE, BELOW, LEGS, StewartPlatform};
 pub use two_link::TwoLink;
+pub use wheel_leg::{COORDINATES, Straight, WheelLeg};

@@ -2,6 +2,7 @@
 
 pub(crate) mod breakaway;
 pub(crate) mod feedback;
+pub(crate) mod gain_table;
 pub(crate) mod hand_guiding;
 pub(crate) mod hand_over;
 pub(crate) mod hybrid_force;
@@ -13,6 +14,7 @@ pub(crate) mod pose_error;
 
 pub use breakaway::{Breakaway, BreakawayConfig};
 pub use feedback::{Gains, feedback};
+pub use gain_table::{GainTable, TablePlace};
 pub use hand_guiding::{HandGuiding, HandGuidingConfig, LimitedSpring, SpeedBrake};
 pub use hand_over::HandOver;
 pub use hybrid_force::{

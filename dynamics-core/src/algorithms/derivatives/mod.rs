@@ -2,11 +2,13 @@
 
 mod forward_dynamics;
 mod inverse_dynamics;
+mod linearisation;
 mod outward;
 mod products;
 
 pub use forward_dynamics::{AccelerationGradient, forward_dynamics_derivatives};
 pub use inverse_dynamics::{TorqueGradient, rnea_derivatives};
+pub use linearisation::Linearisation;
 pub use products::{rnea_along, rnea_transposed};
 
 use crate::effects::{Declared, Effect, TorqueDerivatives, joint_state};

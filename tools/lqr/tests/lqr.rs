@@ -1,0 +1,99 @@
+//! The linearisation against the arm itself, and the regulator against dynamic programming.
+
+use dynamics_core::Core;
+use dynamics_core::algorithms::{Linearisation, forward_dynamics_derivatives};
+use dynamics_core::effects::{Armature, Coriolis, Gravity, Inertia, Viscous};
+use dynamics_core::model::Robot;
+use dynamics_core::robots::Ur5e;
+use dynamics_core::sim::runge_kutta;
+use dynamics_core::state::State;
+use lqr::{Deviations, LqrError, held, lqr, source};
+use nalgebra::DMatrix;
+
+const TICK: f64 = 2e-3;
+const SCENE: (Gravity, Inertia, Coriolis, Viscous<f64, 6>, Armature<f64, 6>) =
+    (Gravity::EARTH, Inertia, Coriolis, Viscous([2.0; 6]), Armature([0.3; 6]));
+
+/// A UR5e in motion, and the torques that keep its velocity.
+fn arm() -> (State<f64, 6, 6>, [f64; 6], Linearisation<f64, 6>) {
+    let qd = [0.5, -1.0, 0.8, 1.0, -0.5, 2.0];
+    let state = State { qd, ..State::at([0.2, -1.2, 1.5, 0.3, 0.7, 0.0]) };
+    let tau = Core::<Ur5e>::rnea(&state, &SCENE);
+    let by = forward_dynamics_derivatives(&Ur5e::MODEL, &state, &tau, &SCENE).expect("an arm");
+    (state, tau, Linearisation::new(&Ur5e::MODEL, &by))
+}
+
+/// The end of a short tick under more torque from a state that is off, by simulation.
+fn simulated(off: [[f64; 6]; 2], more: [f64; 6], h: f64) -> [[f64; 6]; 2] {
+    let (mut at, tau, _) = arm();
+    let add = |x: [f64; 6], y: [f64; 6]| core::array::from_fn(|i| x[i] + y[i]);
+    (at.q, at.qd) = (add(at.q, off[0]), add(at.qd, off[1]));
+    for _ in 0..4 {
+        runge_kutta(&Ur5e::MODEL, &mut at, &add(tau, more), &SCENE, h / 4.0)
+            .expect("forward dynamics");
+    }
+    [at.q, at.qd]
+}
+
+#[test]
+fn a_tick_of_the_linearisation_is_that_of_the_arm() {
+    let (_, _, plant) = arm();
+    let [phi, gamma] = held(&plant, TICK);
+    let still = simulated([[0.0; 6]; 2], [0.0; 6], TICK).concat();
+    for k in 0..18 {
+        let mut off = [[0.0; 6]; 3];
+        off[k / 6][k % 6] = 1e-4;
+        let moved = simulated([off[0], off[1]], off[2], TICK).concat();
+        let column = if k < 12 { phi.column(k) } else { gamma.column(k - 12) };
+        // The velocity changes the linear system within the tick: in proportion to it.
+        let scale = column.amax();
+        for (i, (a, b)) in std::iter::zip(&moved, &still).enumerate() {
+            let error = ((a - b) / 1e-4 - column[i]).abs();
+            assert!(error < 5e-3 * scale, "entry {i}, {k}: {error:.1e} of {scale:.1e}");
+        }
+    }
+}
+
+#[test]
+fn the_regulator_is_that_of_dynamic_programming() {
+    let (_, _, plant) = arm();
+    let deviations = Deviations { q: [0.02; 6], qd: [0.5; 6], u: [10.0; 6] };
+    let k = lqr(&plant, TICK, &deviations).expect("gains");
+    let [a, b] = held(&plant, TICK);
+    let diagonal = |x: Vec<f64>| DMatrix::from_diagonal(&nalgebra::DVector::from_vec(x));
+    let q = diagonal([[2500.0; 6], [4.0; 6]].concat());
+    let (mut p, mut last) = (q.clone(), k.clone());
+    for _ in 0..5000 {
+        let inner = diagonal(vec![0.01; 6]) + b.transpose() * &p * &b;
+        last = inner.try_inverse().expect("positive") * b.transpose() * &p * &a;
+        p = &q + a.transpose() * &p * (&a - &b * &last);
+    }
+    let error = (&k - &last).amax() / k.amax();
+    assert!(error < 1e-9, "{error:.1e}");
+}
+
+#[test]
+fn what_no_input_reaches_and_what_is_no_number_has_no_gains() {
+    let falls =
+        Linearisation { dq: [[9.0, 0.0], [0.0, 0.0]], dqd: [[0.0; 2]; 2], du: [[0.0], [1.0]] };
+    let deviations = Deviations { q: [0.1; 2], qd: [1.0; 2], u: [1.0] };
+    assert_eq!(lqr(&falls, TICK, &deviations), Err(LqrError::NotStabilisable));
+    let reached = Linearisation { du: [[1.0], [1.0]], ..falls };
+    assert!(lqr(&reached, TICK, &deviations).is_ok());
+    let none = Deviations { u: [0.0], ..deviations };
+    assert_eq!(lqr(&reached, TICK, &none), Err(LqrError::NotFinite));
+    let broken = Linearisation { dq: [[f64::NAN; 2]; 2], ..reached };
+    assert_eq!(lqr(&broken, TICK, &deviations), Err(LqrError::NotFinite));
+}
+
+#[test]
+fn the_source_is_read_as_the_same_numbers() {
+    let k = DMatrix::from_row_slice(2, 2, &[1.0, 1.0 / 3.0, -2e-9, 7e6]);
+    let source = source(&[k.clone(), k]);
+    let numbers: Vec<f32> = source
+        .split(|c: char| c.is_whitespace() || "[],".contains(c))
+        .filter(|word| !word.is_empty())
+        .map(|word| word.parse().expect("a number"))
+        .collect();
+    assert_eq!(numbers, [[1.0, 1.0 / 3.0, -2e-9, 7e6]; 2].concat());
+}

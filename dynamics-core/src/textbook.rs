@@ -5,10 +5,12 @@ mod scene;
 
 use core::marker::PhantomData;
 
-use crate::algorithms::{self, Frame, JointResult, Kinematics, Ltdl, MassMatrix};
+use crate::algorithms::{
+    self, AccelerationGradient, Frame, JointResult, Kinematics, Ltdl, MassMatrix,
+};
 use crate::algorithms::{
     MomentumAndCoriolis, MomentumAndDrift, NotPositiveDefinite, OsimInverse, Pose, Prescribed,
-    TorquesAndWrenches,
+    TorqueGradient, TorquesAndWrenches,
 };
 use crate::effects::{Effect, Scene};
 use crate::model::{BodyNumber, RobotModel, Static};
@@ -107,6 +109,44 @@ impl<T, K> Core<T, K> {
     {
         const { Scene::<R, E, B, V>::OF_CORE };
         algorithms::forward_dynamics(&Static::<T, K>::NEW, state, tau, effects)
+    }
+
+    /// ∂τ/∂q and ∂τ/∂q̇ of inverse dynamics, see [`algorithms::rnea_derivatives()`].
+    #[inline(never)]
+    #[must_use]
+    pub fn rnea_derivatives<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        effects: &E,
+    ) -> TorqueGradient<R, V>
+    where
+        Static<T, K>: RobotModel<R, B, Q, V>,
+        E: Effect<R, B, V>,
+    {
+        algorithms::rnea_derivatives(&Static::<T, K>::NEW, state, effects)
+    }
+
+    /// ∂q̈/∂q and ∂q̈/∂q̇ of forward dynamics, and the factors of M, see
+    /// [`algorithms::forward_dynamics_derivatives`].
+    ///
+    /// # Errors
+    /// [`NotPositiveDefinite`] names a joint that moves no inertia.
+    #[inline(never)]
+    pub fn forward_dynamics_derivatives<
+        R: Real,
+        E,
+        const B: usize,
+        const Q: usize,
+        const V: usize,
+    >(
+        state: impl RobotState<R, Q, V>,
+        tau: &[R; V],
+        effects: &E,
+    ) -> Result<AccelerationGradient<R, V>, NotPositiveDefinite>
+    where
+        Static<T, K>: RobotModel<R, B, Q, V>,
+        E: Effect<R, B, V>,
+    {
+        algorithms::forward_dynamics_derivatives(&Static::<T, K>::NEW, state, tau, effects)
     }
 
     /// Torques and accelerations, one of them given for each joint, see

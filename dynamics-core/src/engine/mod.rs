@@ -76,6 +76,7 @@ macro_rules! scene_is_taken {
 
 mod aba;
 mod acceleration_field;
+mod acceleration_gradient;
 mod articulated_inertia;
 mod base;
 mod base_parameters;

@@ -84,16 +84,28 @@ where
         *rest -= bias;
     }
     let qdd = solve(robot, &factors, &rest);
-    let TorqueGradient { dq, dqd } =
-        rnea_derivatives(robot, trig.with(&State { qdd, ..*state }), effects);
-    let [dq, dqd] = [dq, dqd].map(|by| {
-        let mut columns = transposed(&by);
-        for column in &mut columns {
-            *column = solve(robot, &factors, &column.map(|x| -x));
-        }
-        transposed(&columns)
-    });
-    Ok(AccelerationGradient { qdd, dq, dqd, factors })
+    let by = rnea_derivatives(robot, trig.with(&State { qdd, ..*state }), effects);
+    Ok(AccelerationGradient::solved(qdd, &by, factors, |factors, tau| solve(robot, factors, tau)))
+}
+
+impl<R: Real, const V: usize> AccelerationGradient<R, V> {
+    /// −M⁻¹ ∂ID, column by column.
+    #[cfg_attr(optimised, inline(always))]
+    pub(crate) fn solved(
+        qdd: [R; V],
+        by: &TorqueGradient<R, V>,
+        factors: Ltdl<R, V>,
+        solve: impl Fn(&Ltdl<R, V>, &[R; V]) -> [R; V],
+    ) -> Self {
+        let [dq, dqd] = [&by.dq, &by.dqd].map(|by| {
+            let mut columns = transposed(by);
+            for column in &mut columns {
+                *column = solve(&factors, &column.map(|x| -x));
+            }
+            transposed(&columns)
+        });
+        Self { qdd, dq, dqd, factors }
+    }
 }
 
 fn transposed<R: Real, const V: usize>(rows: &[[R; V]; V]) -> [[R; V]; V] {

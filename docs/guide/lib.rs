@@ -27,6 +27,7 @@ pages! {
     tuning "tuning.md",
     faults "faults.md",
     contact "contact.md",
+    derivatives "derivatives.md",
     impedance "impedance.md",
     guiding "guiding.md",
     can_motors "can-motors.md",

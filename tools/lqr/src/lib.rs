@@ -36,18 +36,22 @@ pub enum LqrError {
 /// The doublings after which P has long converged: 2⁶⁰ ticks.
 const DOUBLINGS: usize = 60;
 
-/// Φ and Γ of a tick of `h` seconds in which the inputs are held.
+/// Φ and Γ of a tick of `h` seconds in which the inputs are held: the first rows of e^([A B; 0 0] h),
+/// also for friction that stops a light joint within a part of a tick.
 pub fn held<const V: usize, const U: usize>(
     plant: &Linearisation<f64, V, U>,
     h: f64,
 ) -> [DMatrix<f64>; 2] {
-    let unit = |at: usize, k: usize| f64::from(u8::from(at == k));
-    let state = |k: usize| [0, V].map(|from| core::array::from_fn(|j| unit(from + j, k)));
-    let column = |x: [[f64; V]; 2], u: [f64; U]| plant.after(&x, &u, h).concat();
-    let phi: Vec<f64> = (0..2 * V).flat_map(|k| column(state(k), [0.0; U])).collect();
-    let input = |k: usize| core::array::from_fn(|j| unit(j, k));
-    let gamma: Vec<f64> = (0..U).flat_map(|k| column([[0.0; V]; 2], input(k))).collect();
-    [DMatrix::from_vec(2 * V, 2 * V, phi), DMatrix::from_vec(2 * V, U, gamma)]
+    let mut rates = DMatrix::zeros(2 * V + U, 2 * V + U);
+    for i in 0..V {
+        rates[(i, V + i)] = h;
+        let row = plant.dq[i].iter().chain(&plant.dqd[i]).chain(&plant.du[i]);
+        for (j, rate) in row.enumerate() {
+            rates[(V + i, j)] = h * rate;
+        }
+    }
+    let all = rates.exp();
+    [(0, 2 * V), (2 * V, U)].map(|(from, width)| all.view((0, from), (2 * V, width)).into_owned())
 }
 
 /// The gains K of δu = −K [δq; δq̇], U × 2 V, of a tick of `h` seconds.

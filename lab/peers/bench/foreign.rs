@@ -64,6 +64,8 @@ impl Foreign {
         let [_, velocities] = theirs;
         let (vector, matrix) = match &*self.algorithm {
             "crba" => (Vec::new(), velocities.clone()),
+            // By rows, of robots whose coordinates are ours.
+            "gradient" => ((0..2 * V * V).collect(), Vec::new()),
             "osim" => (Vec::new(), vec![3, 4, 5, 0, 1, 2]),
             _ => (velocities.clone(), Vec::new()),
         };

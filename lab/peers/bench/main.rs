@@ -38,7 +38,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     loops::clustered::<AnkleLeg, 9, 9, 3>(loops, 0.0)?;
     loops::clustered::<DeltaRobot, 12, 12, 3>(loops, 0.0)?;
     loops::clustered::<StewartPlatform, 24, 24, 6>(loops, 0.0)?;
-    const ARM: &[&str] = &["rnea", "bias", "gravity", "crba", "aba", "osim"];
+    const ARM: &[&str] = &["rnea", "bias", "gravity", "crba", "aba", "gradient", "osim"];
     const DYNAMICS: &[&str] = &["rnea", "crba", "aba"];
     macro_rules! arms {
         ($($robot:ident $n:literal $tip:literal;)*) => {$(
@@ -47,9 +47,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         )*};
     }
     arms! { Ur5e 6 5; Panda 7 6; Iiwa14 7 6; XArm7 7 6; }
-    let known =
-        (ours::inverse::<A1, _, 16, 12, 12> as _, Some(ours::inverse::<A1, _, 16, 12, 12> as _));
-    robot::run::<A1, 16, 12, 12, 12>(&manifest, &ARM[..5], known)?;
+    let known = (ours::tree::<A1, _, 16, 12, 12> as _, Some(ours::tree::<A1, _, 16, 12, 12> as _));
+    robot::run::<A1, 16, 12, 12, 12>(&manifest, &ARM[..6], known)?;
     let known = (
         ours::dynamics::<A1Free, _, 17, 19, 18> as _,
         Some(ours::dynamics::<A1Free, _, 17, 19, 18> as _),

@@ -4,7 +4,7 @@ use std::hint::black_box;
 use std::marker::PhantomData;
 
 use dynamics_core::algorithms::frame::Local;
-use dynamics_core::algorithms::{self, NotPositiveDefinite, OsimInverse};
+use dynamics_core::algorithms::{self, NotPositiveDefinite, OsimInverse, TorqueGradient};
 use dynamics_core::effects::{Coriolis, Gravity, RIGID_BODY};
 use dynamics_core::model::{Model, OnBody, Robot, model};
 use dynamics_core::scalar::{Real, Vector};
@@ -45,6 +45,9 @@ pub fn run_time<T: Robot<B, Q, V>, R: Real, const B: usize, const Q: usize, cons
         "bias" => rows(PEER, states, move |s| algorithms::rnea(&*model, s, &BIAS)),
         "gravity" => rows(PEER, states, move |s| algorithms::rnea(&*model, s, &GRAVITY)),
         "crba" => squares(PEER, states, move |s| algorithms::crba(&*model, &s.q, &RIGID_BODY)),
+        "gradient" => {
+            gradients(PEER, states, move |s| algorithms::rnea_derivatives(&*model, s, &RIGID_BODY))
+        }
         "osim" => tips(PEER, states, move |s| {
             algorithms::osim_inverse(&*model, &s.q, B - 1, Local, &RIGID_BODY)
         }),
@@ -74,6 +77,19 @@ pub fn inverse<T: Robot<B, Q, V>, R: Real, const B: usize, const Q: usize, const
             rows("engine", states, |s| Engine::<T>::rnea(s, &GRAVITY)),
         ],
         _ => Vec::new(),
+    }
+}
+
+/// Inverse dynamics and its derivatives, of a robot of revolute joints.
+pub fn tree<T: Robot<B, Q, V>, R: Real, const B: usize, const Q: usize, const V: usize>(
+    algorithm: &str,
+    states: &[State<R, Q, V>],
+) -> Vec<Subject<R>> {
+    match algorithm {
+        "gradient" => {
+            vec![gradients("engine", states, |s| Engine::<T>::rnea_derivatives(s, &RIGID_BODY))]
+        }
+        _ => inverse::<T, R, B, Q, V>(algorithm, states),
     }
 }
 
@@ -112,7 +128,7 @@ pub fn arm<T: Robot<B, N, N>, R: Real, const B: usize, const N: usize, const TIP
                 Engine::<T>::osim_inverse(&s.q, tip, Local, &RIGID_BODY)
             }),
         ],
-        _ => inverse::<T, R, B, N, N>(algorithm, states),
+        _ => tree::<T, R, B, N, N>(algorithm, states),
     }
 }
 
@@ -129,6 +145,22 @@ pub fn rows<R: Real, S: Clone + 'static, const N: usize>(
         }
     };
     Subject::new(peer, Box::new(run), (0..N).map(Some).collect())
+}
+
+/// A function that gives ∂τ/∂q and ∂τ/∂q̇, each by rows.
+fn gradients<R: Real, const Q: usize, const N: usize>(
+    peer: &str,
+    states: &[State<R, Q, N>],
+    call: impl Fn(&State<R, Q, N>) -> TorqueGradient<R, N> + 'static,
+) -> Subject<R> {
+    let states = states.to_vec();
+    let run = move |out: &mut [R]| {
+        for (out, by) in std::iter::zip(out.chunks_mut(2 * N * N), states.iter().map(&call)) {
+            out[..N * N].copy_from_slice(by.dq.as_flattened());
+            out[N * N..].copy_from_slice(by.dqd.as_flattened());
+        }
+    };
+    Subject::new(peer, Box::new(run), (0..2 * N * N).map(Some).collect())
 }
 
 /// A function that gives M, which is written by rows.

@@ -1,5 +1,6 @@
 //! One robot: every algorithm in both precisions.
 
+use std::borrow::Cow;
 use std::error::Error;
 
 use dynamics_core::model::Robot;
@@ -72,7 +73,7 @@ fn one<R: Real, const Q: usize, const V: usize>(
     let mut errors = Vec::new();
     for subject in &mut checked {
         let bound = bound(algorithm, precision, recording.condition);
-        let error = subject.check(states.len(), expected, full_scale, bound);
+        let error = subject.check(states.len(), &expected, full_scale, bound);
         errors.push(error.map_err(|e| format!("{algorithm} of {}: {e}", recording.robot))?);
     }
     let states = self::states(recording, algorithm, BATCH);
@@ -123,9 +124,15 @@ fn states<R: Real, const Q: usize, const V: usize>(
 }
 
 /// Pinocchio's results, and their full scale.
-fn expected<'a>(recording: &'a Recording, algorithm: &str) -> (&'a [Vec<f64>], f64) {
+fn expected<'a>(recording: &'a Recording, algorithm: &str) -> (Cow<'a, [Vec<f64>]>, f64) {
     let scale = &recording.full_scale;
-    match algorithm {
+    let (rows, scale) = match algorithm {
+        "gradient" => {
+            let both = recording.rnea_by_q.iter().zip(&recording.rnea_by_qd);
+            let rows: Vec<_> = both.map(|(q, qd)| [&q[..], qd].concat()).collect();
+            let scale = recordings::full_scale(&rows);
+            return (rows.into(), scale);
+        }
         "rnea" => (&recording.rnea, scale.rnea),
         "bias" => (&recording.bias, scale.bias),
         "gravity" => (&recording.gravity, scale.gravity),
@@ -135,7 +142,8 @@ fn expected<'a>(recording: &'a Recording, algorithm: &str) -> (&'a [Vec<f64>], f
             (rows, recordings::full_scale(rows))
         }
         _ => (&recording.aba, scale.aba),
-    }
+    };
+    (rows.into(), scale)
 }
 
 /// Largest error of a function that is worth timing, relative to full scale. Forward dynamics and

@@ -33,7 +33,7 @@ pub struct Subject<R> {
 #[derive(Serialize)]
 pub struct Row<'a> {
     pub robot: &'a str,
-    /// `rnea`, `bias`, `gravity`, `crba`, `aba`, `osim` or, with loops, `loops inverse` and
+    /// `rnea`, `bias`, `gravity`, `crba`, `aba`, `gradient`, `osim` or, with loops, `loops inverse` and
     /// `loops forward`.
     pub algorithm: &'a str,
     pub peer: &'a str,

@@ -14,6 +14,7 @@
 #include <pinocchio/algorithm/aba.hpp>
 #include <pinocchio/algorithm/crba.hpp>
 #include <pinocchio/algorithm/delassus.hpp>
+#include <pinocchio/algorithm/rnea-derivatives.hpp>
 #include <pinocchio/algorithm/rnea.hpp>
 
 #include "robot.hpp"
@@ -28,11 +29,14 @@ struct Peer {
   PINOCCHIO_ALIGNED_STD_VECTOR(pinocchio::RigidConstraintModelTpl<Real>) tip;
   PINOCCHIO_ALIGNED_STD_VECTOR(pinocchio::RigidConstraintDataTpl<Real>) tip_data;
   Matrix mobility;
+  // ∂τ/∂q above ∂τ/∂q̇, by rows; entries between two limbs stay zero.
+  Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> both;
 
   explicit Peer(const Robot &robot)
       : model(pinocchio_model(robot, Position::angle).cast<Real>()), data(model) {
     tip.emplace_back(pinocchio::CONTACT_6D, model, model.njoints - 1, pinocchio::LOCAL);
     tip_data.emplace_back(tip.back());
+    both.setZero(2 * model.nv, model.nv);
     pinocchio::initPvDelassus(model, data, tip);
   }
 
@@ -41,6 +45,13 @@ struct Peer {
   const Matrix &osim(const Q &q) {
     pinocchio::computeDelassusMatrix(model, data, q, tip, tip_data, mobility);
     return mobility;
+  }
+
+  template <typename Q, typename V>
+  const auto &gradient(const Q &q, const V &v, const V &a) {
+    const Eigen::Index n = model.nv;
+    pinocchio::computeRNEADerivatives(model, data, q, v, a, both.topRows(n), both.bottomRows(n), data.M);
+    return both;
   }
 };
 
@@ -85,7 +96,8 @@ static void run(void *peer, const Real *state, std::size_t count, Real *out, Alg
   ALGORITHM(gravity, REAL, PRECISION, pinocchio::computeGeneralizedGravity(model, data, q))  \
   ALGORITHM(crba, REAL, PRECISION, pinocchio::crba(model, data, q))                         \
   ALGORITHM(aba, REAL, PRECISION, pinocchio::aba(model, data, q, v, a))                     \
-  ALGORITHM(osim, REAL, PRECISION, p.osim(q))
+  ALGORITHM(osim, REAL, PRECISION, p.osim(q))                                               \
+  ALGORITHM(gradient, REAL, PRECISION, p.gradient(q, v, a))
 
 PEER(float, f32)
 PEER(double, f64)

@@ -30,6 +30,8 @@ use crate::studies::scenes::first_screen;
 /// ID(q, q̇, q̈), ID(q, q̇, 0), ID(q, 0, 0), the mass matrix, FD(q, q̇, τ), and Λ⁻¹ of the tip of
 /// an arm.
 const ALGORITHMS: [&str; 6] = ["rnea", "bias", "gravity", "crba", "aba", "osim"];
+/// ∂ID/∂q and ∂ID/∂q̇, on the host alone.
+const GRADIENT: &str = "gradient";
 const PRECISIONS: [&str; 2] = ["f32", "f64"];
 const PAGE: &str = "docs/peers.md";
 /// The most seconds of processor time of a release build of firmware with one function.

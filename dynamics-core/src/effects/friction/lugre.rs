@@ -15,7 +15,8 @@ use crate::state::entry;
 /// / g), so that no step makes it unstable). The model is passive (it returns no more than the σ₀
 /// z²/2 that its bristles store) while σ₁ ≤ 4 g / |q̇|, which may be violated by fast joints. With
 /// σ₁ near √(σ₀ M) the inertia M does not oscillate on the bristles. Cost: an exponential, a
-/// division and some 20 flops per joint.
+/// division and some 20 flops per joint. Where derivatives of dynamics are computed it is
+/// [`Frozen`](crate::effects::Frozen): its bristles are a state of their own.
 ///
 /// ```
 /// use dynamics_core::effects::{Effect, JointState, Lugre, Width};

@@ -11,9 +11,9 @@ use crate::kit::progress::Spinner;
 use crate::kit::shell;
 use crate::kit::workspace::{self, Workspace};
 use crate::studies::peers::build::Workshop;
-use crate::studies::peers::outputs;
 use crate::studies::peers::report::{self, HOST, Row};
 use crate::studies::peers::robots::Robot;
+use crate::studies::peers::{GRADIENT, outputs};
 
 const C_COMPILERS: [&str; 2] = ["gcc", "clang"];
 const CPP_COMPILERS: [&str; 2] = ["g++", "clang++"];
@@ -120,8 +120,9 @@ pub fn casadi(shop: &Workshop<'_>, robots: &[Robot]) -> Result<Vec<Value>> {
 
 fn wanted(robots: &[Robot]) -> impl Iterator<Item = Wanted<'_>> {
     robots.iter().flat_map(|robot| {
+        let gradient = (!robot.is_free() && !robot.has_many_joints()).then_some(&GRADIENT);
         let pairs = (robot.precisions().iter())
-            .flat_map(|p| robot.algorithms().iter().map(move |a| (a, p)));
+            .flat_map(move |p| robot.algorithms().iter().chain(gradient).map(move |a| (a, p)));
         pairs.map(move |(algorithm, precision)| (robot, *algorithm, *precision))
     })
 }

@@ -5,9 +5,9 @@ use serde::{Deserialize, Serialize};
 use crate::kit::bars::{self, Compared};
 use crate::kit::meter::MODEL;
 use crate::kit::table::{Table, thousands};
-use crate::studies::peers::ALGORITHMS;
 use crate::studies::peers::gates::{self, INSIDE, WAYS};
 use crate::studies::peers::robot_dynamics;
+use crate::studies::peers::{ALGORITHMS, GRADIENT};
 
 /// The processor that runs xtask.
 pub const HOST: &str = "host";
@@ -163,7 +163,12 @@ impl Report {
             gates = section("CV32E40P", ON_GATES, &|a| self.on_gates(a), &gates::ALGORITHMS),
             ways = ways.collect::<String>(),
             robot_dynamics = robot_dynamics::table(&self.rows).markdown(),
-            host = section("Host", ON_HOST, &|a| self.on_host(a), &ALGORITHMS),
+            host = section(
+                "Host",
+                ON_HOST,
+                &|a| self.on_host(a),
+                &[&ALGORITHMS[..], &[GRADIENT]].concat()
+            ),
             builds = self.build_times().markdown(),
             inverse = self.in_a_row("loops inverse").markdown(),
             forward = self.in_a_row("loops forward").markdown(),

@@ -8,7 +8,6 @@ import numpy.typing as npt
 
 _Array = npt.ArrayLike
 _Result = npt.NDArray[Any]
-_Form = Literal["core", "engine"]
 _Frame = Literal["local", "world", "local_world_aligned"]
 _Effects = Scene | Sequence[Scene]
 _Vector = Sequence[float] | npt.NDArray[Any]
@@ -275,9 +274,9 @@ class Robot:
     def neutral(self) -> _Result: "The configuration of rest, (nq,): zeros and quaternions of no rotation."
     def costs(self) -> list[Cost]: "The cost of each algorithm on a Cortex-M4F for this robot, from the repository's records.\n\nRaises NotRecorded for a robot without a record, such as one from a file."
     def scene_cycles(self) -> int: "The longest tick of the robot's scene on a Cortex-M4F, cycles: encoders, reference,\ndynamics, safety and drives.\n\nRaises NotRecorded for a robot without a scene."
-    def rnea(self, q: _Array, qd: _Array, qdd: _Array, effects: _Effects | None = None, form: _Form = "core") -> _Result: "Inverse dynamics: the torques (…, nv), N·m or N, for q (…, nq), q̇ and q̈ (…, nv). Equations\n(3) to (8) of Featherstone and Orin."
-    def bias(self, q: _Array, qd: _Array, effects: _Effects | None = None, form: _Form = "core") -> _Result: "The torques (…, nv), N·m or N, at q (…, nq) and q̇ (…, nv) without acceleration: C(q, q̇)\nq̇ + g(q) and the other effects."
-    def gravity(self, q: _Array, effects: _Effects | None = None, form: _Form = "core") -> _Result: "The torques (…, nv), N·m or N, that hold the robot against gravity at q (…, nq). No other\neffects than Gravity and loads act."
+    def rnea(self, q: _Array, qd: _Array, qdd: _Array, effects: _Effects | None = None) -> _Result: "Inverse dynamics: the torques (…, nv), N·m or N, for q (…, nq), q̇ and q̈ (…, nv). Equations\n(3) to (8) of Featherstone and Orin."
+    def bias(self, q: _Array, qd: _Array, effects: _Effects | None = None) -> _Result: "The torques (…, nv), N·m or N, at q (…, nq) and q̇ (…, nv) without acceleration: C(q, q̇)\nq̇ + g(q) and the other effects."
+    def gravity(self, q: _Array, effects: _Effects | None = None) -> _Result: "The torques (…, nv), N·m or N, that hold the robot against gravity at q (…, nq). No other\neffects than Gravity and loads act."
     def rnea_and_wrenches(self, q: _Array, qd: _Array, qdd: _Array, effects: _Effects | None = None) -> tuple[_Result, _Result]: "Inverse dynamics with the wrenches in joints: the torques (…, nv), N·m or N, and the wrench\nthat the parent exerts on each body through its joint, (…, bodies, 6), couple and force,\nN·m and N, in the body's own frame; q (…, nq), q̇ and q̈ (…, nv). That of a body beyond a\nforce sensor is what the sensor shows, but for its offset."
     def rnea_two_velocities(self, q: _Array, qd: _Array, qdd: _Array, qd_r: _Array, effects: _Effects | None = None) -> _Result: "M q̈_r + C(q, q̇) q̇_r + g and the other effects, (…, nv): q (…, nq), q̇, q̈_r and q̇_r (…,\nnv)."
     def crba(self, q: _Array, effects: _Effects | None = None) -> _Result: "M(q), the joint-space inertia matrix (…, nv, nv), kg·m² or kg, with the motors' `Armature`;\nq (…, nq)."
@@ -293,6 +292,8 @@ class Robot:
     def acceleration_error(self, m: _Array, l: _Array, d_inv: _Array, qdd: _Array, terms: _Array) -> _Result: "The estimated error (…, nv), rad/s² or m/s², that rounding leaves in a solution q̈ (…, nv)\nof M q̈ = b: M (…, nv, nv), L and the reciprocals of D of `ltdl`, q̈, and the sums of the\nmagnitudes of the terms of b (…, nv), N·m or N."
     def aba(self, q: _Array, qd: _Array, tau: _Array, effects: _Effects | None = None) -> _Result: "Forward dynamics by articulated bodies: q̈ (…, nv), rad/s² or m/s², for q (…, nq), q̇ and τ\n(…, nv)."
     def forward_dynamics(self, q: _Array, qd: _Array, tau: _Array, effects: _Effects | None = None) -> _Result: "Forward dynamics by M and its factors: q̈ (…, nv), rad/s² or m/s², for q (…, nq), q̇ and τ\n(…, nv)."
+    def rnea_derivatives(self, q: _Array, qd: _Array, qdd: _Array, effects: _Effects | None = None) -> tuple[_Result, _Result]: ""
+    def forward_dynamics_derivatives(self, q: _Array, qd: _Array, tau: _Array, effects: _Effects | None = None) -> tuple[_Result, _Result, _Result]: ""
     def forward_dynamics_with_error(self, q: _Array, qd: _Array, tau: _Array, effects: _Effects | None = None) -> tuple[_Result, _Result]: "Forward dynamics by M and its factors, with the error that rounding leaves: q̈ and its\nestimated error, each (…, nv), rad/s² or m/s², for q (…, nq), q̇ and τ (…, nv). It says\nwhether float32 serves for a robot and a state."
     def elastic_inverse_dynamics(self, q: _Array, qd: _Array, qdd: _Array, jerk: _Array, snap: _Array, stiffness: _Vector, rotor: _Vector, friction: _Vector, effects: _Effects | None = None) -> tuple[_Result, _Result, _Result]: "Inverse dynamics with elastic joints: of each motor, reflected to the joint, its torque, N·m\nor N, position, rad or m, and velocity, rad/s or m/s, each (…, nv), for a motion of the\nlinks with four derivatives: q (…, nq), q̇, q̈, jerk, rad/s³ or m/s³, and snap (…, nv),\nrad/s⁴ or m/s⁴.\n\nThe arguments of each joint, (nv,), are the stiffness of the transmission, N·m/rad or N/m,\nthe inertia of the rotor, kg·m² or kg, and the viscous friction of the motor, N·m·s/rad or\nN·s/m, reflected. Effects act on the links; wrenches, rotors that spin, friction of gears\nand a moving base have no place.\n\nRaises MultiDofJoint for a joint of several coordinates."
     def hybrid_dynamics(self, q: _Array, qd: _Array, given: _Array, accelerated: _Array, effects: _Effects | None = None) -> tuple[_Result, _Result]: "Torques and accelerations, each (…, nv), where of each coordinate one is given: its torque,\nor, where ``accelerated`` is not zero, its acceleration. q (…, nq), q̇, given and\naccelerated (…, nv)."

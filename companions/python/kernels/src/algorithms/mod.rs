@@ -287,6 +287,7 @@ fn factors<
     Ok(algorithms::ltdl(robot, &m.plus_diagonal(&fillers(counts)))?)
 }
 
+mod derivatives;
 mod drivetrain;
 mod factors;
 mod flexible;
@@ -295,6 +296,7 @@ mod loops;
 mod manifold;
 mod regressors;
 
+pub use derivatives::*;
 pub use drivetrain::*;
 pub use factors::*;
 pub use flexible::*;

@@ -14,7 +14,7 @@ use dynamics_core::trig::{Kernel as _, Table};
 use certification::image::Image;
 use certification::narrow::magnitude;
 
-use super::recorded::{BASE, EFFECTS, GRAVITY, RNEA, SINES, bytes, graph, robot};
+use super::recorded::{GRAVITY, RNEA, SINES, bytes, graph, program, robot};
 
 const SPENT: Spent = Spent { points: 20_000, fine: 200_000, parts: 10 };
 

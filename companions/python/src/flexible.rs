@@ -153,7 +153,7 @@ impl PyBeam {
     }
 }
 
-/// A robot with links that bend, of up to 8 modes in all. The links' stiffness and damping act in
+/// A robot of up to 16 coordinates with links that bend, of up to 8 modes in all. The links' stiffness and damping act in
 /// every scene.
 ///
 /// Shapes: nm is the number of modes, in the order of the bodies. η of a mode is in m or rad, as

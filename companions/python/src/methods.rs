@@ -70,7 +70,7 @@ macro_rules! methods {
             $(; at $body:ident $(, $frame:ident)?)?
             $(; given $given:ident: $type:ty)?
             $(; under $effects:ident $($refuses:ident)?)?
-            $(; with $option:ident: $of:ty = $default:expr)?
+            $(; with $option:ident: $of:ty = $default:tt)?
         ) = $many:ident($which:ident $({ $($field:tt)* })?): $([$($shape:expr),*]),*;
     )*) => {
         #[::pyo3::pymethods]

@@ -83,8 +83,10 @@ def test_other_algorithms_have_the_bits_of_the_library(name, quantity):
         pytest.skip("of joints of one coordinate")
     robot = rd.Robot(name)
     rows = [x.astype(np.float32) for x in states(robot, 100)]
-    found = ALGORITHMS[quantity](robot, *rows)
-    assert found.ravel().tobytes() == firmware(robot, f"algorithms {quantity}", rows).tobytes()
+    found, expected = ALGORITHMS[quantity](robot, *rows).ravel(), firmware(robot, f"algorithms {quantity}", rows)
+    if "derivatives" in quantity:  # a zero of few entries has another sign
+        found, expected = found + np.float32(0), expected + np.float32(0)
+    assert found.tobytes() == expected.tobytes()
 
 
 def test_loops_and_linkages_have_the_bits_of_the_library():

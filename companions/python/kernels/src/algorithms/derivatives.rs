@@ -32,7 +32,7 @@ algorithm! {
 
 algorithm! {
     /// ∂q̈/∂q, ∂q̈/∂q̇ and ∂q̈/∂τ of q, q̇ and τ: −M⁻¹ ∂ID/∂q, −M⁻¹ ∂ID/∂q̇ and M⁻¹.
-    ForwardDynamicsDerivatives, machine, |this, robot, counts, scene, row| {
+    ForwardDynamicsDerivatives, factored, |this, robot, counts, scene, row| {
         let (mut state, tau) = (state(row, counts, 2), filled::<R, V>(row, 2, counts.v));
         let parts = parts_of(scene);
         let bias = bias::<R, D, B, Q, V, C, X>(robot, &state, (parts, false));

@@ -21,6 +21,7 @@ sys.path.insert(0, str(HERE.parents[1] / "host-tests/oracle"))
 
 from mpmath import lu_solve, matrix, mpf
 from precise import torques
+from recorded import of_one
 
 PATH = HERE / "forward.json"
 

@@ -15,7 +15,7 @@ export const target = resolve(root, process.env.CARGO_TARGET_DIR ?? "target", "w
 /// In the order of their dependence: a script uses those before it alone.
 export const SCRIPTS = [
   "library.js", "words.js", "state.js", "camera.js", "shape.js", "meshes.js", "ground.js", "gl.js", "soft.js", "view.js",
-  "bars.js", "recorded.js", "front.js", "rust.js", "move.js", "disturb.js", "cases.js", "serial.js", "main.js",
+  "bars.js", "recorded.js", "front.js", "rust.js", "move.js", "disturb.js", "cases.js", "main.js",
 ];
 
 const run = (program, args, options = {}) => execFileSync(program, args, { stdio: ["ignore", "inherit", "inherit"], ...options });

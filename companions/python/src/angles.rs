@@ -8,10 +8,6 @@ use robot_dynamics_kernels::spec::Spec;
 
 use crate::error::Exception;
 
-/// The range of the engine in f32 for joints whose limits are within two turns, rad:
-/// `Link::angle_range`.
-const NEAR: f64 = 100.0;
-
 /// A position coordinate whose derivative is a velocity coordinate.
 #[derive(Clone, Copy, Debug)]
 pub struct Position {
@@ -23,8 +19,6 @@ pub struct Position {
     pub kind: JointKind,
     /// Whether it is an angle.
     pub angle: bool,
-    /// Whether the limits of its joint are within two turns.
-    pub near: bool,
 }
 
 /// The use that a function makes of positions.
@@ -102,32 +96,27 @@ impl Positions<'_> {
         py: Python<'_>,
         joint_of: impl Fn(usize) -> &'r str,
         (data, width): (&[R], usize),
-        engine: bool,
         effects: &[Spec],
     ) -> PyResult<Option<Vec<R>>> {
-        let narrow = engine && size_of::<R>() == 4;
         let cogs = effects.iter().any(|effect| matches!(effect, Spec::Cogging { .. }));
         // Almost always none is large, which one pass over all numbers finds.
-        let least = R::from_f64(if narrow { NEAR } else { R::MOST_ANGLE });
+        let least = R::from_f64(R::MOST_ANGLE);
         let fits = |part: &[R]| part.iter().fold(true, |all, x| all & (x.abs() <= least));
         if !cogs && data.chunks(1024).all(fits) {
             return Ok(None);
         }
         let mut changed: Option<Vec<R>> = None;
         for position in self.at {
-            let most = match narrow && position.near {
-                true => NEAR,
-                false => R::MOST_ANGLE,
-            };
             let column = || data.iter().skip(position.column).step_by(width).enumerate();
             let refused = |row: usize, angle: R, reason: String| {
                 let (joint, angle) = (joint_of(position.coordinate), angle.to_f64());
                 let text = format!(
-                    "joint `{joint}` is at {angle} rad, and sines are computed to {most} rad: {reason} (state {row})"
+                    "joint `{joint}` is at {angle} rad, and sines are computed to {} rad: {reason} (state {row})",
+                    R::MOST_ANGLE
                 );
                 let error = Exception::new(py, "AngleError", text).with("joint", joint);
                 let error = error.with("coordinate", position.coordinate);
-                let error = error.with("angle", angle).with("limit", most);
+                let error = error.with("angle", angle).with("limit", R::MOST_ANGLE);
                 Err(error.with("state", row).build())
             };
             for effect in effects {
@@ -143,7 +132,7 @@ impl Positions<'_> {
             if !position.angle {
                 continue;
             }
-            let outside = |x: R| x.to_f64().abs() > most && x.is_finite();
+            let outside = |x: R| x.to_f64().abs() > R::MOST_ANGLE && x.is_finite();
             let Some((first, &angle)) = column().find(|&(_, &x)| outside(x)) else {
                 continue;
             };
@@ -169,25 +158,15 @@ fn within_half_a_turn(angle: f64) -> f64 {
     sin.atan2(cos)
 }
 
-/// The places of the positions of a robot's joints, of kinds and limits; and the velocities that
+/// The places of the positions of a robot's joints, of kinds; and the velocities that
 /// are rates of attitudes.
-pub fn of_joints(
-    joints: impl Iterator<Item = (JointKind, [f64; 4])>,
-) -> (Vec<Position>, Vec<Position>) {
+pub fn of_joints(kinds: impl Iterator<Item = JointKind>) -> (Vec<Position>, Vec<Position>) {
     let (mut positions, mut rates, mut first) = (Vec::new(), Vec::new(), [0, 0]);
-    for (kind, [lower, upper, ..]) in joints {
+    for kind in kinds {
         let [q, v] = first;
         let (nq, nv) = kind.coordinates();
         first = [q + nq, v + nv];
-        let two_turns = 2.0 * std::f64::consts::TAU;
-        let near = -two_turns <= lower && upper <= two_turns;
-        let of = |k: usize, column: usize, angle| Position {
-            column,
-            coordinate: v + k,
-            kind,
-            angle,
-            near,
-        };
+        let of = |k, column, angle| Position { column, coordinate: v + k, kind, angle };
         let (angles, turning) = match kind {
             JointKind::Prismatic | JointKind::Fixed => (0, 0),
             JointKind::Spherical | JointKind::Free => (0, 3),

@@ -2,20 +2,19 @@
 
 use numpy::{Element, PyArrayDyn, PyArrayMethods};
 use pyo3::prelude::*;
-use robot_dynamics_engines::InEngine;
 use robot_dynamics_kernels::job::{Input, Job, Output};
 use robot_dynamics_kernels::model::Models;
 use robot_dynamics_kernels::spec::{BodyRef, fit};
-use robot_dynamics_kernels::{Scalar, Setting};
+use robot_dynamics_kernels::{Scalar, Setting, Which};
 
 use crate::arrays::{Dtype, arrays_of, dtype};
 use crate::effects::refused;
 use crate::failure::of_failure;
-use crate::request::{By, Request};
+use crate::request::Request;
 use crate::robot::Robot;
 
 /// A scalar with numpy's arrays.
-pub trait Numbers: Scalar + InEngine + Element {
+pub trait Numbers: Scalar + Element {
     /// The robot's models in this scalar.
     fn of(robot: &Robot) -> &Models<Self>;
 }
@@ -37,23 +36,22 @@ const ROWS_WITH_LOCK: usize = 64;
 
 impl Robot {
     /// The results of an algorithm.
-    pub fn compute<'a, 'py>(
+    pub fn compute<'py>(
         &self,
         py: Python<'py>,
-        by: impl Into<By<'a>>,
+        which: Which<'_>,
         request: &Request<'_, 'py>,
     ) -> PyResult<Vec<Bound<'py, PyAny>>> {
-        let by = by.into();
         match dtype(request.arguments)? {
-            Dtype::Single => self.compute_in::<f32>(py, by, request),
-            Dtype::Double => self.compute_in::<f64>(py, by, request),
+            Dtype::Single => self.compute_in::<f32>(py, which, request),
+            Dtype::Double => self.compute_in::<f64>(py, which, request),
         }
     }
 
     fn compute_in<'py, R: Numbers>(
         &self,
         py: Python<'py>,
-        by: By<'_>,
+        which: Which<'_>,
         request: &Request<'_, 'py>,
     ) -> PyResult<Vec<Bound<'py, PyAny>>> {
         let number = |body: &BodyRef| self.body_number(body);
@@ -66,14 +64,13 @@ impl Robot {
             refused(py, error.effect, text)
         })?;
         let (leading, arrays) = arrays_of::<R>(request.arguments)?;
-        let engine = matches!(by, By::Engine);
         let rows = leading.iter().product();
         let in_range = arrays.iter().zip(request.arguments);
         let in_range: Vec<Option<Vec<R>>> = in_range
             .map(|(array, argument)| match &argument.positions {
                 Some(positions) => {
                     let data = (array.as_slice()?, argument.width());
-                    positions.in_range(py, |at| self.joint_of(at), data, engine, request.effects)
+                    positions.in_range(py, |at| self.joint_of(at), data, request.effects)
                 }
                 None => Ok(None),
             })
@@ -110,19 +107,7 @@ impl Robot {
             let body = |body: &BodyRef| number(body).unwrap_or(usize::MAX);
             let setting = Setting { counts: self.counts, effects: request.effects, body: &body };
             let models = R::of(self);
-            let engine = match by {
-                By::Model(_) => None,
-                By::Engine => self.library_name().and_then(R::engine),
-            };
-            let rows_by = |job: &mut Job<'_, R>| match (by, engine) {
-                (By::Model(which), _) => R::compute(&which, models, setting, job),
-                (By::Engine, Some(engine)) => {
-                    engine(job);
-                    Ok(())
-                }
-                (By::Engine, None) => unreachable!("the robot was asked for its engine"),
-            };
-            let work = || job.compute(rows_by);
+            let work = || job.compute(|job| R::compute(&which, models, setting, job));
             if rows < ROWS_WITH_LOCK { work() } else { py.detach(work) }
         };
         done.map_err(|failure| of_failure(py, self, request.names, &failure, R::MOST_ANGLE))?;

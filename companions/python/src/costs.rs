@@ -4,8 +4,8 @@ use pyo3::prelude::*;
 
 use crate::error::Exception;
 
-const COSTS: &str = include_str!("../../../docs/costs.md");
-const SCENES: &str = include_str!("../../../docs/scenes.md");
+const COSTS: &str = include_str!("costs.md");
+const SCENES: &str = include_str!("scenes.md");
 
 /// The cost of one call on a modelled Cortex-M4F with zero-wait memory, the slowest of 32 random
 /// states.

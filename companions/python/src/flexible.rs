@@ -2,14 +2,12 @@
 
 use dynamics_core::flexible::{Beam, FlexibleLink, MODES_PER_LINK, Mode, ModeProblem, Shape};
 use pyo3::prelude::*;
-use robot_dynamics_kernels::Which;
 use robot_dynamics_kernels::flexible::{AnyModes, MOST_MODES, NoModes};
 
 use crate::arrays::Argument;
-use crate::effects::given as effects_of;
 use crate::error::{Exception, of_model, wanted};
-use crate::loops::whole;
 use crate::methods::{Machine, methods};
+use crate::robot::given::whole;
 use crate::robot::{Array, Robot, argument};
 
 /// Modes that cannot be used.
@@ -155,7 +153,7 @@ impl PyBeam {
     }
 }
 
-/// A robot with links that bend, of up to 8 modes in all. The links' stiffness and damping act in
+/// A robot of up to 16 coordinates with links that bend, of up to 8 modes in all. The links' stiffness and damping act in
 /// every scene.
 ///
 /// Shapes: nm is the number of modes, in the order of the bodies. η of a mode is in m or rad, as
@@ -212,38 +210,6 @@ impl PyFlexibleRobot {
     fn nm(&self) -> usize {
         self.modes.count
     }
-
-    /// A tick of feed-forward of h seconds: the torques (…, nv), N·m or N, at which the joints'
-    /// motion is a reference, q (…, nq), q̇ and q̈ (…, nv), and η, η̇ and η̈ (…, nm) of the modes
-    /// after it, from those before.
-    #[pyo3(signature = (q, qd, qdd, eta, etad, etadd, h, effects = None))]
-    #[allow(clippy::too_many_arguments, reason = "the state of joints and modes")]
-    fn tick<'py>(
-        &self,
-        py: Python<'py>,
-        q: &Array<'py>,
-        qd: &Array<'py>,
-        qdd: &Array<'py>,
-        eta: &Array<'py>,
-        etad: &Array<'py>,
-        etadd: &Array<'py>,
-        #[pyo3(from_py_with = wanted)] h: f64,
-        effects: Option<&Bound<'py, PyAny>>,
-    ) -> PyResult<Array<'py>> {
-        let given = [
-            self.q("q", q),
-            self.v("qd", qd),
-            self.v("qdd", qdd),
-            self.m("eta", eta),
-            self.m("etad", etad),
-            self.m("etadd", etadd),
-        ];
-        let (modes, effects) = (&self.modes, effects_of(effects)?);
-        whole(py, &effects)?;
-        let (m, which) = (modes.count, Which::FeedforwardTick { modes, h });
-        let results: &[&[usize]] = &[&[self.robot().counts.v], &[m], &[m], &[m]];
-        self.several(py, which, &effects, &given, results)
-    }
 }
 
 methods! {
@@ -269,6 +235,11 @@ methods! {
     /// η̈ (…, nm), m/s² or rad/s², along a motion of the joints, q (…, nq), q̇ and q̈ (…, nv),
     /// whatever torques it takes; η and η̇ (…, nm).
     modal_dynamics(q: q, qd: v, qdd: v, eta: m, etad: m; under effects whole) = one(ModalDynamics { modes }): [m];
+
+    /// A tick of feed-forward of h seconds: the torques (…, nv), N·m or N, at which the joints'
+    /// motion is a reference, q (…, nq), q̇ and q̈ (…, nv), and η, η̇ and η̈ (…, nm) of the modes
+    /// after it, from those before.
+    tick(q: q, qd: v, qdd: v, eta: m, etad: m, etadd: m; given h: f64; under effects whole) = several(FeedforwardTick { modes, h }): [v], [m], [m], [m];
 
     /// η (…, nm), m or rad, at rest under the scene's gravity at q (…, nq).
     ///

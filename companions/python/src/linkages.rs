@@ -11,8 +11,8 @@ use robot_dynamics_kernels::linkages::{self, Linkage, MOST_COEFFICIENTS};
 use crate::angles::{Position, Positions, Use};
 use crate::arrays::Argument;
 use crate::error::{Exception, wanted};
-use crate::loops::whole;
 use crate::methods::{Machine, methods};
+use crate::robot::given::whole;
 use crate::robot::{Array, Robot, argument};
 
 /// A linkage whose coordinates are a function of fewer independent ones, such as `FourBar(...)`.

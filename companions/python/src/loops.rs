@@ -6,14 +6,15 @@ use pyo3::prelude::*;
 use robot_dynamics_kernels::Which;
 use robot_dynamics_kernels::loops::{AnyLoops, MOST_LOOPS};
 use robot_dynamics_kernels::model::number;
-use robot_dynamics_kernels::spec::Spec;
+
 use robot_import::number::Attitude;
 
 use crate::angles::Use;
 use crate::arrays::Argument;
-use crate::effects::{self, given as effects_of};
+use crate::effects::given as effects_of;
 use crate::error::{Exception, wanted};
 use crate::methods::{Machine, methods};
+use crate::robot::given::whole;
 use crate::robot::{Array, Robot, argument};
 
 /// A joint that closes a loop: its name, its kind, the two bodies by name or number, None being the
@@ -266,18 +267,4 @@ methods! {
     /// Raises LoopOpen, UnderActuated and NotFinite. Scenes have Inertia and Coriolis, and no
     /// friction of gears.
     inverse_dynamics(q: q, yd: motors, ydd: motors; under effects whole) = several(LoopInverse { loops }): [a], [v], [v], [l], [];
-}
-
-/// Refuses scenes that machines with loops do not have.
-pub fn whole(py: Python<'_>, effects: &[Spec]) -> PyResult<()> {
-    let foreign = effects
-        .iter()
-        .find(|effect| matches!(effect, Spec::LoadFriction { .. } | Spec::GyroscopicRotors { .. }));
-    let (effect, text) = match foreign {
-        Some(effect) => (effect.name(), "a machine with loops has no place for it"),
-        None if !effects.contains(&Spec::Inertia) => ("Inertia", "it has to be in the scene"),
-        None if !effects.contains(&Spec::Coriolis) => ("Coriolis", "it has to be in the scene"),
-        None => return Ok(()),
-    };
-    Err(effects::refused(py, effect, format!("{effect}: {text}")))
 }

@@ -2,10 +2,11 @@
 
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
+use robot_dynamics_kernels::Which;
 use robot_dynamics_kernels::spec::Spec;
 
 use crate::arrays::Argument;
-use crate::request::{By, Request};
+use crate::request::Request;
 use crate::robot::{Array, Robot};
 
 /// A robot, alone or with loops, linkages or links that bend.
@@ -29,35 +30,36 @@ pub trait Machine {
     }
 
     /// The results of an algorithm that has several, a tuple.
-    fn several<'a, 'py>(
+    fn several<'py>(
         &self,
         py: Python<'py>,
-        by: impl Into<By<'a>>,
+        which: Which<'_>,
         effects: &[Spec],
         arguments: &[Argument<'_, 'py>],
         results: &[&[usize]],
     ) -> PyResult<Array<'py>> {
         let request = Request { effects, arguments, results, names: self.names() };
-        let all = self.robot().compute(py, by, &request)?;
+        let all = self.robot().compute(py, which, &request)?;
         Ok(PyTuple::new(py, all)?.into_any())
     }
 
     /// The result of an algorithm that has one.
-    fn one<'a, 'py>(
+    fn one<'py>(
         &self,
         py: Python<'py>,
-        by: impl Into<By<'a>>,
+        which: Which<'_>,
         effects: &[Spec],
         arguments: &[Argument<'_, 'py>],
         results: &[&[usize]],
     ) -> PyResult<Array<'py>> {
-        self.several(py, by, effects, arguments, results)?.get_item(0)
+        self.several(py, which, effects, arguments, results)?.get_item(0)
     }
 }
 
 /// Methods of a class: each has arrays with the functions that make arguments of them, perhaps a
-/// body or a frame on one and the axes, perhaps effects and what refuses some; and one result or several of an
-/// algorithm, with the shape of a row of each.
+/// body or a frame on one and the axes, perhaps an argument of another type, perhaps effects and what
+/// refuses some, perhaps an option; and one result or several of an algorithm, with the shape of a
+/// row of each.
 macro_rules! methods {
     (@effects) => { &[] };
     (@effects $effects:ident) => { &$effects };
@@ -66,13 +68,15 @@ macro_rules! methods {
         $method:ident(
             $($array:ident: $kind:ident $(by $use:ident)?),*
             $(; at $body:ident $(, $frame:ident)?)?
+            $(; given $given:ident: $type:ty)?
             $(; under $effects:ident $($refuses:ident)?)?
+            $(; with $option:ident: $of:ty = $default:tt)?
         ) = $many:ident($which:ident $({ $($field:tt)* })?): $([$($shape:expr),*]),*;
     )*) => {
         #[::pyo3::pymethods]
         impl $class {$(
             $(#[$doc])*
-            #[pyo3(signature = ($($array,)* $($body, $($frame = "local",)?)? $($effects = None)?))]
+            #[pyo3(signature = ($($array,)* $($body, $($frame = "local",)?)? $($given,)? $($effects = None,)? $($option = $default)?))]
             #[allow(
                 unused_variables,
                 clippy::too_many_arguments,
@@ -83,7 +87,9 @@ macro_rules! methods {
                 py: ::pyo3::Python<'py>,
                 $($array: &$crate::robot::Array<'py>,)*
                 $($body: &$crate::robot::Array<'py>, $($frame: &str,)?)?
+                $(#[pyo3(from_py_with = $crate::error::wanted)] $given: $type,)?
                 $($effects: Option<&$crate::robot::Array<'py>>,)?
+                $(#[pyo3(from_py_with = $crate::error::wanted)] $option: $of,)?
             ) -> ::pyo3::PyResult<$crate::robot::Array<'py>> {
                 use $crate::methods::Machine as _;
                 let $this = self;

@@ -26,15 +26,11 @@ use robot_import::tree::{Numbers, Tree};
 use crate::angles::{self, Position, Positions, Use};
 use crate::arrays::Argument;
 use crate::costs::{self, Cost};
-use crate::effects::refused;
 use crate::error::{Exception, of_import, of_model, wanted};
 use crate::library;
 use crate::methods::Machine;
-use crate::request::By;
-use robot_dynamics_engines::InEngine;
-use robot_dynamics_kernels::Which;
 use robot_dynamics_kernels::model::{Bodies, Counts, Models};
-use robot_dynamics_kernels::spec::{BodyRef, Spec};
+use robot_dynamics_kernels::spec::BodyRef;
 
 use frames::{Frame, Framed, frames};
 use given::{frame_of, with_inertia, without_rotors};
@@ -55,10 +51,9 @@ use said::Said;
 /// joint a quaternion (x, y, z, w), of a free joint that and then the position; q̇ of a free joint
 /// has the angular velocity first, both in the body's axes.
 ///
-/// Angles may have any size. Sines are computed to ±10⁴ rad in float32 and to ±10⁵ rad in float64
-/// (``form="engine"``: ±100 rad in float32 for joints whose limits are within ±4π); of an angle
-/// beyond, whole turns are subtracted in float64 before the call. AngleError names joint and state
-/// where turns matter: at joints with a spring, end stops or cogging, in `elastic_inverse_dynamics`
+/// Angles may have any size. Sines are computed to ±10⁴ rad in float32 and to ±10⁵ rad in float64;
+/// of an angle beyond, whole turns are subtracted in float64 before the call. AngleError names joint
+/// and state where turns matter: at joints with a spring, end stops or cogging, in `elastic_inverse_dynamics`
 /// and `Loops.assemble`, which return positions, and in linkages.
 ///
 /// A state with a NaN or an infinite number has NaN in its own row of the results; the others of
@@ -147,8 +142,7 @@ impl Robot {
         {
             (body.kind, body.parent) = (kind, parent);
         }
-        let joints = bodies.iter().map(|body| (body.kind, body.limits));
-        let (positions, rates) = angles::of_joints(joints);
+        let (positions, rates) = angles::of_joints(described.kinds());
         Ok(Self {
             positions,
             rates,
@@ -294,36 +288,6 @@ impl Robot {
         };
         let found = body.and_then(|body| self.body_number(&body));
         found.ok_or_else(|| self.unknown_body(given))
-    }
-
-    /// The way in which a form computes inverse dynamics of so many of q, q̇ and q̈.
-    fn by(
-        &self,
-        py: Python<'_>,
-        form: &str,
-        given: usize,
-        effects: &[Spec],
-    ) -> PyResult<By<'static>> {
-        if form == "core" {
-            return Ok(Which::Rnea { given, still: false }.into());
-        }
-        let none = |text| {
-            let error = Exception::new(py, "NoEngine", text);
-            Err(error.with("robot", self.name.as_str()).build())
-        };
-        if form != "engine" {
-            return none(format!("there is no form `{form}`: \"core\" or \"engine\""));
-        }
-        if self.library.and_then(<f32 as InEngine>::engine).is_none() {
-            return none(format!("the wheel has no engine of `{}`", self.name));
-        }
-        let down = Spec::Gravity([0.0, 0.0, -9.81]);
-        let scene = &[down, Spec::Coriolis, Spec::Inertia][..given];
-        if effects.len() == given && scene.iter().all(|spec| effects.contains(spec)) {
-            return Ok(By::Engine);
-        }
-        let text = "the engines of the wheel have the scenes of RIGID_BODY alone; other effects are computed by form = \"core\"";
-        Err(refused(py, "", text))
     }
 
     /// A value for each velocity coordinate.

@@ -12,7 +12,7 @@ from trees import states
 
 METHODS = [
     ("rnea", "q v a"), ("bias", "q v"), ("gravity", "q"), ("rnea_two_velocities", "q v a v"), ("crba", "q"),
-    ("inverse_mass", "q"), ("aba", "q v t"), ("forward_dynamics", "q v t"), ("hybrid_dynamics", "q v t m"),
+    ("inverse_mass", "q"), ("rnea_derivatives", "q v a"), ("forward_dynamics_derivatives", "q v t"), ("aba", "q v t"), ("forward_dynamics", "q v t"), ("hybrid_dynamics", "q v t m"),
     ("transmitted_torque", "q v t"), ("jacobian", "q b"), ("bias_acceleration", "q v b"), ("poses", "q"),
     ("kinematics", "q v a"), ("kinetic_energy", "q v"), ("potential_energy", "q"), ("momentum", "q v"),
     ("centroidal_momentum", "q v"), ("centroidal_matrix", "q"), ("center_of_mass", "q v"),
@@ -37,16 +37,19 @@ def arguments(robot, names, count, dtype):
     return [table[name] for name in names.split()]
 
 
+def cases(*robots):
+    """Methods with the robots that have them: some are of a free base or of joints of one coordinate."""
+    free = {"base_velocity_from_momentum": True, "elastic_inverse_dynamics": False}
+    return [(*row, name) for row in METHODS for name in robots if free.get(row[0], name.endswith("free")) == name.endswith("free")]
+
+
 def row(argument, i):
     return argument[i] if isinstance(argument, np.ndarray) else argument
 
 
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
-@pytest.mark.parametrize("name", ["ur5e", "a1", "a1_free"])
-@pytest.mark.parametrize(("method", "names"), METHODS)
+@pytest.mark.parametrize(("method", "names", "name"), cases("ur5e", "a1", "a1_free"))
 def test_batches_are_their_states_to_the_bit(method, names, name, dtype):
-    if not suits(method, name):
-        pytest.skip("of a free base, or of joints of one coordinate")
     robot = rd.Robot(name)
     count = 37
     given = arguments(robot, names, count, dtype)
@@ -69,21 +72,13 @@ def test_threads_compute_what_one_computes(dtype):
     assert robot.aba(q, v, t).tobytes() == parts.tobytes()
 
 
-def suits(method, name):
-    free = {"base_velocity_from_momentum": True, "elastic_inverse_dynamics": False}
-    return free.get(method, name == "a1_free" or name.endswith("free")) == name.endswith("free")
-
-
 def all_of(found):
     return found if isinstance(found, tuple) else (found,)
 
 
-@pytest.mark.parametrize("name", ["ur5e", "a1_free"])
-@pytest.mark.parametrize(("method", "names"), METHODS)
+@pytest.mark.parametrize(("method", "names", "name"), cases("ur5e", "a1_free"))
 def test_leading_axes_broadcast_as_numpys(method, names, name):
     """(2, 1), (3,), none and (1, 1) go together, to the bit of each state alone; so does nothing."""
-    if not suits(method, name):
-        pytest.skip("of a free base, or of joints of one coordinate")
     robot = rd.Robot(name)
     given, call = arguments(robot, names, 3, np.float64), getattr(robot, method)
     places = [i for i, argument in enumerate(given) if isinstance(argument, np.ndarray)]
@@ -102,11 +97,8 @@ def test_leading_axes_broadcast_as_numpys(method, names, name):
         assert none.shape == (0, *batch.shape[1:]) and none.dtype == np.float64
 
 
-@pytest.mark.parametrize("name", ["ur5e", "a1_free"])
-@pytest.mark.parametrize(("method", "names"), METHODS)
+@pytest.mark.parametrize(("method", "names", "name"), cases("ur5e", "a1_free"))
 def test_integers_are_float64(method, names, name):
-    if not suits(method, name):
-        pytest.skip("of a free base, or of joints of one coordinate")
     robot = rd.Robot(name)
     given, call = arguments(robot, names, 3, np.float64), getattr(robot, method)
     arrays = [isinstance(x, np.ndarray) for x in given]

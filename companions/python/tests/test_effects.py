@@ -184,7 +184,6 @@ def test_effects_of_ones_own_are_called_once():
     assert calls[:2] == [((6, 6), (6, 6)), ((2, 3, 6), (2, 3, 6))] and len(calls) == 3
     assert np.allclose(robot.bias(q, v, own), robot.rnea(q, v, 0 * a, own))
     assert np.array_equal(robot.gravity(q, own), robot.gravity(q))
-    assert np.allclose(robot.rnea(q, v, a, own, form="engine"), robot.rnea(q, v, a, own))
     for method in (robot.aba, robot.forward_dynamics):
         assert np.allclose(method(q, v, robot.rnea(q, v, a, own), own), a, rtol=0, atol=1e-9)
         assert np.array_equal(method(q, v, tau, own), method(q, v, tau - friction(q, v)))
@@ -202,3 +201,24 @@ def test_effects_of_ones_own_are_called_once():
         robot.rnea(q, v, a, rd.OwnEffect(lambda q, qd: qd[:, :3]))
     with pytest.raises(ZeroDivisionError):
         robot.rnea(q, v, a, rd.OwnEffect(lambda q, qd: 1 / 0))
+
+
+def test_derivatives_have_those_of_effects():
+    """Against differences, with what the library knows derivatives of; the rest is refused."""
+    robot = rd.Robot("ur5e")
+    q, v, a, tau = (x[0] for x in states(robot, 1))
+    scene = rd.RIGID_BODY + rd.Viscous([0.4] * 6) + rd.Spring([30.0] * 6, [0.1] * 6) + rd.Armature([0.2] * 6)
+    scene += rd.Payload(robot.bodies[-1], 0.7) + rd.MovingBase([0.1, -0.2, 0.3, 0.4, 0.5, -0.6], [1.0, 2.0, -1.0, 0.5, 0.3, 0.2])
+    inverse, forward = robot.rnea_derivatives(q, v, a, scene), robot.forward_dynamics_derivatives(q, v, tau, scene)
+    steps = 1e-6 * np.eye(6)
+    for k in range(6):
+        by = [[steps[k] if i == k_of else 0.0 for i in range(3)] for k_of in range(3)]
+        for found, function, given in ((inverse, robot.rnea, (q, v, a)), (forward, robot.forward_dynamics, (q, v, tau))):
+            for derivative, step in zip(found, by):
+                after, before = (function(*(x + s * d for x, d in zip(given, step)), scene) for s in (1, -1))
+                assert np.abs((after - before) / 2e-6 - derivative[:, k]).max() < 1e-6 * np.abs(derivative).max()
+    wrench = rd.BodyWrench(robot.bodies[-1], [1.0] * 6)
+    for effect, refused in (("Coriolis", rd.Gravity() + rd.Inertia()), ("Inertia", rd.Gravity()), ("BodyWrench", scene + wrench)):
+        with pytest.raises(rd.EffectError) as error:
+            robot.rnea_derivatives(q, v, a, refused)
+        assert error.value.effect == effect

@@ -358,6 +358,8 @@ def test_what_modes_cannot_be_is_named():
         rd.FlexibleRobot(robot, [rd.FlexibleLink("crank", [0.5, 0.0, 0.0], [mode], [[np.zeros((3, 3))]], [[1.0]], [[0.0]])])
     with pytest.raises(rd.UnknownBody):
         rd.FlexibleRobot(robot, [beam.link("hand", [("bend_z", 1)])])
+    with pytest.raises(rd.ModelError, match="at most 16"):
+        rd.FlexibleRobot(rd.Robot("g1"), [beam.link(0, [("bend_z", 1)])])
     boom = machines.boom()
     with pytest.raises(rd.ModeError) as error:
         boom.modal_dynamics(*[np.zeros((2, 2))] * 3, np.array([Z3, Z3 + 1e300]), np.zeros((2, 3)))

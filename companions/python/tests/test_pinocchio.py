@@ -148,6 +148,26 @@ def test_forward_dynamics_is_pinocchios(pair):
         near(robot.forward_dynamics(x, y, t), expected, share)
 
 
+def test_derivatives_are_pinocchios(pair):
+    """For all states at once, and in float32 for states of float32."""
+    robot, peer, (q, v, a, tau) = pair
+    single = [x.astype(np.float32) for x in (q, v, a, tau)]
+    for dtype, share in ((np.float64, FULL_SCALE), (np.float32, 2e-5)):
+        x, y, z, t = given = single if dtype is np.float32 else (q, v, a, tau)
+        inverse = robot.rnea_derivatives(x, y, z)
+        forward = robot.forward_dynamics_derivatives(x, y, t)
+        for i, state in enumerate(zip(*(x.astype(float) for x in given))):
+            pq, pv, pa, pt = peer.q(robot, state[0]), *(peer.v(robot, x) for x in state[1:])
+            expected = [matrix(peer, robot, m) for m in pin.computeRNEADerivatives(peer.model, peer.data, pq, pv, pa)]
+            for found, theirs in zip(inverse, expected):
+                assert found.dtype == dtype
+                near(found[i], theirs, share)
+            expected = [matrix(peer, robot, m) for m in pin.computeABADerivatives(peer.model, peer.data, pq, pv, pt)]
+            condition = np.linalg.cond(robot.crba(state[0]))
+            for found, theirs in zip(forward, expected):
+                near(found[i], theirs, max(share, condition * (2.0**-50 if dtype is np.float64 else 2.0**-20)))
+
+
 def test_kinematics_are_pinocchios(pair):
     robot, peer, (q, v, a, _) = pair
     body = robot.bodies[-1]

@@ -5,18 +5,14 @@ import pytest
 
 import machines
 import robot_dynamics as rd
-from test_arrays import METHODS, arguments, suits
+from test_arrays import all_of, arguments, cases
 from test_machines import closed
 
 ROW = 13
 
 
-def results(found):
-    return found if isinstance(found, tuple) else (found,)
-
-
 def others(found):
-    return [np.delete(result, ROW, 0).tobytes() for result in results(found)]
+    return [np.delete(result, ROW, 0).tobytes() for result in all_of(found)]
 
 
 def marks_its_row(call, given, places, free_of=()):
@@ -29,17 +25,14 @@ def marks_its_row(call, given, places, free_of=()):
                 hurt[place][ROW].reshape(-1)[columns] = value
                 found = call(*hurt)
                 assert others(found) == others(whole), (place, value)
-                marked = any(not np.isfinite(result[ROW]).all() for result in results(found))
-                untouched = all(np.array_equal(a[ROW], b[ROW]) for a, b in zip(results(found), results(whole)))
+                marked = any(not np.isfinite(result[ROW]).all() for result in all_of(found))
+                untouched = all(np.array_equal(a[ROW], b[ROW]) for a, b in zip(all_of(found), all_of(whole)))
                 assert marked or (untouched and (columns == 0 or place in free_of)), (place, value, columns)
 
 
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
-@pytest.mark.parametrize("name", ["ur5e", "a1_free"])
-@pytest.mark.parametrize(("method", "names"), METHODS)
+@pytest.mark.parametrize(("method", "names", "name"), cases("ur5e", "a1_free"))
 def test_a_row_that_is_not_finite_marks_itself_alone(method, names, name, dtype):
-    if not suits(method, name):
-        pytest.skip("of a free base, or of joints of one coordinate")
     robot = rd.Robot(name)
     given = arguments(robot, names, 24, dtype)
     places = [i for i, argument in enumerate(given) if isinstance(argument, np.ndarray)]
@@ -97,11 +90,3 @@ def test_a_singular_row_that_is_finite_is_an_error():
     assert error.value.state == 1
     m[1, 0, 0] = np.nan
     assert np.isnan(robot.ltdl(m)[0][1]).all() and np.isfinite(robot.ltdl(m)[0][[0, 2]]).all()
-
-
-@pytest.mark.parametrize("dtype", [np.float32, np.float64])
-def test_the_engine_marks_its_rows(dtype):
-    arm = rd.Robot("ur5e")
-    q, v, a = arguments(arm, "q v a", 24, dtype)
-    marks_its_row(lambda *given: arm.rnea(*given, form="engine"), [q, v, a], range(3))
-    marks_its_row(lambda *given: arm.bias(*given, form="engine"), [q, v], range(2))

@@ -8,9 +8,8 @@ import { by, element } from "./words.js";
 import { frame, load, look, reach, select, start } from "./move.js";
 import { disturbFrame, open, pull, startDisturb } from "./disturb.js";
 import { openCases, runCase, startCases } from "./cases.js";
-import { connect, serialFrame, startSerial } from "./serial.js";
 
-const TABS = ["move", "disturb", "hard", "real"];
+const TABS = ["move", "disturb", "hard"];
 
 function show(tab) {
   const before = state.tab;
@@ -25,7 +24,6 @@ function show(tab) {
   }
   if (tab === "disturb") open();
   if (tab === "hard") openCases();
-  if (tab === "real" && state.robot.key !== "so101") select("so101");
   if (before === "disturb" && tab === "move") look();
 }
 
@@ -50,10 +48,6 @@ function step(seconds) {
   const begin = performance.now();
   if (state.tab === "move") frame(seconds);
   else if (state.tab === "disturb") disturbFrame(seconds);
-  else if (state.tab === "real") {
-    serialFrame();
-    frame(0);
-  }
   if (state.tab !== "hard") state.view.render();
   times.firstTorque ??= performance.now();
   return performance.now() - begin;
@@ -104,7 +98,6 @@ async function main() {
   start();
   startDisturb();
   startCases();
-  startSerial();
   state.swinging = !matchMedia("(prefers-reduced-motion: reduce)").matches;
   by("swing").setAttribute("aria-pressed", String(state.swinging));
   select("ur5e");
@@ -113,7 +106,7 @@ async function main() {
 }
 
 // For the tests, and for whoever opens the console.
-globalThis.play = { state, times, work, load, select, reach, pull, runCase, connect, show, cases: () => gallery.all, disturb, Gl, Soft };
+globalThis.play = { state, times, work, load, select, reach, pull, runCase, show, cases: () => gallery.all, disturb, Gl, Soft };
 main().catch((error) => {
   by("said").hidden = false;
   by("said").classList.add("wrong");

@@ -10,7 +10,6 @@
 //! | [`accuracy`] | the ways to compute a torque of docs/accuracy.md |
 //! | [`scene`] | scenes of `firmware-demo` that are disturbed |
 //! | [`suite`] | the hard cases of `hard-case-suite` |
-//! | [`serial`] | the bus of an SO-101 |
 
 pub mod accuracy;
 pub mod import;
@@ -18,7 +17,6 @@ pub mod machine;
 pub mod request;
 pub mod robots;
 pub mod scene;
-pub mod serial;
 
 #[path = "../../hard-case-suite/src/lib.rs"]
 #[allow(dead_code, reason = "the page uses a part of the file")]

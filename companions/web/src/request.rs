@@ -7,7 +7,7 @@ use crate::machine::{Machine, Motion, On};
 use crate::robots::ALL;
 use crate::scene::{Disturbance, Disturbed, Injected, SCENES};
 use crate::suite::SuiteCase;
-use crate::{accuracy, import, robots, scene, serial};
+use crate::{accuracy, import, robots, scene};
 
 /// The state that lasts from request to request.
 #[derive(Default)]
@@ -63,11 +63,6 @@ enum Request {
     /// A hard case, as a file of `hard-case-suite` has it.
     Case {
         case: SuiteCase,
-    },
-    /// The bytes that ask an SO-101 for its positions, and the positions in its reply.
-    AskServos,
-    ServoPositions {
-        bytes: Vec<u8>,
     },
 }
 
@@ -142,8 +137,6 @@ impl Session {
                 // JSON has no infinity: null is an answer that is missing, or should be.
                 Ok(json!({ "f32": single.map(row), "f64": row(double) }))
             }
-            Request::AskServos => value(serial::request().map_err(|error| error.to_string())?),
-            Request::ServoPositions { bytes } => value(serial::positions(&bytes)?),
         }
     }
 }

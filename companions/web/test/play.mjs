@@ -9,7 +9,6 @@ import { accessible, alike, alone, apart, calm, cheap, excess, fluent, narrow, o
 import { bits, hostBits, pageBits } from "./bits.mjs";
 import { packages } from "./packages.mjs";
 import { during, measurable } from "./processor.mjs";
-import { simulatedPort } from "./servos.mjs";
 
 const must = (holds, words) => {
   if (!holds) throw new Error(words);
@@ -186,7 +185,7 @@ const tests = {
       for (const dark of [false, true]) {
         const theme = dark ? "dark" : "light";
         const { page } = await opened(browser, file, { screen, dark });
-        for (const tab of ["move", "disturb", "hard", "real"]) {
+        for (const tab of ["move", "disturb", "hard"]) {
           await page.click(`#tab-${tab}`);
           if (tab === "hard") await page.waitForSelector("#cases tr");
           await pause(600);
@@ -247,7 +246,7 @@ const tests = {
       await page.evaluate(() => document.getElementById("copy").click());
       await page.waitForFunction(() => !document.getElementById("said").hidden);
       must(before.replace("true", "false") === (await message()), "a message pushes the page");
-      await page.click("#tab-real");
+      await page.click("#tab-hard");
       must((await message()).endsWith("true"), "a message stays on another tab");
       await closed(page, problems);
     }
@@ -570,35 +569,6 @@ const tests = {
     must(wrong > 1, "a wrong answer of a case is within its bound");
     say("gallery", sum);
     await page.close();
-  },
-
-  /// The arm over a simulated port.
-  async serial({ browser, file, say }) {
-    const { page, problems } = await opened(browser, file, { before: `globalThis.simulatedPort = ${simulatedPort}` });
-    await page.click("#tab-real");
-    const counts = { 1: 2048, 2: 1024, 3: 3072, 4: 2100, 5: 2000, 6: 2500 };
-    const reads = (options) => page.evaluate(async (counts, options) => {
-      const port = globalThis.port = simulatedPort(counts, options);
-      Object.defineProperty(navigator, "serial", { configurable: true, value: { requestPort: async () => port } });
-      document.getElementById("connect").disabled = false;
-      document.getElementById("connect").click();
-      await new Promise((done) => setTimeout(done, 900));
-      const found = { q: play.state.measured, state: port.state, words: document.getElementById("serial-state").textContent };
-      document.getElementById("disconnect").click();
-      await new Promise((done) => setTimeout(done, 400));
-      return { ...found, closed: port.state.closed };
-    }, counts, options);
-    const good = await reads({});
-    must(good.state.opened === 1_000_000 && good.state.bad === 0 && good.state.requests > 5 && good.closed, `the port: ${JSON.stringify(good)}`);
-    const expected = Object.values(counts).map((count) => ((count - 2048) * Math.PI) / 2048);
-    must(expected.every((x, i) => Math.abs(x - good.q[i]) < 1e-5), `positions ${good.q}, expected ${expected}`);
-    await page.screenshot({ path: join(pictures, "serial.png") });
-    const silent = await reads({ silent: 4 });
-    must(/servo 4 did not reply/.test(silent.words), `a silent servo: ${silent.words}`);
-    const wrong = await reads({ wrongChecksum: 2 });
-    must(/2/.test(wrong.words), `a wrong checksum of servo 2: ${wrong.words}`);
-    say("serial", `${good.state.requests} reads of six servos; ${silent.words} ${wrong.words}`);
-    await closed(page, problems);
   },
 };
 

@@ -14,7 +14,7 @@ use dynamics_core::trig::{Kernel as _, Table};
 use certification::image::Image;
 use certification::narrow::magnitude;
 
-use super::recorded::{BASE, EFFECTS, GRAVITY, RNEA, SINES, bytes, graph, robot};
+use super::recorded::{GRAVITY, RNEA, SINES, bytes, graph, program, robot};
 
 const SPENT: Spent = Spent { points: 20_000, fine: 200_000, parts: 10 };
 
@@ -116,21 +116,9 @@ fn a_changed_number_of_a_page_of_certificates_is_refused() {
     assert!(said(&page.replacen("Cycles: 576", "Cycles: 575", 1)).is_some());
 }
 
-/// A program whose variables point to this code and to its effects.
-fn program(mut code: Vec<u8>) -> Image {
-    let (size, effects) = (code.len() as u32, bytes(EFFECTS));
-    let pointer = size + effects.len() as u32;
-    code.extend(effects);
-    code.extend((BASE | 1).to_le_bytes());
-    Image::of(BASE, &code)
-        .with_function("gravity", BASE, size)
-        .with_function("CERTIFIED_EFFECTS", BASE + size, pointer - size)
-        .with_function("CERTIFIED_GRAVITY", BASE + pointer, 4)
-}
-
 #[test]
 fn a_page_of_other_machine_code_is_stale() {
-    let image = program(bytes(GRAVITY));
+    let image = program(bytes(GRAVITY), "GRAVITY");
     let walked = expression(&image, Function::Gravity).expect("it is straight-line");
     let hash = image.hash(&walked.visited);
     let stale = |image: &Image, page: &str| {
@@ -154,7 +142,7 @@ fn a_page_of_other_machine_code_is_stale() {
     assert!(said.is_some_and(|said| said.contains("ur5e") && said.contains("not of today's")));
     let mut code = bytes(GRAVITY);
     *code.last_mut().expect("a literal") ^= 1;
-    assert!(stale(&program(code), &page).is_some());
+    assert!(stale(&program(code, "GRAVITY"), &page).is_some());
 }
 
 #[test]

@@ -20,7 +20,7 @@ use dynamics_core::robots::A1Leg;
 use dynamics_core::state::State;
 
 use super::floor;
-use super::recorded::{BASE, EFFECTS, LITTLE, SINES, bytes, robot};
+use super::recorded::{BASE, LITTLE, SINES, bytes, forward_program, robot};
 
 /// The machine code of `Engine::<A1Leg>::forward_dynamics` and `crba`.
 const FORWARD: &str = include_str!("a1_forward.hex");
@@ -36,27 +36,18 @@ const BOTH: [Function; 2] = [Function::ForwardDynamics, Function::CoreForwardDyn
 
 fn image(function: Function) -> Image {
     let mut code = bytes(FORWARD);
-    let (mut functions, mut names) =
-        ([BASE | 1, (BASE | 1) + code.len() as u32], ["FORWARD", "CRBA"]);
-    code.extend(bytes(CRBA));
     if function == Function::CoreForwardDynamics {
-        (functions, names) = (CORE_FUNCTIONS, ["CORE_FORWARD", "CORE_CRBA"]);
         code.clear();
         for (at, line) in CORE.lines().filter_map(|line| line.split_once(' ')) {
             let at = u32::from_str_radix(at, 16).expect("an address") - BASE;
             code.resize(at as usize, 0);
             code.extend(bytes(line));
         }
+        return forward_program(code, CORE_FUNCTIONS, "CORE_");
     }
-    let end = BASE + code.len() as u32;
-    let words = [functions[0], functions[1], 12, 4, 8, 0];
-    code.extend(words.into_iter().flat_map(u32::to_le_bytes));
-    code.extend(bytes(EFFECTS));
-    Image::of(BASE, &code)
-        .with_function(&format!("CERTIFIED_{}", names[0]), end, 4)
-        .with_function(&format!("CERTIFIED_{}", names[1]), end + 4, 4)
-        .with_function("CERTIFIED_TRIG", end + 8, 16)
-        .with_function("CERTIFIED_EFFECTS", end + 24, 16)
+    let functions = [BASE | 1, (BASE | 1) + code.len() as u32];
+    code.extend(bytes(CRBA));
+    forward_program(code, functions, "")
 }
 
 fn subject(function: Function) -> Subject {

@@ -31,6 +31,31 @@ pub fn bytes(hex: &str) -> Vec<u8> {
     digits.chunks(2).map(|pair| (pair[0] << 4 | pair[1]) as u8).collect()
 }
 
+/// A program of one function, with its address and its effects.
+pub fn program(mut code: Vec<u8>, name: &str) -> Image {
+    let (size, effects) = (code.len() as u32, bytes(EFFECTS));
+    let pointer = BASE + size + effects.len() as u32;
+    code.extend(effects);
+    code.extend((BASE | 1).to_le_bytes());
+    Image::of(BASE, &code)
+        .with_function(&name.to_lowercase(), BASE, size)
+        .with_function("CERTIFIED_EFFECTS", BASE + size, pointer - BASE - size)
+        .with_function(&format!("CERTIFIED_{name}"), pointer, 4)
+}
+
+/// A program of forward dynamics and of M at these addresses.
+pub fn forward_program(mut code: Vec<u8>, functions: [u32; 2], of_core: &str) -> Image {
+    let end = BASE + code.len() as u32;
+    let words = functions.into_iter().chain([12, 4, 8, 0]);
+    code.extend(words.flat_map(u32::to_le_bytes));
+    code.extend(bytes(EFFECTS));
+    Image::of(BASE, &code)
+        .with_function(&format!("CERTIFIED_{of_core}FORWARD"), end, 4)
+        .with_function(&format!("CERTIFIED_{of_core}CRBA"), end + 4, 4)
+        .with_function("CERTIFIED_TRIG", end + 8, 16)
+        .with_function("CERTIFIED_EFFECTS", end + 24, 16)
+}
+
 pub fn graph(hex: &str) -> Graph {
     let mut code = bytes(hex);
     let effects = BASE + code.len() as u32;

@@ -20,7 +20,7 @@ use dynamics_core::model::{BASE as NONE, Body, Joint as Of, Model, Robot as _};
 use dynamics_core::state::State;
 
 use super::floor;
-use super::recorded::{BASE, EFFECTS, LITTLE, SINES, bytes, gappa_is_installed, robot};
+use super::recorded::{BASE, LITTLE, SINES, bytes, forward_program, gappa_is_installed, robot};
 
 /// Assembled by hand: |3 x − 1|.
 const CODE: &str = "92ed000af0ee080a20ee200af7ee000a30ee600ab0eec00a80ed000a7047";
@@ -123,17 +123,8 @@ fn subject() -> Subject {
 
 fn image() -> Image {
     let lines: Vec<Vec<u8>> = REACH.lines().map(bytes).collect();
-    let mut code = lines.concat();
     let functions = [BASE | 1, (BASE | 1) + lines[0].len() as u32];
-    let end = BASE + code.len() as u32;
-    let words = functions.into_iter().chain([12, 4, 8, 0]);
-    code.extend(words.flat_map(u32::to_le_bytes));
-    code.extend(bytes(EFFECTS));
-    Image::of(BASE, &code)
-        .with_function("CERTIFIED_FORWARD", end, 4)
-        .with_function("CERTIFIED_CRBA", end + 4, 4)
-        .with_function("CERTIFIED_TRIG", end + 8, 16)
-        .with_function("CERTIFIED_EFFECTS", end + 24, 16)
+    forward_program(lines.concat(), functions, "")
 }
 
 fn reach() -> Robot {

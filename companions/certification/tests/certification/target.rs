@@ -10,11 +10,10 @@ use certification::interval::Interval;
 use certification::narrow::{Narrow, NarrowError};
 use certification::search::Evaluation;
 use certification::stack::{INTERRUPT_FRAME, stack};
-use certification::state_box::{Joint, Robot};
 use certification::target::Target;
 use cycle_meter::Sample;
 
-const BASE: u32 = 0x0800_0000;
+use super::recorded::{BASE, RNEA, bytes, program, robot};
 
 fn image(code: &[u16]) -> Image {
     let bytes: Vec<u8> = code.iter().flat_map(|half| half.to_le_bytes()).collect();
@@ -153,32 +152,9 @@ fn the_stack_is_the_deepest_chain_of_calls_and_an_interrupt() {
     assert_eq!(INTERRUPT_FRAME, 108);
 }
 
-fn robot() -> Robot {
-    let joint =
-        Joint { turns: true, position: Interval::new(-3.0, 3.0), speed: 2.0, acceleration: 10.0 };
-    Robot { joints: vec![joint; 6], trig: [12, 4, 8, 0] }
-}
-
-/// The program of a robot with `Engine::<Ur5e>::rnea` as it was compiled one day.
-fn program() -> Image {
-    let digits: Vec<u32> =
-        include_str!("ur5e_rnea.hex").chars().filter_map(|c| c.to_digit(16)).collect();
-    let mut bytes: Vec<u8> = digits.chunks(2).map(|pair| (pair[0] << 4 | pair[1]) as u8).collect();
-    let code = bytes.len() as u32;
-    // The function's address, and the effects: gravity's direction and three markers.
-    bytes.extend((BASE | 1).to_le_bytes());
-    bytes.extend([
-        0x1f, 0x85, 0xeb, 0x51, 0xb8, 0x9e, 0x23, 0x40, 0xc3, 0xf5, 0x1c, 0x41, 0, 0, 0, 0,
-    ]);
-    Image::of(BASE, &bytes)
-        .with_function("rnea", BASE, code)
-        .with_function("CERTIFIED_RNEA", BASE + code, 4)
-        .with_function("CERTIFIED_EFFECTS", BASE + code + 4, 16)
-}
-
 #[test]
 fn a_sheet_takes_neither_other_bits_nor_other_cycles() {
-    let (image, robot) = (program(), robot());
+    let (image, robot) = (program(bytes(RNEA), "RNEA"), robot(6));
     let state: Vec<f64> = (0..18).map(|k| f64::from((k as f32).sin())).collect();
     let graph = expression(&image, Function::Rnea).expect("straight-line").graph;
     let bits: Vec<u32> =
@@ -214,7 +190,7 @@ fn a_sheet_takes_neither_other_bits_nor_other_cycles() {
 #[test]
 fn a_box_is_narrowed_joint_by_joint() {
     let apply = |text: &str| {
-        let mut robot = robot();
+        let mut robot = robot(6);
         text.parse::<Narrow>()?.apply(&mut robot)?;
         Ok::<_, NarrowError>(robot.joints[1])
     };
@@ -232,9 +208,9 @@ fn a_box_is_narrowed_joint_by_joint() {
         let said = apply(text).expect_err(text).to_string();
         assert!(said.contains(why), "{said}");
     }
-    let said = apply("2:v:3").expect_err("too fast").to_string();
-    assert_eq!(said, "2:v:3: joint 2 has the range -2 to 2");
-    let mut far = robot();
+    let said = apply("2:v:4").expect_err("too fast").to_string();
+    assert_eq!(said, "2:v:4: joint 2 has the range -3 to 3");
+    let mut far = robot(6);
     far.joints[1].position = Interval::new(-100.0, 100.0);
     let narrow: Narrow = "2:-1..1".parse().expect("a range");
     let said = narrow.apply(&mut far).expect_err("its sines turn further");

@@ -1,5 +1,5 @@
-//! Reads rows of f32 (q, q̇, q̈, τ of a state) and writes what `Core` and `Engine` compute for a
-//! robot that is known at compile time, as firmware does: the referee of the wheel's bits.
+//! Reads rows of f32 (q, q̇, q̈, τ of a state) and writes what `Core` computes for a robot
+//! that is known at compile time, as firmware does: the referee of the wheel's bits.
 //!
 //! ```console
 //! robot-dynamics-bits ur5e "core rnea" < states > results
@@ -9,6 +9,7 @@ mod machines;
 
 use std::io::{Read as _, Write as _};
 
+use dynamics_core::Core;
 use dynamics_core::algorithms;
 use dynamics_core::drivetrain::{ElasticJoints, ElasticReference, elastic_inverse_dynamics};
 use dynamics_core::effects::{Coriolis, Gravity, GyroscopicRotors, RIGID_BODY, Width};
@@ -18,7 +19,6 @@ use dynamics_core::robots::{
 };
 use dynamics_core::spatial::Force;
 use dynamics_core::state::State;
-use dynamics_core::{Core, Engine};
 
 const BIAS: (Gravity, Coriolis) = (Gravity::EARTH, Coriolis);
 
@@ -53,10 +53,10 @@ fn rows<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>(
             "core forward_dynamics" => {
                 found.extend(Core::<T>::forward_dynamics(&state, &tau, &RIGID_BODY).ok()?);
             }
-            _ => match quantity.strip_prefix("algorithms ") {
-                Some(quantity) => found.extend(algorithm::<T, B, Q, V>(quantity, &state, &tau)?),
-                None => found.extend(engine::<T, B, Q, V>(quantity, &state)?),
-            },
+            _ => {
+                let quantity = quantity.strip_prefix("algorithms ")?;
+                found.extend(algorithm::<T, B, Q, V>(quantity, &state, &tau)?);
+            }
         }
     }
     Some(found)
@@ -108,6 +108,15 @@ fn algorithm<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>(
             let found = found.ok()?;
             out.extend(found.qdd.iter().chain(&found.error));
         }
+        "rnea_derivatives" => {
+            let found = algorithms::rnea_derivatives(robot, state, &RIGID_BODY);
+            out.extend([found.dq, found.dqd].as_flattened().as_flattened());
+        }
+        "forward_dynamics_derivatives" => {
+            let found = algorithms::forward_dynamics_derivatives(robot, state, tau, &RIGID_BODY);
+            let found = found.ok()?;
+            out.extend([found.dq, found.dqd].as_flattened().as_flattened());
+        }
         "regressor_row" => {
             let row = algorithms::regressor_row(robot, state, &RIGID_BODY, V - 1);
             out.extend_from_slice(row.as_flattened());
@@ -129,22 +138,6 @@ fn algorithm<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>(
 
 fn square<const V: usize>(out: &mut Vec<f32>, of: impl Fn(usize, usize) -> f32) {
     (0..V).for_each(|i| out.extend((0..V).map(|j| of(i, j))));
-}
-
-/// The results of the engine; for a humanoid its compilation would take minutes.
-fn engine<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>(
-    quantity: &str,
-    state: &State<f32, Q, V>,
-) -> Option<[f32; V]> {
-    if const { V >= 29 } {
-        return None;
-    }
-    Some(match quantity {
-        "engine rnea" => Engine::<T>::rnea(state, &RIGID_BODY),
-        "engine bias" => Engine::<T>::rnea(state, &BIAS),
-        "engine gravity" => Engine::<T>::rnea(state, &Gravity::EARTH),
-        _ => return None,
-    })
 }
 
 fn main() -> std::io::Result<()> {

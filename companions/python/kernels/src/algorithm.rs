@@ -47,6 +47,8 @@ pub trait Algorithm: Sync {
     /// Whether it computes what fills the model up, too, with the inertia 1: M then has its
     /// factors.
     const WHOLE: bool = false;
+    /// Whether it is compiled for the smaller of the general models alone.
+    const SMALL: bool = false;
     /// Whether it computes several states at once: its only comparisons are those of pivots, and of
     /// placements, which its states share.
     const LANES: bool = false;

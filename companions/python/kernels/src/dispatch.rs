@@ -157,6 +157,8 @@ pub mod terms {
     }
     /// As [`machine`], of an algorithm with rotors that spin.
     pub use machine as rigid;
+    /// As [`machine`], of an algorithm for the smaller of the general models alone.
+    pub use machine as bending;
     /// As [`rigid`], of an algorithm with forms for some kinds of robots.
     pub use machine as factored;
     /// As [`machine`], of an algorithm with forms for some kinds of robots.

@@ -6,7 +6,7 @@ use dynamics_core::flexible::{FlexibleLink, Mode, ModeError, Modes};
 use dynamics_core::model::Model;
 use dynamics_core::scalar::{Matrix, Real};
 
-use crate::model::{Bodies, NoModel};
+use crate::model::{Bodies, Counts, NoModel};
 
 /// The most modes of a robot.
 pub const MOST_MODES: usize = 8;
@@ -38,18 +38,13 @@ impl AnyModes {
     /// # Errors
     /// The library's reason for its refusal.
     pub fn of(bodies: &Bodies, links: &[FlexibleLink]) -> Result<Self, NoModes> {
-        match bodies.is_small() {
-            true => Self::on::<28, 32>(bodies, links),
-            false => Self::on::<76, 80>(bodies, links),
+        let Counts { bodies: own, v, .. } = bodies.counts();
+        if !bodies.is_small() {
+            let what = "velocity coordinates or bodies of a robot with links that bend";
+            return Err(NoModes::Model(NoModel::TooLarge { what, found: v.max(own), most: 16 }));
         }
-    }
-
-    fn on<const N: usize, const Q: usize>(
-        bodies: &Bodies,
-        links: &[FlexibleLink],
-    ) -> Result<Self, NoModes> {
-        let model = bodies.filled::<f64, N, Q>(false).map_err(NoModes::Model)?;
-        let (mut model, own): (Model<f64, N, Q, N>, _) = (*model, bodies.counts().bodies);
+        let model = bodies.filled::<f64, 28, 32>(false).map_err(NoModes::Model)?;
+        let mut model: Model<f64, 28, 32, 28> = *model;
         let count = links.iter().map(|link| link.count).sum();
         let mut all = links.to_vec();
         // A mode along the joint's axis, which couples with nothing, on each of the last bodies.

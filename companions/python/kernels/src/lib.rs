@@ -113,8 +113,10 @@ which! {
     ForwardWithError,
     AccelerationError,
     ElasticInverseDynamics { joints: [&'a [f64]; 3] },
+    RneaDerivatives,
     Aba,
     ForwardDynamics,
+    ForwardDynamicsDerivatives,
     Hybrid,
     Transmitted,
     Jacobian { body: usize, frame: AnyFrame },
@@ -290,7 +292,8 @@ fn over<O: Algorithm, R: Real>(
     }
     match &models.general {
         General::Small(model) => run!(&**model),
-        General::Large(model) => run!(&**model),
+        General::Large(model) if const { !O::SMALL } => run!(&**model),
+        General::Large(_) => unreachable!("modes are of smaller robots"),
     }
 }
 

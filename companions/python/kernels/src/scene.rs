@@ -96,7 +96,7 @@ impl<
     const GRAVITY_FIELD: hook::Field<Self, R> =
         hook::Field::gravity(|scene, g| *g += scene.0.gravity);
     const BASE: hook::Base<Self, R> = match X {
-        true => hook::Base::moving(Self::move_base),
+        true => hook::Base::moving(|scene, v, a| scene.0.move_base(v, a)),
         false => hook::Base::NONE,
     };
     const EXTERNAL_WRENCH: hook::Wrench<Self, R> = match X {
@@ -122,15 +122,7 @@ impl<
 
     #[inline(always)]
     fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
-        for effect in &self.0.joints {
-            effect.torque(joint, at, tau);
-        }
-    }
-
-    fn derivatives(&self, joint: usize, at: JointState<R>, derivatives: &mut TorqueDerivatives<R>) {
-        for effect in &self.0.joints {
-            effect.derivatives(joint, at, derivatives);
-        }
+        self.0.torque(joint, at, tau);
     }
 
     #[inline(always)]
@@ -151,13 +143,6 @@ impl<R: Real, const V: usize, const A: bool, const C: bool, const X: bool, const
         let add = const { <GyroscopicRotors<R, V> as Effect<R, B, V>>::ROTOR.add };
         if let (Some(rotors), Some(add)) = (&self.0.rotors, add) {
             add(rotors, joint, coupling);
-        }
-    }
-
-    fn move_base(&self, velocity: &mut Motion<R>, acceleration: &mut Motion<R>) {
-        if let Some((v, a)) = self.0.base {
-            *velocity += v;
-            *acceleration += a;
         }
     }
 
@@ -196,14 +181,37 @@ impl<R: Real, const V: usize, const A: bool, const C: bool, const X: bool, const
     }
 }
 
-/// The loads alone, for algorithms that have no other effects at bodies.
-pub struct Loads<'a, R: Real, const V: usize>(pub &'a Parts<R, V>);
+/// The effects of which the library knows derivatives, for algorithms that need these; a base that
+/// moves (M) is not among them for some.
+pub struct Differentiable<'a, R: Real, const V: usize, const M: bool>(pub &'a Parts<R, V>);
 
-impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Loads<'_, R, V> {
+impl<R: Real, const B: usize, const V: usize, const M: bool> Effect<R, B, V>
+    for Differentiable<'_, R, V, M>
+{
+    const GRAVITY_FIELD: hook::Field<Self, R> =
+        hook::Field::gravity(|scene, g| *g += scene.0.gravity);
+    const BASE: hook::Base<Self, R> = match M {
+        true => hook::Base::moving(|scene, v, a| scene.0.move_base(v, a)),
+        false => hook::Base::NONE,
+    };
     const ADDED_INERTIA: hook::Inertia<Self, R, B> =
-        hook::Inertia::on([true; B], |loads, body, inertia| {
-            loads.0.add_payloads(body, inertia);
-        });
+        hook::Inertia::on([true; B], |scene, body, inertia| scene.0.add_payloads(body, inertia));
+    const ACCELERATIONS: bool = true;
+    const VELOCITY_PRODUCTS: bool = true;
+
+    fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
+        self.0.torque(joint, at, tau);
+    }
+
+    fn derivatives(&self, joint: usize, at: JointState<R>, derivatives: &mut TorqueDerivatives<R>) {
+        for effect in &self.0.joints {
+            effect.derivatives(joint, at, derivatives);
+        }
+    }
+
+    fn inertia(&self, joint: usize) -> Option<R> {
+        self.0.armature.as_ref().and_then(|all| all.get(joint)).copied()
+    }
 }
 
 impl<R: Real, const V: usize> Parts<R, V> {
@@ -217,6 +225,20 @@ impl<R: Real, const V: usize> Parts<R, V> {
     pub fn stop_base(&mut self) {
         if let Some((velocity, _)) = &mut self.base {
             *velocity = Motion::ZERO;
+        }
+    }
+
+    #[inline(always)]
+    fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
+        for effect in &self.joints {
+            effect.torque(joint, at, tau);
+        }
+    }
+
+    fn move_base(&self, velocity: &mut Motion<R>, acceleration: &mut Motion<R>) {
+        if let Some((v, a)) = self.base {
+            *velocity += v;
+            *acceleration += a;
         }
     }
 

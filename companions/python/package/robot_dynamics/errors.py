@@ -25,7 +25,6 @@ __all__ = [
     "MotorError",
     "MultiDofJoint",
     "NoAttitude",
-    "NoEngine",
     "NotFinite",
     "NotPositiveDefinite",
     "NotRecorded",
@@ -76,12 +75,6 @@ class ModelError(RobotDynamicsError, ValueError):
     """A robot that the library refuses: too large, or with impossible numbers."""
 
     body: str | None
-
-
-class NoEngine(RobotDynamicsError, LookupError):
-    """The wheel has no engine of this robot, or no form of this name."""
-
-    robot: str
 
 
 class UnknownRobot(RobotDynamicsError, LookupError):

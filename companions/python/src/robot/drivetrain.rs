@@ -3,7 +3,8 @@
 use pyo3::prelude::*;
 use robot_dynamics_kernels::Which;
 
-use super::{Array, Robot, with_inertia};
+use super::given::differentiable;
+use super::{Array, Robot};
 use crate::angles::Use;
 use crate::effects::{given as effects_of, refused};
 use crate::error::wanted;
@@ -39,15 +40,11 @@ impl Robot {
         effects: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Array<'py>> {
         let effects = effects_of(effects)?;
-        with_inertia(py, &effects)?;
+        differentiable(py, &effects)?;
         let refuse =
             |effect: &str, text: String| Err(refused(py, effect, format!("{effect}: {text}")));
-        if !effects.contains(&Spec::Coriolis) {
-            return refuse("Coriolis", "elastic joints need it in the scene".to_owned());
-        }
-        let foreign = |spec: &&Spec| spec.is_extra() && !matches!(spec, Spec::Payload { .. });
-        if let Some(spec) = effects.iter().find(foreign) {
-            return refuse(spec.name(), "its derivatives are not known".to_owned());
+        if let Some(spec) = effects.iter().find(|spec| matches!(spec, Spec::MovingBase { .. })) {
+            return refuse(spec.name(), "elastic joints need a base at rest".to_owned());
         }
         let v = self.counts.v;
         let joints = [&*stiffness, &*rotor, &*friction];

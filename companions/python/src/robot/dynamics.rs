@@ -4,33 +4,30 @@ use pyo3::prelude::*;
 use robot_dynamics_kernels::Which;
 use robot_dynamics_kernels::spec::Spec;
 
-use super::{Array, Robot, frame_of, with_inertia, without_rotors};
+use super::given::differentiable;
+use super::{Array, Robot, with_inertia, without_rotors};
 use crate::arrays::Argument;
-use crate::effects::{RIGID_BODY, given as effects_of, with_own};
-use crate::error::wanted;
+use crate::effects::{RIGID_BODY, with_own};
 use crate::methods::{Machine, methods};
-use crate::request::By;
 
 impl Robot {
-    /// Inverse dynamics in a form, of q and as many derivatives as there are more arguments, under
-    /// those of the effects that it keeps.
-    fn inverse_dynamics<'py>(
+    /// Inverse dynamics of q and as many derivatives as there are more arguments, under those of the
+    /// effects that it keeps.
+    fn inverse_dynamics<'py, const N: usize>(
         &self,
         py: Python<'py>,
-        form: &str,
-        effects: Option<&Bound<'py, PyAny>>,
-        keeps: impl Fn(&Spec) -> bool,
-        arguments: &[Argument<'_, 'py>],
+        keeps: fn(&Spec) -> bool,
+        effects: Option<&Array<'py>>,
+        arguments: [Argument<'_, 'py>; N],
     ) -> PyResult<Array<'py>> {
         let shape: &[&[usize]] = &[&[self.counts.v]];
-        if effects.is_none() && arguments.len() == 3 && form == "core" {
+        if effects.is_none() && N == 3 {
             let which = Which::Rnea { given: 3, still: false };
-            return self.one(py, which, &RIGID_BODY, arguments, shape);
+            return self.one(py, which, &RIGID_BODY, &arguments, shape);
         }
         let scene = with_own(effects)?;
         let mut effects: Vec<Spec> = scene.iter().filter(|spec| keeps(spec)).cloned().collect();
-        let mut given = arguments.len();
-        let mut by = self.by(py, form, given, &effects)?;
+        let mut given = N;
         // Few scenes have machine code of their own. Without Inertia, the acceleration is zero but
         // for motors; without Coriolis, the velocity but for joints.
         let has = |spec| effects.contains(&spec);
@@ -38,7 +35,7 @@ impl Robot {
         let turns =
             |spec: &Spec| matches!(spec, Spec::Armature { .. } | Spec::GyroscopicRotors { .. });
         let (mut joints, mut still) = (Vec::new(), false);
-        if matches!(by, By::Model(_)) && coriolis && !inertia {
+        if coriolis && !inertia {
             if given < 3 || !effects.iter().any(turns) {
                 given = given.min(2);
                 effects.push(Spec::Inertia);
@@ -50,16 +47,14 @@ impl Robot {
             (effects, joints) = effects.into_iter().partition(whole);
             effects.push(Spec::Coriolis);
         }
-        if matches!(by, By::Model(_)) {
-            by = Which::Rnea { given, still }.into();
-        }
-        let mut tau = self.one(py, by, &effects, arguments, shape)?;
+        let which = Which::Rnea { given, still };
+        let mut tau = self.one(py, which, &effects, &arguments, shape)?;
         if !joints.is_empty() {
             let which = Which::Rnea { given: 2, still: false };
-            tau = tau.add(self.one(py, which, &joints, arguments, shape)?)?;
+            tau = tau.add(self.one(py, which, &joints, &arguments, shape)?)?;
         }
         // Gravity has no velocities.
-        match if arguments.len() > 1 { scene.own_torque(py, arguments)? } else { None } {
+        match if N > 1 { scene.own_torque(py, &arguments)? } else { None } {
             Some(own) => tau.add(own),
             None => Ok(tau),
         }
@@ -70,116 +65,60 @@ impl Robot {
         &self,
         py: Python<'py>,
         which: Which<'static>,
-        [q, qd, tau]: [&Array<'py>; 3],
         effects: Option<&Array<'py>>,
+        arguments: [Argument<'_, 'py>; 3],
     ) -> PyResult<Array<'py>> {
         let scene = with_own(effects)?;
         with_inertia(py, &scene)?;
-        let mut arguments = [self.q("q", q), self.v("qd", qd), self.v("tau", tau)];
         let own = scene.own_torque(py, &arguments)?;
-        let rest =
-            own.map(|own| PyModule::import(py, "numpy")?.call_method1("subtract", (tau, own)));
+        let [q, qd, tau] = arguments;
+        let rest = own
+            .map(|own| PyModule::import(py, "numpy")?.call_method1("subtract", (tau.given, own)));
         let rest = rest.transpose()?;
-        arguments[2] = self.v("tau", rest.as_ref().unwrap_or(tau));
+        let arguments = [q, qd, self.v("tau", rest.as_ref().unwrap_or(tau.given))];
         self.one(py, which, &scene, &arguments, &[&[self.counts.v]])
     }
 }
 
-#[pymethods]
-impl Robot {
+/// Methods of arrays and effects, with the function that computes them and what it asks for.
+macro_rules! dynamics {
+    ($($(#[$doc:meta])* $method:ident($($array:ident: $kind:ident),*) = $by:ident($what:expr);)*) => {
+        #[pymethods]
+        impl Robot {$(
+            $(#[$doc])*
+            #[pyo3(signature = ($($array,)* effects = None))]
+            fn $method<'py>(
+                &self,
+                py: Python<'py>,
+                $($array: &Array<'py>,)*
+                effects: Option<&Array<'py>>,
+            ) -> PyResult<Array<'py>> {
+                self.$by(py, $what, effects, [$(self.$kind(stringify!($array), $array)),*])
+            }
+        )*}
+    };
+}
+
+dynamics! {
     /// Inverse dynamics: the torques (…, nv), N·m or N, for q (…, nq), q̇ and q̈ (…, nv). Equations
     /// (3) to (8) of Featherstone and Orin.
-    #[pyo3(signature = (q, qd, qdd, effects = None, form = "core"))]
-    fn rnea<'py>(
-        &self,
-        py: Python<'py>,
-        q: &Array<'py>,
-        qd: &Array<'py>,
-        qdd: &Array<'py>,
-        effects: Option<&Bound<'py, PyAny>>,
-        form: &str,
-    ) -> PyResult<Array<'py>> {
-        let given = [self.q("q", q), self.v("qd", qd), self.v("qdd", qdd)];
-        self.inverse_dynamics(py, form, effects, |_| true, &given)
-    }
+    rnea(q: q, qd: v, qdd: v) = inverse_dynamics(|_| true);
 
     /// The torques (…, nv), N·m or N, at q (…, nq) and q̇ (…, nv) without acceleration: C(q, q̇)
     /// q̇ + g(q) and the other effects.
-    #[pyo3(signature = (q, qd, effects = None, form = "core"))]
-    fn bias<'py>(
-        &self,
-        py: Python<'py>,
-        q: &Array<'py>,
-        qd: &Array<'py>,
-        effects: Option<&Bound<'py, PyAny>>,
-        form: &str,
-    ) -> PyResult<Array<'py>> {
-        let keeps = |spec: &Spec| !matches!(spec, Spec::Inertia);
-        let given = [self.q("q", q), self.v("qd", qd)];
-        self.inverse_dynamics(py, form, effects, keeps, &given)
-    }
+    bias(q: q, qd: v) = inverse_dynamics(|spec| !matches!(spec, Spec::Inertia));
 
     /// The torques (…, nv), N·m or N, that hold the robot against gravity at q (…, nq). No other
     /// effects than Gravity and loads act.
-    #[pyo3(signature = (q, effects = None, form = "core"))]
-    fn gravity<'py>(
-        &self,
-        py: Python<'py>,
-        q: &Array<'py>,
-        effects: Option<&Bound<'py, PyAny>>,
-        form: &str,
-    ) -> PyResult<Array<'py>> {
-        let keeps = |spec: &Spec| matches!(spec, Spec::Gravity(_) | Spec::Payload { .. });
-        let given = [self.q("q", q)];
-        self.inverse_dynamics(py, form, effects, keeps, &given)
-    }
+    gravity(q: q) = inverse_dynamics(|spec| matches!(spec, Spec::Gravity(_) | Spec::Payload { .. }));
 
     /// Forward dynamics by articulated bodies: q̈ (…, nv), rad/s² or m/s², for q (…, nq), q̇ and τ
     /// (…, nv).
-    #[pyo3(signature = (q, qd, tau, effects = None))]
-    fn aba<'py>(
-        &self,
-        py: Python<'py>,
-        q: &Array<'py>,
-        qd: &Array<'py>,
-        tau: &Array<'py>,
-        effects: Option<&Array<'py>>,
-    ) -> PyResult<Array<'py>> {
-        self.accelerations(py, Which::Aba, [q, qd, tau], effects)
-    }
+    aba(q: q, qd: v, tau: v) = accelerations(Which::Aba);
 
     /// Forward dynamics by M and its factors: q̈ (…, nv), rad/s² or m/s², for q (…, nq), q̇ and τ
     /// (…, nv).
-    #[pyo3(signature = (q, qd, tau, effects = None))]
-    fn forward_dynamics<'py>(
-        &self,
-        py: Python<'py>,
-        q: &Array<'py>,
-        qd: &Array<'py>,
-        tau: &Array<'py>,
-        effects: Option<&Array<'py>>,
-    ) -> PyResult<Array<'py>> {
-        self.accelerations(py, Which::ForwardDynamics, [q, qd, tau], effects)
-    }
-
-    /// J (…, 6, nv), J M⁻¹ (…, 6, nv), Λ⁻¹ and Λ (…, 6, 6) of a body, Λ damped by ``damping``
-    /// relative to the largest eigenvalue of Λ⁻¹ where it is nearly singular; q (…, nq).
-    #[pyo3(signature = (q, body, frame = "local", effects = None, damping = 1e-6))]
-    fn operational_space<'py>(
-        &self,
-        py: Python<'py>,
-        q: &Array<'py>,
-        body: &Bound<'py, PyAny>,
-        frame: &str,
-        effects: Option<&Bound<'py, PyAny>>,
-        #[pyo3(from_py_with = wanted)] damping: f64,
-    ) -> PyResult<Array<'py>> {
-        let ((framed, body), frame, v) = (self.at(body)?, frame_of(py, frame)?, self.counts.v);
-        let of = framed.as_ref().map_or(self, |framed| framed.get());
-        let which = Which::OperationalSpaceOf { body, frame, damping };
-        let results: &[&[usize]] = &[&[6, v], &[6, v], &[6, 6], &[6, 6]];
-        of.several(py, which, &effects_of(effects)?, &[of.q("q", q)], results)
-    }
+    forward_dynamics(q: q, qd: v, tau: v) = accelerations(Which::ForwardDynamics);
 }
 
 methods! {
@@ -190,6 +129,18 @@ methods! {
     /// N·m and N, in the body's own frame; q (…, nq), q̇ and q̈ (…, nv). That of a body beyond a
     /// force sensor is what the sensor shows, but for its offset.
     rnea_and_wrenches(q: q, qd: v, qdd: v; under effects) = several(RneaAndWrenches): [v], [bodies, 6];
+
+    /// The derivatives of inverse dynamics, ∂τ/∂q and ∂τ/∂q̇, each (…, nv, nv), by rows of τ: N·m/rad
+    /// and N·m·s/rad between revolute joints, N/m and N·s/m between prismatic ones; q (…, nq), q̇
+    /// and q̈ (…, nv). ∂τ/∂q is along `integrate`; ∂τ/∂q̈ is `crba`. What an effect at joints does
+    /// not know of its derivatives counts as constant; wrenches, rotors that spin and friction of
+    /// gears have no place.
+    rnea_derivatives(q: q, qd: v, qdd: v; under effects differentiable) = several(RneaDerivatives): [v, v], [v, v];
+
+    /// The derivatives of forward dynamics, ∂q̈/∂q, ∂q̈/∂q̇ and ∂q̈/∂τ = M⁻¹, each (…, nv, nv), by
+    /// rows of q̈: 1/s², 1/s and 1/(kg·m²) between revolute joints; q (…, nq), q̇ and τ (…, nv). As
+    /// `rnea_derivatives`.
+    forward_dynamics_derivatives(q: q, qd: v, tau: v; under effects differentiable) = several(ForwardDynamicsDerivatives): [v, v], [v, v], [v, v];
 
     /// M q̈_r + C(q, q̇) q̇_r + g and the other effects, (…, nv): q (…, nq), q̇, q̈_r and q̇_r (…,
     /// nv).
@@ -215,6 +166,10 @@ methods! {
 
     /// C(q, q̇) (…, nv, nv), of Christoffel's symbols; q (…, nq), q̇ (…, nv).
     coriolis_matrix(q: q, qd: v; under effects) = one(CoriolisMatrix): [v, v];
+
+    /// J (…, 6, nv), J M⁻¹ (…, 6, nv), Λ⁻¹ and Λ (…, 6, 6) of a body, Λ damped by ``damping``
+    /// relative to the largest eigenvalue of Λ⁻¹ where it is nearly singular; q (…, nq).
+    operational_space(q: q; at body, frame; under effects; with damping: f64 = 1e-6) = several(OperationalSpaceOf { body, frame, damping }): [6, v], [6, v], [6, 6], [6, 6];
 
     /// Λ⁻¹ = J M⁻¹ Jᵀ of a body, (…, 6, 6), by propagation of forces; q (…, nq).
     osim_inverse(q: q; at body, frame; under effects without_rotors) = one(OsimInverse { body, frame }): [6, 6];

@@ -21,21 +21,46 @@ pub fn frame_of(py: Python<'_>, name: &str) -> PyResult<AnyFrame> {
     }
 }
 
+/// Refuses a scene that lacks something, or that has what an algorithm has no place for.
+fn checked(
+    py: Python<'_>,
+    effects: &[Spec],
+    needed: &[Spec],
+    foreign: impl Fn(&Spec) -> bool,
+    why: &str,
+) -> PyResult<()> {
+    let lacking = needed.iter().find(|spec| !effects.contains(spec));
+    let (effect, text) = match (lacking, effects.iter().find(|spec| foreign(spec))) {
+        (_, Some(effect)) => (effect.name(), why.to_owned()),
+        (Some(effect), None) => (effect.name(), format!("it needs {} in the scene", effect.name())),
+        (None, None) => return Ok(()),
+    };
+    Err(refused(py, effect, format!("{effect}: {text}")))
+}
+
+const MOVING: [Spec; 2] = [Spec::Inertia, Spec::Coriolis];
+
 /// Refuses a scene without `Inertia`, which forward dynamics needs.
 pub fn with_inertia(py: Python<'_>, effects: &[Spec]) -> PyResult<()> {
-    if effects.contains(&Spec::Inertia) {
-        return Ok(());
-    }
-    let text = "forward dynamics needs Inertia in the scene";
-    Err(refused(py, "Inertia", text))
+    checked(py, effects, &MOVING[..1], |_| false, "")
 }
 
 /// Refuses rotors that spin, which some algorithms of the library do not have.
 pub fn without_rotors(py: Python<'_>, effects: &[Spec]) -> PyResult<()> {
     let spins = |effect: &Spec| matches!(effect, Spec::GyroscopicRotors { .. });
-    if !effects.iter().any(spins) {
-        return Ok(());
-    }
-    let text = "GyroscopicRotors: this algorithm has no rotors that spin: name Armature";
-    Err(refused(py, "GyroscopicRotors", text))
+    checked(py, effects, &[], spins, "this algorithm has no rotors that spin: name Armature")
+}
+
+/// Refuses scenes that machines with loops, linkages or links that bend do not have.
+pub fn whole(py: Python<'_>, effects: &[Spec]) -> PyResult<()> {
+    let foreign =
+        |effect: &Spec| matches!(effect, Spec::LoadFriction { .. } | Spec::GyroscopicRotors { .. });
+    checked(py, effects, &MOVING, foreign, "such a machine has no place for it")
+}
+
+/// Refuses scenes of which the library does not know derivatives.
+pub fn differentiable(py: Python<'_>, effects: &[Spec]) -> PyResult<()> {
+    let known = |spec: &Spec| matches!(spec, Spec::Payload { .. } | Spec::MovingBase { .. });
+    let foreign = |spec: &Spec| spec.is_extra() && !known(spec);
+    checked(py, effects, &MOVING, foreign, "its derivatives are not known")
 }

@@ -5,7 +5,7 @@ use dynamics_core::model::RobotModel;
 use dynamics_core::scalar::Real;
 
 use super::*;
-use crate::scene::Loads;
+use crate::scene::Differentiable;
 
 algorithm! {
     /// Torques, positions and velocities of the motors, of q with four derivatives; stiffness,
@@ -20,8 +20,7 @@ algorithm! {
             snap: filled(row, 4, counts.v),
         };
         let joints = ElasticJoints { stiffness, rotor, friction };
-        let parts = parts_of(scene);
-        let scene = (Scene::<R, V, A, C, X, false>(parts, false), Loads(parts));
+        let scene = Differentiable::<R, V, false>(parts_of(scene));
         let found = elastic_inverse_dynamics(robot, &joints, &reference, &scene)?;
         for (i, values) in [found.torque, found.position, found.velocity].iter().enumerate() {
             put(row, i, 0, &values[..counts.v]);

@@ -57,7 +57,7 @@ algorithm! {
     /// M⁻¹ of L and D⁻¹.
     Inverse, none, |this, robot, counts, scene, row| {
         let factors = Ltdl::from_rows(matrix(row, 0, counts), diagonal(row, 1, counts));
-        put_inverse(robot, &factors, row, counts);
+        put_inverse(robot, &factors, (row, 0), counts);
     }
 }
 
@@ -107,16 +107,16 @@ algorithm! {
     InverseMass, factored, |this, robot, counts, scene, row| {
         let q = filled::<R, Q>(row, 0, counts.q);
         let factors = factors::<R, D, B, Q, V, X>(robot, &q, parts_of(scene), counts)?;
-        put_inverse(robot, &factors, row, counts);
+        put_inverse(robot, &factors, (row, 0), counts);
     }
 }
 
 /// The columns of M⁻¹ of the robot's own coordinates.
 #[inline(always)]
-fn put_inverse<R: Real, D, const B: usize, const Q: usize, const V: usize>(
+pub(super) fn put_inverse<R: Real, D, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     factors: &Ltdl<R, V>,
-    row: &mut impl Row<R>,
+    (row, output): (&mut impl Row<R>, usize),
     counts: Counts,
 ) where
     D: RobotModel<R, B, Q, V>,
@@ -126,8 +126,8 @@ fn put_inverse<R: Real, D, const B: usize, const Q: usize, const V: usize>(
         unit[j] = R::ONE;
         let column = algorithms::solve(robot, factors, &unit);
         for (i, &x) in column.iter().enumerate().take(counts.v).skip(j) {
-            row.put(0, i * counts.v + j, x);
-            row.put(0, j * counts.v + i, x);
+            row.put(output, i * counts.v + j, x);
+            row.put(output, j * counts.v + i, x);
         }
     }
 }

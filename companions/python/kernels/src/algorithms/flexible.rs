@@ -28,7 +28,7 @@ macro_rules! flexible {
     ($(#[$doc:meta])* $name:ident { $($field:ident: $type:ty),* }, |$this:ident, $robot:ident, $counts:ident, $modes:ident, $scene:ident, $row:ident| $body:expr) => {
         algorithm! {
             $(#[$doc])*
-            $name<'a> { modes: &'a AnyModes $(, $field: $type)* }, machine,
+            $name<'a> { modes: &'a AnyModes $(, $field: $type)* }, bending,
             |$this, $robot, $counts, scene, $row| {
                 let $modes = $this.modes.get::<R>();
                 let $scene = &(Scene::<R, V, true, true, X, false>(parts_of(scene), true), Elasticity);

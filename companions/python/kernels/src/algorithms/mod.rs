@@ -28,17 +28,13 @@ macro_rules! algorithm {
     (@lanes Crba) => { true };
     (@lanes Aba) => { true };
     (@lanes $other:ident) => { false };
-    (@whole LoopForward) => { true };
-    (@whole FlexibleRnea) => { true };
-    (@whole FlexibleCrba) => { true };
-    (@whole Frequencies) => { true };
-    (@whole FlexibleForward) => { true };
-    (@whole ModalDynamics) => { true };
-    (@whole ModesAtRest) => { true };
-    (@whole FeedforwardTick) => { true };
-    (@whole $other:ident) => { false };
+    (@whole LoopForward machine) => { true };
+    (@whole $other:ident $scenes:ident) => { algorithm!(@small $scenes) };
+    (@small bending) => { true };
+    (@small $other:ident) => { false };
     (@spins linked) => { false };
     (@spins machine) => { false };
+    (@spins bending) => { false };
     (@spins $other:ident) => { true };
     (@fast all) => { true };
     (@fast moving) => { true };
@@ -61,7 +57,8 @@ macro_rules! algorithm {
         pub struct $name $(<$life>)? { $($(#[doc = stringify!($field)] pub $field: $type),*)? }
         impl $(<$life>)? Algorithm for $name $(<$life>)? {
             const FAST: bool = algorithm!(@fast $scenes);
-            const WHOLE: bool = algorithm!(@whole $name);
+            const WHOLE: bool = algorithm!(@whole $name $scenes);
+            const SMALL: bool = algorithm!(@small $scenes);
             const LANES: bool = algorithm!(@lanes $name);
             const TERMS_ALONE: bool = algorithm!(@terms_alone $name);
 
@@ -287,6 +284,7 @@ fn factors<
     Ok(algorithms::ltdl(robot, &m.plus_diagonal(&fillers(counts)))?)
 }
 
+mod derivatives;
 mod drivetrain;
 mod factors;
 mod flexible;
@@ -295,6 +293,7 @@ mod loops;
 mod manifold;
 mod regressors;
 
+pub use derivatives::*;
 pub use drivetrain::*;
 pub use factors::*;
 pub use flexible::*;

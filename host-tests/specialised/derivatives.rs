@@ -1,16 +1,18 @@
 //! ∂ID/∂q and ∂ID/∂q̇ by the engine: against Pinocchio, and against the core under effects.
 
 use dynamics_core::algorithms::{rnea, rnea_derivatives};
-use dynamics_core::effects::{Armature, Effect, MovingBase, Payload, RIGID_BODY, Viscous};
+use dynamics_core::effects::{Armature, Effect, MovingBase, Payload, RIGID_BODY, Spring, Viscous};
 use dynamics_core::model::{BodyInertia, Robot, Static};
-use dynamics_core::robots::{A1, Gen3, Iiwa14, OpenArm, Panda, Puma560, So101, Ur5e, XArm7, Z1};
+use dynamics_core::robots::{
+    A1, A1Free, Gen3, Iiwa14, OpenArm, Panda, Puma560, So101, Ur5e, XArm7, Z1,
+};
 use dynamics_core::scalar::Real;
 use dynamics_core::spatial::Motion;
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
 use firmware_demo::robots::Scara;
 use host_tests::measured::largest;
-use host_tests::random::{random_numbers, within};
+use host_tests::random::{random_numbers, state_of};
 use host_tests::recordings::{load, row};
 
 /// The largest difference of two matrices relative to the largest entry of the second.
@@ -31,15 +33,16 @@ impl Worst {
 }
 
 /// The errors of ∂ID/∂q and ∂ID/∂q̇ against the recording, of which `share` is taken.
-fn recorded<R: Real, T, const B: usize, const V: usize>(share: f64) -> [f64; 2]
+fn recorded<R: Real, T, const B: usize, const Q: usize, const V: usize>(share: f64) -> [f64; 2]
 where
-    T: Robot<B, V, V>,
+    T: Robot<B, Q, V>,
 {
     let recording = load(T::MODEL.name);
     let mut worst = [Worst::NONE; 2];
     for i in 0..recording.rnea_by_q.len() {
         let real = |rows| row::<V>(rows, i).map(R::from_f64);
-        let [q, qd, qdd] = [&recording.q, &recording.qd, &recording.qdd].map(|rows| real(rows));
+        let [qd, qdd] = [&recording.qd, &recording.qdd].map(|rows| real(rows));
+        let q = row::<Q>(&recording.q, i).map(R::from_f64);
         let by = Engine::<T>::rnea_derivatives(&State { q, qd, qdd }, &RIGID_BODY);
         let wanted = [&recording.rnea_by_q[i], &recording.rnea_by_qd[i]];
         for ((worst, got), wanted) in worst.iter_mut().zip([by.dq, by.dqd]).zip(wanted) {
@@ -50,10 +53,10 @@ where
     worst.map(|worst| worst.error / worst.scale)
 }
 
-fn check<T: Robot<B, V, V>, const B: usize, const V: usize>() {
+fn check<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>() {
     for (scalar, bound, errors) in [
-        ("f64", 1e-13, recorded::<f64, T, B, V>(1.0)),
-        ("f32", 5e-6, recorded::<f32, T, B, V>(1.0)),
+        ("f64", 1e-13, recorded::<f64, T, B, Q, V>(1.0)),
+        ("f32", 5e-6, recorded::<f32, T, B, Q, V>(1.0)),
     ] {
         println!("{} {scalar}: {errors:?}", T::MODEL.name);
         assert!(errors.iter().all(|&e| e < bound), "{} {scalar}: {errors:?}", T::MODEL.name);
@@ -62,29 +65,29 @@ fn check<T: Robot<B, V, V>, const B: usize, const V: usize>() {
 
 #[test]
 fn the_engines_derivatives_are_pinocchios() {
-    check::<Ur5e, 6, 6>();
-    check::<Panda, 7, 7>();
-    check::<Iiwa14, 7, 7>();
-    check::<Gen3, 7, 7>();
-    check::<XArm7, 7, 7>();
-    check::<Puma560, 6, 6>();
-    check::<OpenArm, 7, 7>();
-    check::<Z1, 7, 7>();
-    check::<So101, 6, 6>();
-    check::<A1, 16, 12>();
-    let off = recorded::<f64, Panda, 7, 7>(1.001);
+    check::<Ur5e, 6, 6, 6>();
+    check::<Panda, 7, 7, 7>();
+    check::<Iiwa14, 7, 7, 7>();
+    check::<Gen3, 7, 7, 7>();
+    check::<XArm7, 7, 7, 7>();
+    check::<Puma560, 6, 6, 6>();
+    check::<OpenArm, 7, 7, 7>();
+    check::<Z1, 7, 7, 7>();
+    check::<So101, 6, 6, 6>();
+    check::<A1, 16, 12, 12>();
+    check::<A1Free, 17, 19, 18>();
+    let off = recorded::<f64, Panda, 7, 7, 7>(1.001);
     assert!(off.iter().all(|&error| error > 1e-5), "{off:?}");
 }
 
 /// Under effects, and with prismatic joints, core and engine are each other's oracle.
-fn alike<T: Robot<B, V, V>, E, const B: usize, const V: usize>(scene: &E)
+fn alike<T: Robot<B, Q, V>, E, const B: usize, const Q: usize, const V: usize>(scene: &E)
 where
     E: Effect<f64, B, V>,
 {
     let (mut worst, mut random) = ([Worst::NONE; 4], random_numbers());
     for _ in 0..20 {
-        let [q, qd, qdd] = [1.0, 3.0, 10.0].map(|bound| within::<V>(&mut random, bound));
-        let state = State { q, qd, qdd };
+        let state = state_of(&Static::<T>::NEW, &mut random);
         let tau = rnea(&Static::<T>::NEW, &state, scene);
         let got = Engine::<T>::forward_dynamics_derivatives(&state, &tau, scene);
         let want = Core::<T>::forward_dynamics_derivatives(&state, &tau, scene);
@@ -114,7 +117,9 @@ fn core_and_engine_have_the_same_derivatives_under_effects() {
         velocity: Motion::new(vector(0.3, -0.5, 0.7), vector(0.1, 0.2, -0.3)),
         acceleration: Motion::new(vector(-1.0, 2.0, 0.5), vector(0.4, 1.0, -2.0)),
     };
-    alike::<Ur5e, _, 6, 6>(&(RIGID_BODY, Armature([0.3; 6]), load, ship, Viscous([0.7; 6])));
-    alike::<Scara, _, 3, 3>(&RIGID_BODY);
-    alike::<Scara, _, 3, 3>(&(RIGID_BODY, ship));
+    let springs = Spring { stiffness: [30.0; 18], rest: [0.1; 18] };
+    alike::<A1Free, _, 17, 19, 18>(&(RIGID_BODY, Viscous([0.7; 18]), springs));
+    alike::<Ur5e, _, 6, 6, 6>(&(RIGID_BODY, Armature([0.3; 6]), load, ship, Viscous([0.7; 6])));
+    alike::<Scara, _, 3, 3, 3>(&RIGID_BODY);
+    alike::<Scara, _, 3, 3, 3>(&(RIGID_BODY, ship));
 }

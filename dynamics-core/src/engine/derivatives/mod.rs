@@ -19,28 +19,33 @@
 //! The composites are those of Singh, Russell & Wensing (2022); the classical acceleration takes
 //! the place of the spatial one, as in [`super::acceleration_field`].
 
+mod floating;
+
 use core::borrow::Borrow;
 
-use super::Engine;
-use super::acceleration_field::{AccelerationField, Inertia, Wrench, along_z};
-use super::call::Call;
-use super::compile::{Compiled, CompiledJoint, CompiledRobot, Joint, JointMotion, JointPair};
-use super::displacement::Displacement;
-use super::folding::{Folded, Mat3, Vec3, rotate_matrix_to_parent, rotate_to_parent};
-use super::joint_rates::JointRates;
 use crate::algorithms::{TorqueGradient, named_derivatives};
 use crate::effects::{Declared, Effect, TorqueDerivatives};
+use crate::engine::Engine;
+use crate::engine::acceleration_field::{AccelerationField, Inertia, Wrench, along_z};
+use crate::engine::call::Call;
+use crate::engine::compile::{
+    Compiled, CompiledJoint, CompiledRobot, Joint, JointMotion, JointPair,
+};
+use crate::engine::displacement::Displacement;
+use crate::engine::folding::{Folded, Mat3, Vec3, rotate_matrix_to_parent, rotate_to_parent};
+use crate::engine::joint_rates::JointRates;
 use crate::model::{BASE, Robot};
 use crate::scalar::Real;
 use crate::state::{Configuration, RobotState, State};
 use crate::trig::Kernel;
+use floating::Floating;
 
 impl<Arm, Sines> Engine<Arm, Sines> {
     /// ∂τ/∂q and ∂τ/∂q̇ of inverse dynamics τ = ID(q, q̇, q̈) under the effects of the scene,
     /// N·m/rad and N·m·s/rad between revolute joints; ∂τ/∂q̈ is M, that of [`Engine::crba`].
     ///
     /// The same as [`rnea_derivatives`](crate::algorithms::rnea_derivatives()), for robots of
-    /// revolute and prismatic joints; others do not compile.
+    /// revolute and prismatic joints, on a base that is fixed, moves or is free; others do not compile.
     ///
     /// # Shape
     /// Two of V × V.
@@ -74,7 +79,7 @@ impl<Arm, Sines> Engine<Arm, Sines> {
         scene_is_taken!();
         const {
             named_derivatives::<Scalar, Effects, B, V>();
-            takes_single_joints::<CompiledRobot<Arm, B, Q, V>>();
+            takes_joints::<CompiledRobot<Arm, B, Q, V>>(Effects::BASE_MOTION);
         };
         let trig = state.configuration().trig_or(Self::trig_source());
         let mut gradient =
@@ -85,14 +90,19 @@ impl<Arm, Sines> Engine<Arm, Sines> {
     }
 }
 
-/// A robot of joints of one axis.
-const fn takes_single_joints<Tree: Compiled>() {
+/// A robot of revolute and prismatic joints, on a base that may move or be free.
+const fn takes_joints<Tree: Compiled>(base_moves: bool) {
     let mut i = 0;
     while i < Tree::JOINTS.len() {
+        let first = Tree::JOINTS[Tree::JOINTS[i].first];
         assert!(
-            matches!(Tree::JOINTS[i].motion, JointMotion::Turn | JointMotion::Slide),
-            "the engine differentiates robots of revolute and prismatic joints; use \
-             `algorithms::rnea_derivatives`"
+            match first.motion {
+                JointMotion::Turn | JointMotion::Slide => true,
+                JointMotion::Free => first.parent == BASE && !base_moves,
+                _ => false,
+            },
+            "the engine differentiates robots of revolute and prismatic joints, on a base that is \
+             fixed, moves or is free; use `algorithms::rnea_derivatives`"
         );
         i += 1;
     }
@@ -129,8 +139,9 @@ struct Felt<Scalar> {
 struct Task<'a, Scalar: Real, Tree, Effects, const B: usize, const Q: usize, const V: usize> {
     call: Call<'a, Scalar, Tree, Effects, B, Q, V>,
     state: &'a State<Scalar, Q, V>,
-    /// The parts of the changes by each joint.
+    /// The parts of the changes by each joint, and by a free base.
     kept: [Kept<Scalar>; V],
+    base: Floating<Scalar>,
     gradient: &'a mut TorqueGradient<Scalar, V>,
 }
 
@@ -148,7 +159,8 @@ where
         gradient: &mut TorqueGradient<Scalar, V>,
     ) {
         let base = self.base();
-        let mut task = Task { call: self, state, kept: [Kept::default(); V], gradient };
+        let (kept, floating) = ([Kept::default(); V], Floating::default());
+        let mut task = Task { call: self, state, kept, base: floating, gradient };
         for_each_joint!(
             J,
             CompiledJoint::<Tree, J>::IS_ON_BASE,
@@ -179,7 +191,8 @@ where
             accel: Folded::runtime_if(Effects::ACCELERATIONS, self.state.qdd[I]) * unit,
         };
         let at = self.call.displacement::<I>();
-        let field = parent.across(&at, rates);
+        let floats = CompiledJoint::<Tree, I>::COUNT > 1;
+        let field = if floats { self.float::<I>(parent, &at) } else { parent.across(&at, rates) };
         let offset = Vec3::constant(joint.pos) + at.shift();
         let mut step = parent.omega_products.cross(offset);
         if joint.prismatic {
@@ -198,7 +211,11 @@ where
                 all = all + visit(self, &field);
             }
         );
-        self.pair_up::<I>(&all, &changes(joint.prismatic, &field), unit);
+        if floats {
+            self.pair_up_floating::<I>(&all, &at);
+        } else {
+            self.pair_up::<I>(&all, &changes(joint.prismatic, &field), unit);
+        }
         all.to_parent(&at, step, offset)
     }
 
@@ -264,18 +281,23 @@ where
         for_each_joint_reversed!(K, {
             if JointPair::<Tree, K, I>::SUPPORTS {
                 let other = CompiledJoint::<Tree, K>::JOINT;
-                if other.parent != BASE {
+                if other.parent != BASE && other.first == K {
                     let at = self.call.displacement::<K>();
                     (by_q, by_qd) = (by_q.to_parent(&at), by_qd.to_parent(&at));
                     felt = felt.to_parent(&at, self.step::<K>());
                     let (j, parent) = (other.parent, CompiledJoint::<Tree, K>::PARENT);
-                    let [by_position, by_rate] = self.changes_of_parent::<K>();
-                    let scale = of(parent) * of(joint);
-                    let (q, qd) = (felt.of(&by_position), felt.of(&by_rate));
-                    self.gradient.dq[j][I] = (by_q.along(parent, length_inv) * unit).get();
-                    self.gradient.dqd[j][I] = (by_qd.along(parent, length_inv) * unit).get();
-                    self.gradient.dq[I][j] = (q * scale).get();
-                    self.gradient.dqd[I][j] = (qd * scale).get();
+                    if parent.count > 1 {
+                        let scales = [unit, of(joint)];
+                        self.pair_up_with_base::<I>(parent.first, [by_q, by_qd], &felt, scales);
+                    } else {
+                        let [by_position, by_rate] = self.changes_of_parent::<K>();
+                        let scale = of(parent) * of(joint);
+                        let (q, qd) = (felt.of(&by_position), felt.of(&by_rate));
+                        self.gradient.dq[j][I] = (by_q.along(parent, length_inv) * unit).get();
+                        self.gradient.dqd[j][I] = (by_qd.along(parent, length_inv) * unit).get();
+                        self.gradient.dq[I][j] = (q * scale).get();
+                        self.gradient.dqd[I][j] = (qd * scale).get();
+                    }
                 }
             }
         });

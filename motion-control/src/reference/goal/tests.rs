@@ -105,7 +105,7 @@ fn a_change_that_misses_its_tick_or_its_motion_changes_nothing() {
     assert_eq!(goal.begin(300, &[f64::NAN, 0.0]).unwrap_err(), GoalError::NotFinite { joint: 0 });
     assert_eq!(goal.begin(u32::MAX, &[0.0, 0.0]).unwrap_err(), GoalError::TooLong);
     let begun = goal.begin(300, &[0.5, 0.5]).unwrap();
-    let mut begun_and = |ticks: &[u32], other: Option<u32>| {
+    let begun_and = |ticks: &[u32], other: Option<u32>| {
         let (mut goal, mut change) = (goal, begun);
         other.map(|tick| goal.set(tick, &[0.2, 0.3]).unwrap());
         let before = goal;

@@ -229,9 +229,11 @@ impl<R: Real, const V: usize> TipMotion<R, V> {
         let (posture, all_free) = (self.posture(), !self.free.contains(&false));
         if let Some(p) = &posture {
             let mut sum = whole * whole;
-            for j in (0..V).filter(|j| self.free[*j]) {
-                rest -= jacobian[j] * p[j];
-                sum += p[j] * p[j];
+            for j in 0..V {
+                if self.free[j] {
+                    rest -= jacobian[j] * p[j];
+                    sum += p[j] * p[j];
+                }
             }
             whole = root(sum);
         }
@@ -308,13 +310,15 @@ impl<R: Real, const V: usize> TipMotion<R, V> {
         let Some(near) = near else {
             return status;
         };
-        for joint in (0..V).filter(|j| near[*j]) {
-            let most = self.config.limits[joint].velocity;
-            let wanted = speeds[joint].clamped(-most, most);
-            speeds[joint] = self.viable(joint, wanted);
-            if speeds[joint] != wanted {
-                (self.held[joint], self.free[joint]) = (wanted, false);
-                status = TipStatus::Limited(joint);
+        for joint in 0..V {
+            if near[joint] {
+                let most = self.config.limits[joint].velocity;
+                let wanted = speeds[joint].clamped(-most, most);
+                speeds[joint] = self.viable(joint, wanted);
+                if speeds[joint] != wanted {
+                    (self.held[joint], self.free[joint]) = (wanted, false);
+                    status = TipStatus::Limited(joint);
+                }
             }
         }
         status
@@ -357,10 +361,14 @@ impl<R: Real, const V: usize> TipMotion<R, V> {
         }
         let (share, old) = (most / greatest, self.state.qd);
         let mut new: [R; V] = core::array::from_fn(|j| old[j] + share * (speeds[j] - old[j]));
-        for j in (0..V).filter(|j| near.is_some_and(|near| near[*j])) {
-            let MotionLimits { velocity, acceleration: a } = self.config.limits[j];
-            new[j] = self.viable(j, new[j]).clamped(-velocity, velocity);
-            new[j] = new[j].clamped(old[j] - a * h, old[j] + a * h);
+        if let Some(near) = near {
+            for j in 0..V {
+                if near[j] {
+                    let MotionLimits { velocity, acceleration: a } = self.config.limits[j];
+                    new[j] = self.viable(j, new[j]).clamped(-velocity, velocity);
+                    new[j] = new[j].clamped(old[j] - a * h, old[j] + a * h);
+                }
+            }
         }
         for j in 0..V {
             let (q, a) = (self.state.q[j], self.config.limits[j].acceleration);

@@ -226,49 +226,35 @@ impl<R: Real, const V: usize> TipMotion<R, V> {
         let mut rest = *twist;
         let mut whole = root(square(*twist, per_length) + R::MIN_POSITIVE);
         let damping = self.config.damping * whole + R::from_f64(LEAST);
-        let (posture, all_free) = (self.posture(), !self.free.contains(&false));
-        if let Some(p) = &posture {
-            let mut sum = whole * whole;
-            for j in 0..V {
-                if self.free[j] {
-                    rest -= jacobian[j] * p[j];
-                    sum += p[j] * p[j];
-                }
-            }
-            whole = root(sum);
-        }
+        let (gain, all_free) = (self.config.posture_gain, !self.free.contains(&false));
+        let (has_posture, mut p, mut sum) = (gain > R::ZERO, [R::ZERO; V], whole * whole);
         let (mut columns, mut some) = (jacobian, [Motion::ZERO; V]);
-        if !all_free {
+        if has_posture | !all_free {
             for j in 0..V {
-                if self.free[j] {
-                    some[j] = jacobian[j];
-                } else {
-                    rest -= jacobian[j] * self.viable(j, self.held[j]);
+                if has_posture {
+                    let quarter = R::from_f64(0.25) * self.config.limits[j].velocity;
+                    let wanted = gain * (self.config.posture[j] - self.state.q[j]);
+                    p[j] = wanted.clamped(-quarter, quarter);
                 }
+                let known = if self.free[j] {
+                    some[j] = jacobian[j];
+                    sum += p[j] * p[j];
+                    p[j]
+                } else {
+                    self.viable(j, self.held[j])
+                };
+                rest -= jacobian[j] * known;
             }
-            columns = &some;
+            (columns, whole) = (&some, root(sum));
         }
         let x = damped_motion(columns, (damping, per_length), rest);
         let mut speeds = jacobian.map(|column| column.dot(x));
-        if let Some(p) = &posture {
-            speeds.iter_mut().zip(p).for_each(|(speed, p)| *speed += *p);
+        if has_posture {
+            speeds.iter_mut().zip(&p).for_each(|(speed, p)| *speed += *p);
         }
         let status = self.limit((near, all_free), whole, &mut speeds);
         self.advance(near, &speeds);
         status
-    }
-
-    /// The speeds towards the posture, if there is one.
-    #[inline(always)]
-    fn posture(&self) -> Option<[R; V]> {
-        let config = &self.config;
-        (config.posture_gain > R::ZERO).then(|| {
-            core::array::from_fn(|j| {
-                let quarter = R::from_f64(0.25) * config.limits[j].velocity;
-                let wanted = config.posture_gain * (config.posture[j] - self.state.q[j]);
-                wanted.clamped(-quarter, quarter)
-            })
-        })
     }
 
     /// Limits the speeds, of which the motion has the size `whole`.
@@ -346,6 +332,17 @@ impl<R: Real, const V: usize> TipMotion<R, V> {
         if up { most } else { -most }
     }
 
+    /// The new speed of joint j, limited by (2) as far as its acceleration allows.
+    #[inline(never)]
+    fn braked(&self, j: usize, new: R) -> R {
+        let Some(MotionLimits { velocity, acceleration }) = self.config.limits.get(j) else {
+            return new;
+        };
+        let (old, step) = (entry(&self.state.qd, j), *acceleration * self.config.tick);
+        let new = self.viable(j, new).clamped(-*velocity, *velocity);
+        new.clamped(old - step, old + step)
+    }
+
     /// Advances all joints towards these speeds, together and within their limits.
     #[inline(always)]
     fn advance(&mut self, near: Option<&[bool; V]>, speeds: &[R; V]) {
@@ -364,9 +361,7 @@ impl<R: Real, const V: usize> TipMotion<R, V> {
         if let Some(near) = near {
             for j in 0..V {
                 if near[j] {
-                    let MotionLimits { velocity, acceleration: a } = self.config.limits[j];
-                    new[j] = self.viable(j, new[j]).clamped(-velocity, velocity);
-                    new[j] = new[j].clamped(old[j] - a * h, old[j] + a * h);
+                    new[j] = self.braked(j, new[j]);
                 }
             }
         }

@@ -126,10 +126,10 @@ pub use motion::{
     PreviousTick, ReferencedTick, ResetError, TipGoal, TipMotion, TipMotionConfig, TipStatus, hold,
 };
 pub use reference::{
-    GeometricPath, GoalError, JerkLimits, JointFriction, MovingGoal, PathLimits, PathPoint,
-    PathSpline, PathSplineError, Recorded, Reference, RestToRest, Shaped, Shaper, ShaperError,
-    ShaperProblem, TaughtPath, TimedPath, TimedPathError, Trajectory, TrajectoryError, Vibration,
-    WayPoint,
+    GeometricPath, GoalChange, GoalError, JerkLimits, JointFriction, MovingGoal, PathLimits,
+    PathPoint, PathSpline, PathSplineError, Recorded, Reference, RestToRest, Shaped, Shaper,
+    ShaperError, ShaperProblem, TaughtPath, TimedPath, TimedPathError, Trajectory, TrajectoryError,
+    Vibration, WayPoint,
 };
 pub use safety::{
     CompletedTick, CountedTick, Detect, Detectors, FrozenEncoder, ReferenceStep, Saturation,

@@ -16,6 +16,8 @@ use serde::Deserialize;
 use crate::common::Rng;
 
 const TICK: f32 = 1e-3;
+/// The delay of a change that is spread over ticks.
+const SPREAD: u32 = 6;
 
 /// The output of `host-tests/oracle/moving_goals.py`.
 #[derive(Deserialize)]
@@ -121,7 +123,8 @@ fn is_near(state: &State<f32, 6, 6>, other: &State<f32, 6, 6>) -> bool {
     state.q == other.q && near(&state.qd, &other.qd) && near(&state.qdd, &other.qdd)
 }
 
-/// Goals at random ticks: near, far, and where the joint is.
+/// Goals at random ticks: near, far, and where the joint is. A change that is spread over ticks, and
+/// starts in the same one, is the same.
 fn random_goals(goals: u32, mut out: impl Write) -> Seen {
     let mut rng = Rng::new(50);
     let mut seen = Seen::default();
@@ -129,7 +132,7 @@ fn random_goals(goals: u32, mut out: impl Write) -> Seen {
         let limits: [_; 6] = std::array::from_fn(|_| limits(&mut rng));
         let start = [(); 6].map(|()| rng.within(1.0) as f32);
         let mut motion = MovingGoal::try_new(&start, limits, TICK).unwrap();
-        let mut tick = 0;
+        let mut tick = SPREAD;
         for _ in 0..20 {
             let from = motion.at(tick);
             let goal = from.q.map(|q| match rng.below(10) {
@@ -137,7 +140,13 @@ fn random_goals(goals: u32, mut out: impl Write) -> Seen {
                 1..5 => q + (rng.within(1.0) * 10.0_f64.powf(-2.0 + rng.within(2.0))) as f32,
                 _ => rng.within(3.0) as f32,
             });
+            let (mut spread, begin) = (motion, tick - SPREAD);
+            let mut change = spread.begin(begin, &goal).unwrap();
+            for at in begin + 1..tick {
+                assert_eq!(spread.advance(at, &mut change), Ok(None));
+            }
             let arrival = motion.set(tick, &goal).unwrap();
+            assert_eq!((spread.advance(tick, &mut change), spread), (Ok(Some(arrival)), motion));
             assert!(is_near(&motion.at(tick), &from), "{from:?} {motion:?}");
             assert_eq!(motion.at(arrival), State::at(goal));
             let ticks = arrival - tick;

@@ -107,18 +107,16 @@ impl<R: Real, const V: usize> TipWrench<R, V> {
         jacobian: &[Motion<R>; V],
         external: &[R; V],
     ) -> Result<Force<R>, Fault> {
-        let mut scaled = [([R::ZERO; 6], R::ZERO); V];
+        let mut scaled = [[R::ZERO; 6]; V];
+        let mut b = [R::ZERO; 6];
         let joints = jacobian.iter().zip(external).zip(&self.weights);
-        for (scaled, ((column, tau), weight)) in scaled.iter_mut().zip(joints) {
+        for (c, ((column, tau), weight)) in scaled.iter_mut().zip(joints) {
             let [ang, lin] = [(column.ang, self.couple), (column.lin, self.force)]
                 .map(|(axis, size)| (axis * (size * *weight)).array());
-            let c = [ang[0], ang[1], ang[2], lin[0], lin[1], lin[2]];
-            *scaled = (c, *tau * *weight);
+            *c = [ang[0], ang[1], ang[2], lin[0], lin[1], lin[2]];
+            b.iter_mut().zip(c).for_each(|(sum, c)| *sum += *c * (*tau * *weight));
         }
-        let (mut a, mut b) = ([[R::ZERO; 6]; 6], [R::ZERO; 6]);
-        // In two parts, since the sums of the whole matrix are more than the M4F has registers.
-        add_rows::<R, V, 0, 2>(&scaled, &mut a, &mut b);
-        add_rows::<R, V, 2, 6>(&scaled, &mut a, &mut b);
+        let a = squares(scaled.into_iter());
         // Eigenvalues below the roundings of the largest are not known: a shift of that size keeps
         // them from growing.
         let trace = (0..6).fold(R::ZERO, |sum, i| sum + a[i][i]);
@@ -136,25 +134,19 @@ impl<R: Real, const V: usize> TipWrench<R, V> {
     }
 }
 
-/// The rows of Σ c cᵀ from the diagonal on, and of Σ c τ.
+/// Σ c cᵀ of one column or more.
 #[inline(always)]
-pub(crate) fn add_rows<R: Real, const V: usize, const FROM: usize, const TO: usize>(
-    scaled: &[([R; 6], R); V],
-    a: &mut [[R; 6]; 6],
-    b: &mut [R; 6],
-) {
-    let (mut rows, mut sums) = ([[R::ZERO; 6]; 6], [R::ZERO; 6]);
-    for (c, tau) in scaled {
-        for i in FROM..TO {
-            sums[i] += c[i] * *tau;
+pub(crate) fn squares<R: Real>(columns: impl Iterator<Item = [R; 6]>) -> [[R; 6]; 6] {
+    let mut sums = [[R::ZERO; 6]; 6];
+    for (k, c) in columns.enumerate() {
+        for i in 0..6 {
             for j in i..6 {
-                rows[i][j] += c[i] * c[j];
+                let product = c[i] * c[j];
+                sums[i][j] = if k == 0 { product } else { sums[i][j] + product };
             }
         }
     }
-    for i in FROM..TO {
-        (a[i], b[i]) = (rows[i], sums[i]);
-    }
+    core::array::from_fn(|i| core::array::from_fn(|j| sums[i.min(j)][i.max(j)]))
 }
 
 /// The first joint with a number that is not finite.

@@ -107,7 +107,10 @@ impl<R: Real, const V: usize> PoseSolver<R, V> {
             let error = pose_error(&pose, goal);
             let now = square(error, per_length);
             let damping = (share * now + omega, per_length);
-            let x = damped_motion(&jacobian, (&[R::ZERO; V], &free), damping, error);
+            let mut columns = jacobian;
+            let held = columns.iter_mut().zip(free).filter(|(_, free)| !free);
+            held.for_each(|(column, _)| *column = Motion::ZERO);
+            let x = damped_motion(&columns, damping, error);
             let steps = jacobian.map(|column| column.dot(x).clamped(-most, most));
             if !(now + x.ang.dot(x.ang) + x.lin.dot(x.lin)).is_finite() {
                 return Err(PoseSolverError::NotFinite);

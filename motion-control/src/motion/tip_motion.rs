@@ -47,6 +47,8 @@ mod tests;
 const ROUNDINGS: f64 = 4.0;
 /// The least λ².
 const LEAST: f64 = 1e-3;
+/// The least square of joint speeds that are taken for not finite, (rad/s)² or (m/s)².
+const MOST: f64 = 1e30;
 /// The distance from which on the end of a range is no limit, rad or m.
 const FAR: f64 = 1e6;
 
@@ -137,8 +139,11 @@ pub struct TipMotion<R, const V: usize> {
     state: State<R, V, V>,
     /// The parts of the positions that rounding has left.
     rest: [R; V],
-    /// The d of joints that are held at a limit.
-    held: [Option<R>; V],
+    /// The joints that are not held at a limit, and the d of those that are.
+    free: [bool; V],
+    held: [R; V],
+    /// 1/ℓ and 1/h.
+    inverse: [R; 2],
     /// The distances from an end from which on no speed is limited by (2).
     far: [R; V],
 }
@@ -165,8 +170,9 @@ impl<R: Real, const V: usize> TipMotion<R, V> {
         let far = config.limits.map(|MotionLimits { velocity, acceleration: a }| {
             velocity * (velocity / (a + a) + config.tick + config.tick)
         });
-        let (state, rest, held) = (State::at(*q), [R::ZERO; V], [None; V]);
-        Ok(Self { config, state, rest, held, far })
+        let inverse = [config.length, config.tick].map(|x| R::ONE / x);
+        let (state, rest, held, free) = (State::at(*q), [R::ZERO; V], [R::ZERO; V], [true; V]);
+        Ok(Self { config, state, rest, held, free, inverse, far })
     }
 
     /// The state of the reference in this tick: where the next [`Self::step`] needs the Jacobian.
@@ -195,7 +201,7 @@ impl<R: Real, const V: usize> TipMotion<R, V> {
     pub fn restart(&mut self, state: &State<R, V, V>) -> bool {
         let finite = state.is_finite();
         if finite {
-            (self.state, self.rest, self.held) = (*state, [R::ZERO; V], [None; V]);
+            (self.state, self.rest, self.free) = (*state, [R::ZERO; V], [true; V]);
         }
         finite
     }
@@ -211,59 +217,96 @@ impl<R: Real, const V: usize> TipMotion<R, V> {
     /// [`TipStatus::NotFinite`]: the joints brake within their limits.
     #[inline]
     pub fn step(&mut self, jacobian: &[Motion<R>; V], twist: &Motion<R>) -> TipStatus {
-        let (config, per_length) = (&self.config, R::ONE / self.config.length);
-        let (mut posture, mut near, mut free) = ([R::ZERO; V], [false; V], [true; V]);
+        let near: [bool; V] = core::array::from_fn(|j| {
+            let (q, far) = (self.state.q[j], self.far[j]);
+            (self.config.upper[j] - q < far) | (q - self.config.lower[j] < far)
+        });
+        let near = near.contains(&true).then_some(&near);
+        let [per_length, _] = self.inverse;
         let mut rest = *twist;
-        for j in 0..V {
-            let q = self.state.q[j];
-            if config.posture_gain > R::ZERO {
-                let quarter = R::from_f64(0.25) * config.limits[j].velocity;
-                let wanted = config.posture_gain * (config.posture[j] - q);
-                posture[j] = wanted.clamped(-quarter, quarter);
+        let mut whole = root(square(*twist, per_length) + R::MIN_POSITIVE);
+        let damping = self.config.damping * whole + R::from_f64(LEAST);
+        let (gain, all_free) = (self.config.posture_gain, !self.free.contains(&false));
+        let (has_posture, mut p, mut sum) = (gain > R::ZERO, [R::ZERO; V], whole * whole);
+        let (mut columns, mut some) = (jacobian, [Motion::ZERO; V]);
+        if has_posture | !all_free {
+            for j in 0..V {
+                if has_posture {
+                    let quarter = R::from_f64(0.25) * self.config.limits[j].velocity;
+                    let wanted = gain * (self.config.posture[j] - self.state.q[j]);
+                    p[j] = wanted.clamped(-quarter, quarter);
+                }
+                let known = if self.free[j] {
+                    some[j] = jacobian[j];
+                    sum += p[j] * p[j];
+                    p[j]
+                } else {
+                    self.viable(j, self.held[j])
+                };
+                rest -= jacobian[j] * known;
             }
-            let (above, below) = (config.upper[j] - q, q - config.lower[j]);
-            near[j] = (above < self.far[j]) | (below < self.far[j]);
-            if let Some(wanted) = self.held[j] {
-                rest -= jacobian[j] * self.viable(j, wanted);
-                free[j] = false;
-            }
+            (columns, whole) = (&some, root(sum));
         }
-        let whole = square(*twist, per_length) + R::MIN_POSITIVE;
-        let damping = config.damping * root(whole) + R::from_f64(LEAST);
-        let x = damped_motion(jacobian, (&posture, &free), (damping, per_length), rest);
-        let mut speeds: [R; V] = core::array::from_fn(|j| posture[j] + jacobian[j].dot(x));
-        if !all_finite(&speeds) {
-            self.advance(&near, &[R::ZERO; V]);
+        let x = damped_motion(columns, (damping, per_length), rest);
+        let mut speeds = jacobian.map(|column| column.dot(x));
+        if has_posture {
+            speeds.iter_mut().zip(&p).for_each(|(speed, p)| *speed += *p);
+        }
+        let status = self.limit((near, all_free), whole, &mut speeds);
+        self.advance(near, &speeds);
+        status
+    }
+
+    /// Limits the speeds, of which the motion has the size `whole`.
+    #[inline(always)]
+    fn limit(
+        &mut self,
+        (near, all_free): (Option<&[bool; V]>, bool),
+        whole: R,
+        speeds: &mut [R; V],
+    ) -> TipStatus {
+        let add = |squares: &[R; V]| squares.iter().fold(R::MIN_POSITIVE, |sum, x| sum + *x);
+        let mut squares = speeds.map(|d| d * d);
+        let mut sum = add(&squares);
+        // Squares of greater speeds might overflow.
+        let usual = sum < R::from_f64(MOST);
+        if !usual {
+            *speeds = [R::ZERO; V];
             return TipStatus::NotFinite;
         }
-        let (mut whole, mut sum) = (whole, R::MIN_POSITIVE);
-        for j in 0..V {
-            let d = if free[j] { speeds[j] } else { R::ZERO };
-            (whole, sum) = (whole + posture[j] * posture[j], sum + d * d);
+        if !all_free {
+            let held = squares.iter_mut().zip(&self.free).filter(|(_, free)| !**free);
+            held.for_each(|(square, _)| *square = R::ZERO);
+            sum = add(&squares);
         }
-        let sigma = root(whole) * sum.rsqrt();
-        let (mut share, mut status) = (R::ONE, TipStatus::Follows);
-        for (joint, d) in speeds.iter().enumerate() {
-            let MotionLimits { velocity, acceleration } = config.limits[joint];
-            let (square, most) = (velocity * velocity, acceleration * sigma);
-            let most = if square < most { square } else { most };
-            if free[joint] & (*d * *d * share > most) {
-                (share, status) = (most / (*d * *d), TipStatus::Slowed(joint));
+        let sigma = whole * sum.rsqrt();
+        // The share that is left is (most / square).
+        let (mut most, mut square, mut status) = (R::ONE, R::ONE, TipStatus::Follows);
+        for (joint, now) in squares.into_iter().enumerate() {
+            let MotionLimits { velocity, acceleration } = self.config.limits[joint];
+            let (fast, turning) = (velocity * velocity, acceleration * sigma);
+            let limit = if fast < turning { fast } else { turning };
+            if now * most > limit * square {
+                (most, square, status) = (limit, now, TipStatus::Slowed(joint));
             }
         }
-        let share = root(share);
-        for (joint, speed) in speeds.iter_mut().enumerate() {
-            (*speed, self.held[joint]) = (*speed * share, None);
+        let share = root(most / square);
+        speeds.iter_mut().for_each(|speed| *speed *= share);
+        self.free = [true; V];
+        let Some(near) = near else {
+            return status;
+        };
+        for joint in 0..V {
             if near[joint] {
                 let most = self.config.limits[joint].velocity;
-                let wanted = speed.clamped(-most, most);
-                *speed = self.viable(joint, wanted);
-                if *speed != wanted {
-                    (self.held[joint], status) = (Some(wanted), TipStatus::Limited(joint));
+                let wanted = speeds[joint].clamped(-most, most);
+                speeds[joint] = self.viable(joint, wanted);
+                if speeds[joint] != wanted {
+                    (self.held[joint], self.free[joint]) = (wanted, false);
+                    status = TipStatus::Limited(joint);
                 }
             }
         }
-        self.advance(&near, &speeds);
         status
     }
 
@@ -289,28 +332,45 @@ impl<R: Real, const V: usize> TipMotion<R, V> {
         if up { most } else { -most }
     }
 
+    /// The new speed of joint j, limited by (2) as far as its acceleration allows.
+    #[inline(never)]
+    fn braked(&self, j: usize, new: R) -> R {
+        let Some(MotionLimits { velocity, acceleration }) = self.config.limits.get(j) else {
+            return new;
+        };
+        let (old, step) = (entry(&self.state.qd, j), *acceleration * self.config.tick);
+        let new = self.viable(j, new).clamped(-*velocity, *velocity);
+        new.clamped(old - step, old + step)
+    }
+
     /// Advances all joints towards these speeds, together and within their limits.
     #[inline(always)]
-    fn advance(&mut self, near: &[bool; V], speeds: &[R; V]) {
-        let (h, half, per_tick) = (self.config.tick, R::from_f64(0.5), R::ONE / self.config.tick);
-        let mut share = R::ONE;
+    fn advance(&mut self, near: Option<&[bool; V]>, speeds: &[R; V]) {
+        let (h, half, [_, per_tick]) = (self.config.tick, R::from_f64(0.5), self.inverse);
+        // The share of the changes is (most / greatest).
+        let (mut most, mut greatest) = (R::ONE, R::ONE);
         for (j, speed) in speeds.iter().enumerate() {
             let change = (*speed - self.state.qd[j]).abs();
             let step = self.config.limits[j].acceleration * h;
-            share = if change * share > step { step / change } else { share };
-        }
-        for (j, speed) in speeds.iter().enumerate() {
-            let MotionLimits { velocity, acceleration: a } = self.config.limits[j];
-            let (q, old) = (self.state.q[j], self.state.qd[j]);
-            let mut new = old + share * (*speed - old);
-            if near[j] {
-                new = self.viable(j, new).clamped(-velocity, velocity);
-                new = new.clamped(old - a * h, old + a * h);
+            if change * most > step * greatest {
+                (most, greatest) = (step, change);
             }
-            let way = half * h * (old + new) + self.rest[j];
-            (self.state.q[j], self.state.qd[j]) = (q + way, new);
+        }
+        let (share, old) = (most / greatest, self.state.qd);
+        let mut new: [R; V] = core::array::from_fn(|j| old[j] + share * (speeds[j] - old[j]));
+        if let Some(near) = near {
+            for j in 0..V {
+                if near[j] {
+                    new[j] = self.braked(j, new[j]);
+                }
+            }
+        }
+        for j in 0..V {
+            let (q, a) = (self.state.q[j], self.config.limits[j].acceleration);
+            let way = half * h * (old[j] + new[j]) + self.rest[j];
+            (self.state.q[j], self.state.qd[j]) = (q + way, new[j]);
             self.rest[j] = way - (self.state.q[j] - q);
-            self.state.qdd[j] = ((new - old) * per_tick).clamped(-a, a);
+            self.state.qdd[j] = ((new[j] - old[j]) * per_tick).clamped(-a, a);
         }
     }
 }

@@ -68,6 +68,17 @@ pub struct MovingGoal<R, const V: usize> {
     seconds: R,
 }
 
+/// A change of the goal that is computed in several ticks: [`MovingGoal::begin`].
+#[derive(Clone, Copy, Debug)]
+pub struct GoalChange<R, const V: usize> {
+    start: u32,
+    from: State<R, V, V>,
+    goal: [R; V],
+    joints: [(Start<R>, Fastest<R>); V],
+    /// The joints whose fastest motion is known.
+    searched: usize,
+}
+
 /// The starts of a joint's seven jerks, and the rest at the goal.
 const KNOTS: usize = 8;
 
@@ -112,6 +123,8 @@ pub enum GoalError {
     },
     /// The motion takes 2³² ticks or more.
     TooLong,
+    /// The tick in which a motion starts is over, or the goal was set meanwhile.
+    Missed,
 }
 
 impl fmt::Display for GoalError {
@@ -124,6 +137,7 @@ impl fmt::Display for GoalError {
                 write!(out, "joint {joint}: its velocity or acceleration is beyond its limits")
             }
             Self::TooLong => out.write_str("the motion takes 2^32 ticks or more"),
+            Self::Missed => out.write_str("the tick of the change is over, or the goal was set"),
         }
     }
 }
@@ -172,8 +186,8 @@ impl<R: Real, const V: usize> MovingGoal<R, V> {
     /// [`MotionController::trajectory_tick`](crate::MotionController::trajectory_tick).
     ///
     /// # Cost
-    /// Two to 17 evaluations of a motion for each joint, of some 150 instructions each:
-    /// `docs/costs.md` in the repository.
+    /// Two to 29 evaluations of a motion for each joint, of some 150 instructions each, all in one
+    /// tick: `docs/costs.md` in the repository. [`Self::begin`] spreads them.
     ///
     /// # Errors
     /// [`GoalError`]; the motion is then as before.
@@ -211,26 +225,101 @@ impl<R: Real, const V: usize> MovingGoal<R, V> {
         self.seconds
     }
 
+    /// Begins to move the goal in a tick whose time is short: the old motion goes on until the new
+    /// one is computed, and [`Self::advance`] goes on in each tick from the next one on. The new
+    /// motion starts V ticks later, from the state that the reference has then.
+    ///
+    /// ```
+    /// use motion_control::{JerkLimits, MovingGoal, Reference};
+    /// let limits = [JerkLimits { velocity: 2.0, acceleration: 10.0, jerk: 100.0 }; 6];
+    /// let mut goal = MovingGoal::try_new(&[0.0_f32; 6], limits, 1e-3)?;
+    /// let mut change = goal.begin(100, &[1.5; 6])?;
+    /// for tick in 101..106 {
+    ///     assert_eq!(goal.advance(tick, &mut change)?, None);
+    /// }
+    /// assert_eq!(goal.advance(106, &mut change)?, Some(1157));
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    ///
+    /// # Cost
+    /// In no tick more than the search for one joint, which takes 23 evaluations at most, and in the
+    /// last tick, in which the motion starts, six evaluations for each joint.
+    ///
+    /// # Errors
+    /// [`GoalError`].
+    pub fn begin(&self, tick: u32, goal: &[R; V]) -> Result<GoalChange<R, V>, GoalError> {
+        let start = tick.checked_add(V as u32).ok_or(GoalError::TooLong)?;
+        let from = self.at(start);
+        Self::check(&from, goal)?;
+        let joints = core::array::from_fn(|j| (self.joint(j, &from, goal), Fastest::UNKNOWN));
+        let mut change = GoalChange { start, from, goal: *goal, joints, searched: 0 };
+        change.search();
+        Ok(change)
+    }
+
+    /// Goes on with a change of the goal: the tick of the arrival in the tick in which the new
+    /// motion starts, None in those before it.
+    ///
+    /// # Errors
+    /// [`GoalError::Missed`] if a tick was left out, or the goal has moved meanwhile;
+    /// [`GoalError::TooLong`]. The motion is then as before.
+    pub fn advance(
+        &mut self,
+        tick: u32,
+        change: &mut GoalChange<R, V>,
+    ) -> Result<Option<u32>, GoalError> {
+        if tick < change.start {
+            change.search();
+            return Ok(None);
+        }
+        let is_now = (tick == change.start) & (change.searched == V);
+        if !is_now || self.at(tick) != change.from {
+            return Err(GoalError::Missed);
+        }
+        self.adopt(change.start, (&change.from, &change.goal), &change.joints).map(Some)
+    }
+
     fn plan(&mut self, tick: u32, from: &State<R, V, V>, goal: &[R; V]) -> Result<u32, GoalError> {
-        let length = |joint: usize| entry(goal, joint) - entry(&from.q, joint);
+        Self::check(from, goal)?;
+        let joints = core::array::from_fn(|joint| {
+            let start = self.joint(joint, from, goal);
+            (start, start.fastest())
+        });
+        self.adopt(tick, (from, goal), &joints)
+    }
+
+    fn check(from: &State<R, V, V>, goal: &[R; V]) -> Result<(), GoalError> {
         for joint in 0..V {
             let [v, a] = [&from.qd, &from.qdd].map(|rate| entry(rate, joint));
-            if !all_finite(&[length(joint), v, a]) {
+            let length = entry(goal, joint) - entry(&from.q, joint);
+            if !all_finite(&[length, v, a]) {
                 return Err(GoalError::NotFinite { joint });
             }
         }
-        let starts: [_; V] = core::array::from_fn(|joint| {
-            let limits = self.limits.get(joint).copied().unwrap_or(JerkLimits {
-                velocity: R::ONE,
-                acceleration: R::ONE,
-                jerk: R::ONE,
-            });
-            let [v, a] = [&from.qd, &from.qdd].map(|rate| entry(rate, joint));
-            let start = Start::new(&limits, v, a, length(joint));
-            (start, start.fastest())
+        Ok(())
+    }
+
+    #[inline(always)]
+    fn joint(&self, joint: usize, from: &State<R, V, V>, goal: &[R; V]) -> Start<R> {
+        let limits = self.limits.get(joint).copied().unwrap_or(JerkLimits {
+            velocity: R::ONE,
+            acceleration: R::ONE,
+            jerk: R::ONE,
         });
+        let [q, v, a] = [&from.q, &from.qd, &from.qdd].map(|numbers| entry(numbers, joint));
+        Start::new(&limits, v, a, entry(goal, joint) - q)
+    }
+
+    /// The motion from a tick on, whose fastest motions are known; all joints arrive with the last.
+    #[inline(never)]
+    fn adopt(
+        &mut self,
+        tick: u32,
+        (from, goal): (&State<R, V, V>, &[R; V]),
+        joints: &[(Start<R>, Fastest<R>); V],
+    ) -> Result<u32, GoalError> {
         let mut seconds = R::ZERO;
-        for (_, Fastest { time, .. }) in &starts {
+        for (_, Fastest { time, .. }) in joints {
             // A duration that is not finite stays.
             seconds = if seconds >= *time { seconds } else { *time + R::ZERO * seconds };
         }
@@ -241,10 +330,11 @@ impl<R: Real, const V: usize> MovingGoal<R, V> {
         let (Some(ticks), Some(arrival)) = (ticks, arrival) else {
             return Err(GoalError::TooLong);
         };
-        let joints = self.joints.iter_mut().zip(&starts).zip(goal).enumerate();
-        for (joint, ((knots, (start, fastest)), &goal)) in joints {
+        let ways = from.q.iter().zip(goal);
+        for ((knots, joint), (&q, &goal)) in self.joints.iter_mut().zip(joints).zip(ways) {
+            let (start, fastest) = joint;
             let course = start.course(fastest, seconds);
-            *knots = Knot::knots(entry(&from.q, joint), start.direction, &course, goal);
+            *knots = Knot::knots(q, start.direction, &course, goal);
         }
         (self.start, self.ticks, self.seconds) = (tick, ticks, seconds);
         Ok(arrival)
@@ -263,6 +353,16 @@ impl<R: Real, const V: usize> MovingGoal<R, V> {
             (*q, *qd, *qdd) = knot.after(time - knot.time);
         }
         state
+    }
+}
+
+impl<R: Real, const V: usize> GoalChange<R, V> {
+    /// Searches the fastest motion of the next joint.
+    fn search(&mut self) {
+        if let Some((start, fastest)) = self.joints.get_mut(self.searched) {
+            *fastest = start.fastest();
+            self.searched += 1;
+        }
     }
 }
 

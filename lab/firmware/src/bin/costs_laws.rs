@@ -160,47 +160,25 @@ fn taught_path(path: &mut TaughtPath<f32, 6, 40>, q: &[f32; 6]) -> Recorded {
     path.record(q)
 }
 
-/// A goal that is moved on the way to the last one, and the reference there.
+/// A goal that is moved, and the reference there.
 #[inline(never)]
-fn moving_goal(goal: &mut MovingGoal<f32, 6>, q: &[f32; 6]) -> ArmState<f32, 6> {
-    let tick = goal.ticks() / 3 * 2;
+fn moving_goal(goal: &mut MovingGoal<f32, 6>, tick: u32, q: &[f32; 6]) -> ArmState<f32, 6> {
     let _arrival = goal.set(tick, q);
     goal.at(tick)
 }
 
-/// The limits, the state and the goal of a change that takes 53 evaluations, the most that a search
-/// among random changes of six joints has found.
-static LONGEST: ([[f32; 3]; 6], ArmState<f32, 6>, [f32; 6]) = (
-    [
-        [1.316_141_2, 0.779_997_4, 5.802_241],
-        [7.789_937, 8.199_217, 105.543_46],
-        [6.329_855_4, 39.303_745, 34.498_32],
-        [0.576_248_94, 8.695_731, 20.646_765],
-        [6.933_798_3, 20.524_323, 10.790_056],
-        [2.543_518_8, 7.227_414, 14.328_464],
-    ],
-    State {
-        q: [1.398_564_3, -0.986_593_84, -1.979_146_6, -0.256_893_16, 2.001_023_5, -0.194_236_13],
-        qd: [
-            -0.309_479_65,
-            -3.816_944e-5,
-            0.005_387_431,
-            0.481_101_27,
-            0.198_730_26,
-            -0.234_542_44,
-        ],
-        qdd: [0.649_841, 0.0, 0.0, -1.982_059_2, -1.208_467_8, 1.604_763_5],
-    },
-    [1.323_445_7, -0.986_593_84, -1.887_294, -0.257_207_84, 1.999_937_4, -0.198_905_3],
-);
-
+/// A tick of changes that are spread over ticks.
 #[inline(never)]
-fn longest(
-    goal: &mut MovingGoal<f32, 6>,
-    (_, from, to): &([[f32; 3]; 6], ArmState<f32, 6>, [f32; 6]),
+fn spread(
+    (goal, change): &mut (MovingGoal<f32, 6>, Option<GoalChange<f32, 6>>),
+    tick: u32,
+    q: &[f32; 6],
 ) -> ArmState<f32, 6> {
-    let _arrival = goal.set_from(0, from, to);
-    goal.at(0)
+    *change = match change.take() {
+        None => goal.begin(tick, q).ok(),
+        Some(mut begun) => matches!(goal.advance(tick, &mut begun), Ok(None)).then_some(begun),
+    };
+    goal.at(tick)
 }
 
 #[inline(never)]
@@ -214,19 +192,30 @@ fn goals(asks: &[Ask<6>; STATES]) {
         return;
     };
     let run = moving_goal;
-    row("moving_goal", "law", false)
-        .measure(run as *const () as usize, asks, |ask| run(&mut goal, &ask.state.q));
+    row("moving_goal", "law", false).measure(run as *const () as usize, asks, |ask| {
+        let tick = goal.ticks() / 3 * 2;
+        run(&mut goal, tick, &ask.state.q)
+    });
     let ticks: [u32; STATES] = core::array::from_fn(|k| goal.ticks() / STATES as u32 * k as u32);
-    let limits =
-        LONGEST.0.map(|[velocity, acceleration, jerk]| JerkLimits { velocity, acceleration, jerk });
-    if let Ok(mut goal) = MovingGoal::try_new(&LONGEST.1.q, limits, 1e-3) {
-        let run = longest;
-        Row::of::<robots::Ur5e, 6, 6>("moving_goal", "law", "longest", false).measure(
-            run as *const () as usize,
-            &[&LONGEST],
-            |asked| run(&mut goal, asked),
-        );
-    }
+    // All joints brake towards goals that are a little farther in each tick.
+    let started = goal.set_from(0, &State::at([0.0; 6]), &[1.5; 6]);
+    let (mut tick, mut spreading) = (started.unwrap_or(0) - 250, (goal, None));
+    let farther = |tick: u32| core::array::from_fn(|j| 1.5 + 1e-5 * (tick * (j as u32 + 1)) as f32);
+    let run = moving_goal;
+    Row::of::<robots::Ur5e, 6, 6>("moving_goal", "law", "longest", false).measure(
+        run as *const () as usize,
+        &[(goal, farther(tick))],
+        |(goal, to)| run(&mut goal.clone(), tick, to),
+    );
+    let run = spread;
+    Row::of::<robots::Ur5e, 6, 6>("moving_goal", "law", "spread", false).measure(
+        run as *const () as usize,
+        &[(); STATES],
+        |()| {
+            tick += 1;
+            run(&mut spreading, tick, &farther(tick))
+        },
+    );
     let run = on_the_way;
     row("moving_goal_at", "law", false)
         .measure(run as *const () as usize, &ticks, |tick| run(&goal, *tick));

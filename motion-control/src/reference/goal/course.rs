@@ -50,7 +50,7 @@ struct Changes<R> {
 
 /// The start of a motion and its limits, in the direction of the goal from the place where the
 /// joint comes to rest at once.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Start<R> {
     limits: JerkLimits<R>,
     /// 1/j, and 1/(j a_max).
@@ -65,12 +65,17 @@ pub(super) struct Start<R> {
 
 /// The fastest motion: the time of its first jerk if the acceleration has one sign, else the time at
 /// the velocity c; c, from which slower motions differ; and its duration.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Fastest<R> {
     of_one_sign: Option<R>,
     cruise: R,
     c: R,
     pub(super) time: R,
+}
+
+impl<R: Real> Fastest<R> {
+    pub(super) const UNKNOWN: Self =
+        Self { of_one_sign: None, cruise: R::ZERO, c: R::ZERO, time: R::ZERO };
 }
 
 /// The share of a duration, or of the square root of a length, at which a search ends.
@@ -162,6 +167,7 @@ impl<R: Real> Start<R> {
         Changes { length: first.length + length, time: first.time + time }
     }
 
+    #[inline(always)]
     pub(super) fn fastest(&self) -> Fastest<R> {
         let JerkLimits { velocity, jerk, .. } = self.limits;
         let [j_inv, _] = self.inverse;

@@ -97,3 +97,24 @@ fn rest_to_rest_takes_the_time_of_the_closed_forms() {
         assert!((1.0..1.01).contains(&ratio), "{d}: {ratio}");
     }
 }
+
+#[test]
+fn a_change_that_misses_its_tick_or_its_motion_changes_nothing() {
+    let mut goal = MovingGoal::try_new(&[0.0, 1.0], [LIMITS; 2], 1e-3).unwrap();
+    goal.set(0, &[1.0, 0.0]).unwrap();
+    assert_eq!(goal.begin(300, &[f64::NAN, 0.0]).unwrap_err(), GoalError::NotFinite { joint: 0 });
+    assert_eq!(goal.begin(u32::MAX, &[0.0, 0.0]).unwrap_err(), GoalError::TooLong);
+    let begun = goal.begin(300, &[0.5, 0.5]).unwrap();
+    let begun_and = |ticks: &[u32], other: Option<u32>| {
+        let (mut goal, mut change) = (goal, begun);
+        other.map(|tick| goal.set(tick, &[0.2, 0.3]).unwrap());
+        let before = goal;
+        let last = ticks.iter().map(|&tick| goal.advance(tick, &mut change)).last().unwrap();
+        assert!(last.is_ok() || goal == before);
+        last
+    };
+    assert!(matches!(begun_and(&[301, 302], None), Ok(Some(303..))));
+    for (ticks, other) in [(&[302][..], None), (&[301, 303], None), (&[301, 302], Some(299))] {
+        assert_eq!(begun_and(ticks, other), Err(GoalError::Missed));
+    }
+}

@@ -23,8 +23,8 @@ use crate::studies::budgets;
 const LISTENER: &str = "telemetry-watch";
 /// The scene whose ticks are compared with a listener and without one.
 const SCENE: &str = "ur5e";
-/// The scene that has no interrupt for its ticks.
-const LED: &str = "openarm_free_drive";
+/// The scenes that have no interrupt for their ticks.
+const TRIALS: [&str; 2] = ["openarm_free_drive", "wheel_leg_balance"];
 /// The serial port of QEMU, connected to the listener.
 const SERIAL: &str = "tcp:127.0.0.1:{port}";
 const TICKS: usize = 3000;
@@ -90,7 +90,7 @@ pub fn run(options: Options, args: &Args) -> Result<ExitCode> {
     if args.port.is_none() {
         let tools = setup::for_demo(options)?;
         let name = args.scene.name();
-        refuse_if!(name == LED, "{LED} is led through trials one by one and sends no telemetry");
+        refuse_if!(TRIALS.contains(&name), "{name} runs trials one by one and sends no telemetry");
         let elf = match &args.project {
             Some(folder) => project(&workspace, &tools, folder)?,
             None => firmware(&workspace, &tools, name)?,

@@ -1,0 +1,8 @@
+//! Runs the scene [`wheel_leg_balance`](firmware_demo::scenes::wheel_leg_balance).
+#![no_std]
+#![no_main]
+
+#[cortex_m_rt::entry]
+fn main() -> ! {
+    firmware_demo::target::wheeled::scene()
+}

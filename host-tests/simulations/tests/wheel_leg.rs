@@ -8,6 +8,8 @@ use motion_control::{Fault, Mode, TablePlace};
 
 /// The runs; the claim is that of all thousand.
 const RUNS: u32 = if cfg!(feature = "full") { 1000 } else { 100 };
+/// The runs with harder pushes.
+const PUSHED: u32 = 100;
 
 /// The largest pitch of a robot that is lowered, rad; the speed at which its skids meet the ground,
 /// m/s; and of everything at rest, m/s and rad/s.
@@ -52,13 +54,13 @@ fn wheels_that_spin_up_in_the_air_make_robots_fall() {
 
 #[test]
 fn beyond_the_envelope_the_supervisor_lowers_it() {
-    let all = outcomes(RUNS, |seed| Trial::pushed(seed, 4.0));
+    let all = outcomes(PUSHED, |seed| Trial::pushed(seed, 4.0));
     let mut sat = 0;
     for (seed, out) in &all {
         assert!(out.stands() || lowered(out), "run {seed}: {out:?}");
         sat += u32::from(lowered(out));
     }
-    assert!(sat > RUNS / 10, "{sat} of {RUNS} were lowered: the pushes are not beyond it");
+    assert!(sat > PUSHED / 10, "{sat} of {PUSHED} were lowered: the pushes are not beyond it");
     // Nor is every fall a lowering: harder pushes turn some over.
     let over = outcomes(20, |seed| Trial::pushed(seed, 8.0));
     assert!(over.iter().any(|(_, out)| !out.stands() && !lowered(out)));

@@ -17,7 +17,10 @@ use crate::sim_io::Wires;
 
 pub mod guided;
 #[cfg(feature = "telemetry")]
+pub mod trials;
+#[cfg(feature = "telemetry")]
 pub mod watch;
+pub mod wheeled;
 
 /// The core's clock, Hz.
 const CLOCK: u32 = 168_000_000;

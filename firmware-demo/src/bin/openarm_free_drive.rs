@@ -7,5 +7,5 @@ fn main() -> ! {
     #[cfg(not(feature = "telemetry"))]
     firmware_demo::target::guided::scene();
     #[cfg(feature = "telemetry")]
-    firmware_demo::target::watch::trials()
+    firmware_demo::target::trials::openarm_free_drive()
 }

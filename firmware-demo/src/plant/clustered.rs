@@ -16,7 +16,7 @@ where
     T: ClusteredRobot<B, V, V, N, N>,
 {
     robot: Calibrated<T, f32, B, V, V>,
-    effects: E,
+    pub effects: E,
     /// Position, velocity and acceleration of y, which the encoders do not measure.
     pub y: State<f32, N, N>,
     /// The tree's motion at y, if its loops close there.

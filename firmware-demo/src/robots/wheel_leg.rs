@@ -38,7 +38,7 @@ impl WheelLeg {
     /// A rod, m.
     pub const ROD: f64 = 0.27;
     /// The ends of the skids in the body, m: forward, sideways, up.
-    pub const SKID: [f64; 3] = [0.2, 0.15, -0.12];
+    pub const SKID: [f64; 3] = [0.25, 0.15, -0.16];
     /// Torque and speed of a crank's motor and of a wheel's.
     pub const LIMITS: [JointLimits<f64>; 2] = [limits(30.0, 25.0), limits(8.0, 80.0)];
     /// The least and the greatest length of a leg, from hip to axle, m.

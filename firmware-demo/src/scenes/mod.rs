@@ -15,3 +15,4 @@ pub mod scara_table;
 pub mod so101_teach;
 pub mod space_arm;
 pub mod ur5e;
+pub mod wheel_leg_balance;

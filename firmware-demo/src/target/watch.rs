@@ -7,29 +7,25 @@
 use core::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 use cortex_m::peripheral::SYST;
-use dynamics_core::model::Robot;
-use dynamics_core::robots::OpenArm;
 use embedded_io::Write;
 use stm32f4xx_hal::gpio::GpioExt;
 use stm32f4xx_hal::pac;
 use stm32f4xx_hal::rcc::{Rcc, RccExt};
 use stm32f4xx_hal::serial::config::{Config, InvalidConfig};
 use stm32f4xx_hal::serial::{SerialExt, Tx};
-use telemetry::{Axis, Consumer, Message, Queue, Sample, Slots, capacity, encode, split};
+use telemetry::{Consumer, Message, Queue, Slots, capacity, encode, split};
 
 use super::{CLOCK, Tick, fail, leave, microseconds, start};
-use crate::scene::{PlantModel, Scene};
-use crate::scenes::openarm_free_drive::TICK;
-use crate::scenes::openarm_free_drive::trial::{Less, Seen, Trial};
+use crate::scene::Scene;
 use crate::sim_io::Wires;
-use crate::watched::{Options, Timer, Watched, fill, machine, machine_of};
+use crate::watched::{Options, Timer, Watched, machine};
 
 /// Ticks that wait for the port at most.
 pub const QUEUE: usize = 64;
 /// Rate of the port, bit/s: a frame of six joints takes about 0.6 ms.
 pub const BAUD: u32 = 2_000_000;
 /// Ticks from one frame with the machine's constants to the next.
-const MACHINE: u32 = 1000;
+pub(super) const MACHINE: u32 = 1000;
 
 /// SysTick, whose interrupt is the tick.
 #[derive(Clone, Copy, Debug)]
@@ -110,39 +106,6 @@ where
     }
 }
 
-/// Runs the trial of the scene that is led by hand over and over, and sends its ticks from the loop
-/// that runs it: it has no interrupt, and no timer.
-pub fn trials() -> ! {
-    let Some(Ok(mut port)) = pac::Peripherals::take().map(port) else {
-        fail("the serial port is taken, or cannot have this rate");
-    };
-    let last = argument(b"ticks").unwrap_or(0);
-    let links = OpenArm::MODEL.to_f32().links.into_iter();
-    let axes = links.map(|link| Axis { limits: link.limits, prismatic: false });
-    let constants = Message::Machine(machine_of::<7>("openarm_free_drive", TICK, 0, axes));
-    let (mut number, mut sample) = (0_u32, Sample::default());
-    let mut send_tick = |telemetry: &joint_drivers::Telemetry<7>| {
-        if number.is_multiple_of(MACHINE) {
-            send(&constants, &mut port);
-        }
-        fill(&mut sample, telemetry);
-        sample.number = number;
-        send(&Message::Tick(sample.message(0)), &mut port);
-        number = number.wrapping_add(1);
-        if number == last {
-            defmt::println!("sent {=u32} of {=u32} ticks", number, last);
-            defmt::println!("done");
-            leave(cortex_m_semihosting::debug::EXIT_SUCCESS);
-        }
-    };
-    loop {
-        let trial = Trial::of_scene(Less::Nothing, PlantModel::Exact, true);
-        if trial.run(Seen::by(&mut send_tick)).is_none() {
-            fail("the simulated arm has no forward dynamics any more");
-        }
-    }
-}
-
 /// Sends what is in the queue, and from time to time the constants of the machine.
 fn drain<const N: usize>(
     ticks: &mut Consumer<'static, 'static, N>,
@@ -160,7 +123,7 @@ fn drain<const N: usize>(
 }
 
 /// Sends a message; waits for the port, not for the interrupt.
-fn send<const N: usize>(message: &Message<N>, port: &mut impl Write) {
+pub(super) fn send<const N: usize>(message: &Message<N>, port: &mut impl Write) {
     let mut bytes = [0; capacity(16)];
     // A message without a frame, and a port that fails, leave a gap that the listener counts.
     if let Ok(frame) = encode(message, &mut bytes) {
@@ -180,7 +143,7 @@ pub(super) fn write(mut bytes: &[u8], port: &mut impl Write) {
 }
 
 /// USART1 on PA9. QEMU has no clock to set.
-fn port(part: pac::Peripherals) -> Result<Tx<pac::USART1>, InvalidConfig> {
+pub(super) fn port(part: pac::Peripherals) -> Result<Tx<pac::USART1>, InvalidConfig> {
     let mut clock = clock(part.RCC);
     let pins = part.GPIOA.split(&mut clock);
     let config = Config::default().baudrate(stm32f4xx_hal::time::Bps(BAUD));
@@ -192,7 +155,7 @@ pub(super) fn clock(rcc: pac::RCC) -> Rcc {
 }
 
 /// The number behind a name in the command line that the emulator gives.
-fn argument(name: &[u8]) -> Option<u32> {
+pub(super) fn argument(name: &[u8]) -> Option<u32> {
     let mut text = [0_u8; 256];
     let mut block = [text.as_mut_ptr() as usize, text.len()];
     // SAFETY: the call writes a string of at most that many bytes to that address, and its length

@@ -29,3 +29,4 @@ mod soak;
 mod taught_path;
 mod tip_motion;
 mod true_motion;
+mod wheel_leg;

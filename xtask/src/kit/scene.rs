@@ -27,6 +27,7 @@ const SCENES: &[Scene] = &[
     scene("so101_teach", "An SO-101 follows a taught path; its servos take duties over a bus at 500 Hz"),
     scene("jog", "A joystick moves a UR5e: the end of its reach, a straight wrist, a limit; inverse kinematics in the tick"),
     scene("openarm_free_drive", "An OpenArm with a tool is led by hand over the frames of its CAN drives, let go, and stays"),
+    scene("wheel_leg_balance", "A robot on two wheels with five-bar legs balances, drives over a kerb, squats, is pushed; LQR from its model"),
 ];
 
 const fn scene(name: &'static str, help: &'static str) -> Scene {

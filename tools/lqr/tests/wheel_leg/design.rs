@@ -35,8 +35,8 @@ pub struct Balanced {
 
 /// The deviations of pitch, cranks and wheels that are as bad as each other.
 pub const DEVIATIONS: Deviations<7, 6> = Deviations {
-    q: [0.1, 0.1, 0.1, 1.0, 0.1, 0.1, 1.0],
-    qd: [1.0, 2.0, 2.0, 5.0, 2.0, 2.0, 5.0],
+    q: [0.2, 0.1, 0.1, 2.0, 0.1, 0.1, 2.0],
+    qd: [1.0, 4.0, 4.0, 10.0, 4.0, 4.0, 10.0],
     u: [10.0, 10.0, 2.0, 10.0, 10.0, 2.0],
 };
 

@@ -2,21 +2,68 @@
 
 mod design;
 
-use design::{Model, balanced, standing};
+use design::{DEVIATIONS, Model, balanced, standing};
 use dynamics_core::Core;
 use dynamics_core::effects::{Armature, Coriolis, Gravity, Inertia, Viscous};
 use dynamics_core::model::Robot;
 use dynamics_core::state::State;
 use firmware_demo::robots::{Straight, WheelLeg};
-use lqr::{held, lqr};
+use firmware_demo::scenes::wheel_leg_balance::{self, LENGTHS, TICK};
+use lqr::{held, lqr, source};
 
-const EFFECTS: design::Effects =
-    (Gravity::EARTH, Inertia, Coriolis, Viscous([0.0; 16]), Armature([0.0; 16]));
+/// The effects of the scene that have derivatives at rest: sliding friction is a step there.
+fn effects() -> design::Effects {
+    let (.., viscous, _, rotors) = wheel_leg_balance::EFFECTS;
+    let numbers = |of: [f32; 16]| of.map(f64::from);
+    let (viscous, rotors) = (Viscous(numbers(viscous.0)), Armature(numbers(rotors.0)));
+    (Gravity::EARTH, Inertia, Coriolis, viscous, rotors)
+}
+
+/// The source of the table of gains.
+fn table(effects: &design::Effects) -> String {
+    let lengths = (0..11).map(|k| f64::from(LENGTHS[0]) + f64::from(LENGTHS[1]) * f64::from(k));
+    let tables: Vec<_> = lengths
+        .map(|length| {
+            let balanced = balanced(length, effects);
+            let k = lqr(&balanced.plant, f64::from(TICK), &DEVIATIONS).expect("gains");
+            let mut with_torque = k.insert_column(14, 0.0);
+            with_torque.column_mut(14).copy_from_slice(&balanced.torque);
+            with_torque
+        })
+        .collect();
+    format!(
+        "//! The table of gains, written by `cargo test -p lqr` with `TABLES_WRITE=1`: do not edit.\n\n\
+         use super::{{Gains, LENGTHS}};\n\n#[rustfmt::skip]\n\
+         pub const GAINS: Gains = Gains::new(LENGTHS[0], LENGTHS[1], {});\n",
+        source(&tables)
+    )
+}
+
+#[test]
+fn the_table_of_gains_is_that_of_the_model() {
+    let path = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../../firmware-demo/src/scenes/wheel_leg_balance/gains.rs"
+    );
+    let table = table(&effects());
+    if std::env::var_os("TABLES_WRITE").is_some() {
+        std::fs::write(path, &table).expect("a file");
+    }
+    let written = std::fs::read_to_string(path).expect("a file");
+    assert!(written == table, "the table is stale: TABLES_WRITE=1 cargo test -p lqr");
+}
+
+#[test]
+fn another_model_has_another_table() {
+    let (gravity, inertia, coriolis, mut viscous, rotors) = effects();
+    viscous.0[WheelLeg::WHEELS[0]] *= 1.01;
+    assert!(table(&(gravity, inertia, coriolis, viscous, rotors)) != table(&effects()));
+}
 
 #[test]
 fn the_legs_carry_the_robot_and_its_regulator_holds_it() {
     for length in [0.14, 0.24, 0.34] {
-        let balanced = balanced(length, &EFFECTS);
+        let balanced = balanced(length, &effects());
         // Half the weight above the axles is on each leg: τ = F ∂L/∂β / 2 at each of its cranks.
         let slope = Straight::of_length(length).slopes[0];
         let weight = 0.5 * 9.81 * WheelLeg::MODEL.links.iter().map(|l| l.inertia.mass).sum::<f64>();
@@ -25,7 +72,7 @@ fn the_legs_carry_the_robot_and_its_regulator_holds_it() {
         assert!(front > 0.5 * 0.6 / slope * weight && front < 0.5 / slope * weight, "{front}");
         let [phi, gamma] = held(&balanced.plant, 2e-3);
         assert!(phi.complex_eigenvalues().iter().any(|z| z.norm() > 1.01), "it falls by itself");
-        let k = lqr(&balanced.plant, 2e-3, &design::DEVIATIONS).expect("gains");
+        let k = lqr(&balanced.plant, 2e-3, &DEVIATIONS).expect("gains");
         let closed = phi - gamma * k;
         assert!(closed.complex_eigenvalues().iter().all(|z| z.norm() < 0.999));
     }
@@ -41,7 +88,7 @@ fn energy(z: [f64; 7]) -> f64 {
     y[4] = ((right - left) / (2.0 * WheelLeg::SIDE)).atan();
     y[2] = y[4].cos() * (WheelLeg::RADIUS - 0.5 * (left + right));
     let motion = Model::motion(&State::at(y)).expect("a leg that closes");
-    Core::<WheelLeg>::potential_energy(motion.configuration(), &EFFECTS)
+    Core::<WheelLeg>::potential_energy(motion.configuration(), &effects())
 }
 
 #[test]
@@ -53,7 +100,7 @@ fn the_stiffness_is_the_second_derivative_of_the_potential_energy() {
             moves.iter().for_each(|&(i, by)| z[i] += by);
             energy(z)
         };
-        let k = balanced(length, &EFFECTS).stiffness;
+        let k = balanced(length, &effects()).stiffness;
         for i in 0..7 {
             for j in 0..7 {
                 let of = |a, b| at(&[(i, a * H), (j, b * H)]);

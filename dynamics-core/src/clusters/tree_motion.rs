@@ -156,6 +156,7 @@ where
     }
 
     /// A G of a matrix A of the tree, by columns.
+    #[cfg_attr(optimised, inline(always))]
     pub(super) fn through(&self, a: &[[R; V]; V]) -> [[R; V]; Y] {
         let mut columns = [[R::ZERO; V]; Y];
         for v in 0..V {

@@ -8,7 +8,10 @@
 //! ∂/∂ω_k: δω = e_k, δa = e_k × v, β = ω × e_k            ∂/∂v_k: δa = ω × e_k
 //! ```
 
+use glam::DVec3;
+
 use super::{Change, Composite, Felt, Task};
+use crate::algorithms::TorqueGradient;
 use crate::effects::{Effect, TorqueDerivatives};
 use crate::engine::acceleration_field::{AccelerationField, Wrench};
 use crate::engine::compile::{Compiled, CompiledJoint, JointPair};
@@ -69,19 +72,10 @@ where
         all: &Composite<Scalar>,
         at: &Displacement<Scalar, Tree, I>,
     ) {
-        let none = Change { omega: Vec3::ZERO, accel: Vec3::ZERO, beta: Vec3::ZERO };
         let (zero, one) = (Folded::ZERO, Folded::constant(1.0));
-        let length_inv = Folded::constant(Tree::LENGTH_INV);
-        let axes = [[one, zero, zero], [zero, one, zero], [zero, zero, one]].map(Vec3);
-        let [gravity, w, v] = self.floating();
-        for (k, e) in axes.into_iter().enumerate() {
-            let (turned, dragged) = (gravity.cross(e), w.cross(e));
-            let by_turn = all.wrench_by(&Change { accel: turned, ..none });
-            let by_rate = all.wrench_by(&Change { omega: e, accel: e.cross(v), beta: dragged });
-            let by_speed = all.wrench_by(&Change { accel: dragged, ..none });
-            self.write_column(I, I + k, &by_turn, &by_rate, one);
-            self.write_column(I, I + 3 + k, &Wrench::ZERO, &by_speed, length_inv);
-        }
+        self.pair_up_axis::<I>(all, I, Vec3([one, zero, zero]));
+        self.pair_up_axis::<I>(all, I + 1, Vec3([zero, one, zero]));
+        self.pair_up_axis::<I>(all, I + 2, Vec3([zero, zero, one]));
         for_each_joint!(K, {
             if JointPair::<Tree, I, K>::IS_COORDINATE {
                 let mut own = TorqueDerivatives::default();
@@ -89,13 +83,33 @@ where
                 self.gradient.dqd[K][K] += own.dqd;
                 // A position is along an axis of the frame outside, its change along the body's.
                 if own.dq != Scalar::ZERO && CompiledJoint::<Tree, K>::PRISMATIC {
-                    for (j, e) in axes.into_iter().enumerate() {
-                        let slope = at.leave(e).0[CompiledJoint::<Tree, K>::JOINT.axis].get();
+                    for (j, e) in [DVec3::X, DVec3::Y, DVec3::Z].into_iter().enumerate() {
+                        let along = at.leave(Vec3::constant(e));
+                        let slope = along.along_axis(CompiledJoint::<Tree, K>::JOINT.axis).get();
                         self.gradient.dq[K][I + 3 + j] += own.dq * slope;
                     }
                 }
             }
         });
+    }
+
+    /// The columns of the rotation about an axis, which is coordinate `at`, and of the translation
+    /// along it.
+    #[cfg_attr(optimised, inline(always))]
+    fn pair_up_axis<const I: usize>(
+        &mut self,
+        all: &Composite<Scalar>,
+        at: usize,
+        e: Vec3<Scalar>,
+    ) {
+        let length_inv = Folded::constant(Tree::LENGTH_INV);
+        let [gravity, w, v] = self.floating();
+        let dragged = w.cross(e);
+        let by_turn = all.wrench_by(&Change::shift(gravity.cross(e)));
+        let by_rate = all.wrench_by(&Change { omega: e, accel: e.cross(v), beta: dragged });
+        let by_speed = all.wrench_by(&Change::shift(dragged));
+        self.write_column(I, at, [&by_turn, &by_rate], Folded::constant(1.0));
+        self.write_column(I, at + 3, [&Wrench::ZERO, &by_speed], length_inv);
     }
 
     /// The entries of joint I with the free base, of which `first` is the first coordinate: wrenches
@@ -105,22 +119,19 @@ where
     pub(super) fn pair_up_with_base<const I: usize>(
         &mut self,
         first: usize,
-        [by_q, by_qd]: [Wrench<Scalar>; 2],
+        wrenches: [&Wrench<Scalar>; 2],
         felt: &Felt<Scalar>,
         [unit, scale]: [Folded<Scalar>; 2],
     ) {
-        self.write_column(first, I, &by_q, &by_qd, unit);
-        let length_inv = Folded::constant(Tree::LENGTH_INV);
+        self.write_column(first, I, wrenches, unit);
         let [gravity, w, v] = self.floating();
         let Wrench { f, n } = felt.unit;
-        let turn = f.cross(gravity);
-        let rate = v.cross(f) + n.cross(w) + felt.rate + felt.rate;
-        let speed = f.cross(w);
-        for k in 0..3 {
-            self.gradient.dq[I][first + k] = (turn.0[k] * scale).get();
-            self.gradient.dqd[I][first + k] = (rate.0[k] * scale).get();
-            self.gradient.dqd[I][first + 3 + k] = (speed.0[k] * scale * length_inv).get();
-        }
+        let by_turn = f.cross(gravity).scale(scale);
+        let by_rate = (v.cross(f) + n.cross(w) + felt.rate + felt.rate).scale(scale);
+        let by_speed = f.cross(w).scale(scale * Folded::constant(Tree::LENGTH_INV));
+        write(&mut self.gradient.dq[I], first, by_turn);
+        write(&mut self.gradient.dqd[I], first, by_rate);
+        write(&mut self.gradient.dqd[I], first + 3, by_speed);
     }
 
     /// The rows of the free base in a column.
@@ -129,16 +140,31 @@ where
         &mut self,
         first: usize,
         column: usize,
-        by_q: &Wrench<Scalar>,
-        by_qd: &Wrench<Scalar>,
+        [by_q, by_qd]: [&Wrench<Scalar>; 2],
         unit: Folded<Scalar>,
     ) {
-        let length_inv = Folded::constant(Tree::LENGTH_INV);
-        for k in 0..3 {
-            self.gradient.dq[first + k][column] = (by_q.n.0[k] * unit).get();
-            self.gradient.dq[first + 3 + k][column] = (by_q.f.0[k] * length_inv * unit).get();
-            self.gradient.dqd[first + k][column] = (by_qd.n.0[k] * unit).get();
-            self.gradient.dqd[first + 3 + k][column] = (by_qd.f.0[k] * length_inv * unit).get();
+        let along = unit * Folded::constant(Tree::LENGTH_INV);
+        let TorqueGradient { dq, dqd } = &mut *self.gradient;
+        for (rows, by) in [(dq, by_q), (dqd, by_qd)] {
+            let (Vec3([nx, ny, nz]), Vec3([fx, fy, fz])) = (by.n.scale(unit), by.f.scale(along));
+            rows[first][column] = nx.get();
+            rows[first + 1][column] = ny.get();
+            rows[first + 2][column] = nz.get();
+            rows[first + 3][column] = fx.get();
+            rows[first + 4][column] = fy.get();
+            rows[first + 5][column] = fz.get();
         }
     }
+}
+
+/// Three entries of a row.
+#[cfg_attr(optimised, inline(always))]
+fn write<Scalar: Real, const V: usize>(
+    row: &mut [Scalar; V],
+    first: usize,
+    Vec3([x, y, z]): Vec3<Scalar>,
+) {
+    row[first] = x.get();
+    row[first + 1] = y.get();
+    row[first + 2] = z.get();
 }

@@ -116,6 +116,14 @@ struct Change<Scalar> {
     beta: Vec3<Scalar>,
 }
 
+impl<Scalar: Real> Change<Scalar> {
+    /// The same acceleration everywhere.
+    #[cfg_attr(optimised, inline(always))]
+    fn shift(accel: Vec3<Scalar>) -> Self {
+        Self { omega: Vec3::ZERO, accel, beta: Vec3::ZERO }
+    }
+}
+
 /// The inertia of a body and its descendants, its rates, and the wrench that it needs.
 #[derive(Clone, Copy)]
 struct Composite<Scalar> {
@@ -288,7 +296,7 @@ where
                     let (j, parent) = (other.parent, CompiledJoint::<Tree, K>::PARENT);
                     if parent.count > 1 {
                         let scales = [unit, of(joint)];
-                        self.pair_up_with_base::<I>(parent.first, [by_q, by_qd], &felt, scales);
+                        self.pair_up_with_base::<I>(parent.first, [&by_q, &by_qd], &felt, scales);
                     } else {
                         let [by_position, by_rate] = self.changes_of_parent::<K>();
                         let scale = of(parent) * of(joint);
@@ -349,11 +357,11 @@ fn changes_by<Scalar: Real>(
     accel: Vec3<Scalar>,
     along: Vec3<Scalar>,
 ) -> [Change<Scalar>; 2] {
-    let none = Change { omega: Vec3::ZERO, accel: Vec3::ZERO, beta: Vec3::ZERO };
     if is_prismatic {
-        return [Change { accel: along, ..none }, Change { accel: w + w, ..none }];
+        return [Change::shift(along), Change::shift(w + w)];
     }
-    let by_rate = Change { omega: along_z(Folded::constant(1.0)), beta: w + w, ..none };
+    let omega = along_z(Folded::constant(1.0));
+    let by_rate = Change { omega, accel: Vec3::ZERO, beta: w + w };
     [Change { omega: w, accel, beta: along }, by_rate]
 }
 

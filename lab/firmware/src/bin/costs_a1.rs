@@ -4,4 +4,7 @@
 
 mod costs;
 
-costs::main!(costs::inverse::run::<robots::A1, 16, 12>());
+costs::main!({
+    costs::inverse::free::<robots::A1Free, 17, 19, 18>();
+    costs::inverse::run::<robots::A1, 16, 12>()
+});

@@ -3,10 +3,10 @@
 use dynamics_core::algorithms::TorqueGradient;
 use dynamics_core::effects::{Coriolis, Effect, Gravity, Inertia, RIGID_BODY};
 use dynamics_core::model::Robot;
-use dynamics_core::state::{State, StateWithTrig};
+use dynamics_core::state::{JointTrig, State, StateWithTrig};
 use dynamics_core::{Core, Engine};
 
-use super::row::Row;
+use super::row::{Row, numbers};
 use super::{Ask, STATES, asks, done};
 
 pub type Inside<'a, E, const N: usize> = fn(&'a State<f32, N, N>, &E) -> [f32; N];
@@ -21,6 +21,25 @@ pub fn run<T: Robot<B, N, N>, const B: usize, const N: usize>() -> ! {
     inverse::<T, _, B, N>("no_coriolis", &asks, &(Gravity::EARTH, Inertia));
     derivatives::<T, B, N>(&asks);
     done()
+}
+
+/// Inverse dynamics and its derivatives of a robot with a free base, by the engine.
+pub fn free<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>() {
+    let mut number = numbers();
+    let asks: [(State<f32, Q, V>, JointTrig<f32, Q>); STATES] = [(); STATES].map(|()| {
+        let q = [(); Q].map(|()| number(3.0));
+        let [qd, qdd] = [3.0, 10.0].map(|bound| [(); V].map(|()| number(bound)));
+        (State { q, qd, qdd }, Core::<T>::joint_trig(&q))
+    });
+    let row = |algorithm| {
+        let (robot, form, inputs) = (T::MODEL.name, "engine", "full");
+        Row { robot, algorithm, form, inputs, trig: false, joints: V }
+    };
+    let run: fn(_, &RigidBody) -> [f32; V] = Engine::<T>::rnea;
+    row("rnea").measure(run as usize, &asks, |(at, trig)| run(trig.with(at), &RIGID_BODY));
+    let run: fn(_, &RigidBody) -> TorqueGradient<f32, V> = Engine::<T>::rnea_derivatives;
+    let row = row("rnea_derivatives");
+    row.measure(run as usize, &asks, |(at, trig)| run(trig.with(at), &RIGID_BODY));
 }
 
 /// Inverse dynamics in both forms, with sines and cosines computed inside and before.

@@ -30,30 +30,30 @@ const fn case(
 }
 
 pub const CASES: &[Case] = &[
-    case(71, "∂ID of a free base", "A1 on its free trunk, turned by a third of a turn", free_base),
-    case(72, "∂ID at coincident axes", "UR5e of case 20", || {
+    case(95, "∂ID of a free base", "A1 on its free trunk, turned by a third of a turn", free_base),
+    case(96, "∂ID at coincident axes", "UR5e of case 20", || {
         of_arm(20, "coincident axes", COINCIDENT)
     }),
     case(
-        73,
+        97,
         "∂ID near gimbal of a universal joint",
         "x, y by a universal joint, then z, at y = π/2 − 2⁻³ … 2⁻¹⁷ rad",
         gimbal,
     ),
-    case(74, "∂ID at a tip × 10⁶", "UR5e of case 1", || of_arm(1, "tip × 10⁶", HEAVY_TIP)),
-    case(75, "∂ID at a base link × 10⁶", "UR5e of case 3", || {
+    case(98, "∂ID at a tip × 10⁶", "UR5e of case 1", || of_arm(1, "tip × 10⁶", HEAVY_TIP)),
+    case(99, "∂ID at a base link × 10⁶", "UR5e of case 3", || {
         of_arm(3, "base link × 10⁶", HEAVY_BASE)
     }),
-    case(76, "∂ID at 1000 rad/s", "UR5e of case 15", || of_arm(15, "1000 rad/s", FAST)),
-    case(77, "∂ID 10⁴ m from the origin", "UR5e of case 13", || {
+    case(100, "∂ID at 1000 rad/s", "UR5e of case 15", || of_arm(15, "1000 rad/s", FAST)),
+    case(101, "∂ID 10⁴ m from the origin", "UR5e of case 13", || {
         of_arm(13, "base 10⁴ m away", FAR)
     }),
-    case(78, "∂ID with massless links", "UR5e of case 4", || {
+    case(102, "∂ID with massless links", "UR5e of case 4", || {
         of_arm(4, "massless wrist links", MASSLESS)
     }),
-    case(79, "∂ID of a chain of 32 rods", "those of case 9, anyhow", long_chain),
+    case(103, "∂ID of a chain of 32 rods", "those of case 9, anyhow", long_chain),
     case(
-        80,
+        104,
         "∂ID of friction at rest",
         "UR5e, Coulomb friction that fades within 10⁻⁵ rad/s",
         friction,

@@ -19,7 +19,9 @@ fn main() {
     let all = CASES.iter().chain(loop_tests::hard::CASES).chain(flexible_tests::hard::CASES);
     let mut cases: Vec<Case> = all.copied().flatten().copied().collect();
     cases.sort_by_key(|case| case.number);
-    let without_gap = cases.windows(2).all(|pair| pair[0].number + 1 == pair[1].number);
+    // 71 to 94 are those that only the suite has.
+    let after = |number| if number == 70 { 95 } else { number + 1 };
+    let without_gap = cases.windows(2).all(|pair| after(pair[0].number) == pair[1].number);
     assert!(without_gap, "a number of a case is missing, or given twice");
     let (mut rows, mut wrong) = (Vec::new(), Vec::new());
     for case in &cases {

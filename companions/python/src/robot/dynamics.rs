@@ -132,9 +132,8 @@ methods! {
 
     /// The derivatives of inverse dynamics, ∂τ/∂q and ∂τ/∂q̇, each (…, nv, nv), by rows of τ: N·m/rad
     /// and N·m·s/rad between revolute joints, N/m and N·s/m between prismatic ones; q (…, nq), q̇
-    /// and q̈ (…, nv). ∂τ/∂q is along `integrate`; ∂τ/∂q̈ is `crba`. What an effect at joints does
-    /// not know of its derivatives counts as constant; wrenches, rotors that spin and friction of
-    /// gears have no place.
+    /// and q̈ (…, nv). ∂τ/∂q is along `integrate`; ∂τ/∂q̈ is `crba`. `Lugre`, wrenches, rotors that
+    /// spin and friction of gears have no place.
     rnea_derivatives(q: q, qd: v, qdd: v; under effects differentiable) = several(RneaDerivatives): [v, v], [v, v];
 
     /// The derivatives of forward dynamics, ∂q̈/∂q, ∂q̈/∂q̇ and ∂q̈/∂τ = M⁻¹, each (…, nv, nv), by

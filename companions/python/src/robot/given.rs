@@ -45,6 +45,11 @@ pub fn with_inertia(py: Python<'_>, effects: &[Spec]) -> PyResult<()> {
     checked(py, effects, &MOVING[..1], |_| false, "")
 }
 
+/// Refuses a scene without `Inertia` or `Coriolis`, which few algorithms are compiled for.
+pub fn moving(py: Python<'_>, effects: &[Spec]) -> PyResult<()> {
+    checked(py, effects, &MOVING, |_| false, "")
+}
+
 /// Refuses rotors that spin, which some algorithms of the library do not have.
 pub fn without_rotors(py: Python<'_>, effects: &[Spec]) -> PyResult<()> {
     let spins = |effect: &Spec| matches!(effect, Spec::GyroscopicRotors { .. });

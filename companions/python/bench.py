@@ -31,7 +31,7 @@ BARS = {"overhead_us": 2.0, "ratio": 5.0}
 def sources() -> str:
     """A digest of the code that is measured."""
     digest = hashlib.sha256()
-    folders = [HERE / "src", HERE / "engines" / "src", HERE / "kernels" / "src", ROOT / "dynamics-core" / "src"]
+    folders = [HERE / "src", HERE / "kernels" / "src", ROOT / "dynamics-core" / "src"]
     files = sorted(path for folder in folders for path in folder.rglob("*.rs"))
     for path in [*files, HERE / "Cargo.toml", HERE / "Cargo.lock"]:
         digest.update(path.relative_to(ROOT).as_posix().encode() + b"\0" + path.read_bytes())

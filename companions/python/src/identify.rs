@@ -2,14 +2,13 @@
 
 use std::path::PathBuf;
 
-use clap::ValueEnum;
 use identification::files::recorded::Recorded;
 use identification::files::robot::Robot;
-use identification::files::run::{self, JointEffect, Options};
+use identification::files::run::{self, Options};
 use numpy::ndarray::ArrayView1;
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
-use robot_import::import;
+use serde_json::Value;
 
 use crate::error::Exception;
 
@@ -40,7 +39,7 @@ pub fn identify<'py>(
     cutoff: Option<f64>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let failed = |text: String| Exception::new(py, "IdentificationError", text).build();
-    let kinds = effects.iter().map(|name| JointEffect::from_str(name, false));
+    let kinds = effects.into_iter().map(|name| serde_json::from_value(Value::String(name)));
     let effects =
         kinds.collect::<Result<_, _>>().map_err(|error| failed(format!("effects: {error}")))?;
     if ![width, cutoff.unwrap_or(1.0)].iter().all(|x| *x > 0.0 && x.is_finite()) {
@@ -49,9 +48,7 @@ pub fn identify<'py>(
     let [q, tau] = [&q, &tau].map(|all| all.as_array().to_owned());
     let times = time.as_array().to_vec();
     let text = py.detach(|| {
-        let selected = joints.clone().unwrap_or_default();
-        let options = import::Options { joints: selected, ..import::Options::default() };
-        let robot = Robot::read(&robot_file, None, &options)?;
+        let robot = Robot::read(&robot_file, joints.clone().unwrap_or_default())?;
         let names = robot.joints();
         let place = |name| joints.as_ref().unwrap_or(&names).iter().position(|own| own == name);
         let order: Vec<usize> = names.iter().filter_map(place).collect();

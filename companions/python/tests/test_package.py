@@ -70,6 +70,7 @@ WITHOUT = {
     "clusters.rnea_of_motors": "numpy.linalg.solve(G[motors].T, `rnea`), of the G of `motion`",
     "clusters.to_motors": "numpy.linalg.solve(G[motors].T, τ), of the G of `motion`",
     "clusters.from_motors": "G[motors].T @ τ, of the G of `motion`",
+    "clusters.stiffness": "differences of `rnea` at rest",
     "drivetrain.elastic_step": "a step of a simulated plant",
     "manifold.nearest_turn": "`normalise`; `difference` takes the short way",
     "flexible.step": "a step of a simulated plant, of models of joints of one coordinate",

@@ -22,6 +22,17 @@ pub struct Terms {
     pub extra: bool,
 }
 
+/// The general models for which an algorithm is compiled: each costs as much machine code.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sizes {
+    /// It is among the most used.
+    Both,
+    /// The smaller one alone.
+    Small,
+    /// The larger one alone.
+    Large,
+}
+
 /// A call of an algorithm for a robot of a type.
 pub struct Call<'a, D, P, R: Real, const V: usize> {
     /// The model of the robot.
@@ -47,8 +58,8 @@ pub trait Algorithm: Sync {
     /// Whether it computes what fills the model up, too, with the inertia 1: M then has its
     /// factors.
     const WHOLE: bool = false;
-    /// Whether it is compiled for the smaller of the general models alone.
-    const SMALL: bool = false;
+    /// The general models for which it is compiled.
+    const SIZES: Sizes;
     /// Whether it computes several states at once: its only comparisons are those of pivots, and of
     /// placements, which its states share.
     const LANES: bool = false;

@@ -128,10 +128,6 @@ pub mod terms {
     }
     scenes! {
         /// As [`moving`], with effects at bodies where there are any.
-        moved { (_, true, _) => [true, true, true], (_, false, _) => [true, false, true] }
-    }
-    scenes! {
-        /// As [`moved`], of an algorithm with forms for some kinds of robots.
         estimated,
         fast { (_, true, _) => [true, true, true] },
         any { (_, true, _) => [true, true, true], (_, false, _) => [true, false, true] }
@@ -141,15 +137,6 @@ pub mod terms {
         matrix,
         fast { (_, _, false) => [true, true, false], (_, _, true) => [true, true, true] },
         any { _ => [true, true, true] }
-    }
-    scenes! {
-        /// All, with effects at bodies where there are any.
-        wrenched {
-            (true, true, _) => [true, true, true],
-            (true, false, _) => [true, false, true],
-            (false, true, _) => [false, true, true],
-            (false, false, _) => [false, false, true]
-        }
     }
     scenes! {
         /// None: effects at bodies act where there are any, which saves copies of algorithms.

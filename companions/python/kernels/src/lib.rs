@@ -21,7 +21,7 @@ use dynamics_core::scalar::Real;
 
 pub use algorithms::AnyFrame;
 
-use algorithm::{Algorithm, Call, Terms};
+use algorithm::{Algorithm, Call, Sizes, Terms};
 use flexible::AnyModes;
 use job::{Failure, Job};
 use lanes::{Blocks, LANES, Lanes};
@@ -290,10 +290,11 @@ fn over<O: Algorithm, R: Real>(
             Fast::None => {}
         }
     }
-    match &models.general {
-        General::Small(model) => run!(&**model),
-        General::Large(model) if const { !O::SMALL } => run!(&**model),
-        General::Large(_) => unreachable!("modes are of smaller robots"),
+    let General { small, large } = &models.general;
+    match small {
+        Some(model) if const { O::SIZES as u8 != Sizes::Large as u8 } => run!(&**model),
+        _ if const { O::SIZES as u8 != Sizes::Small as u8 } => run!(&**large),
+        _ => unreachable!("modes are of smaller robots"),
     }
 }
 

@@ -24,10 +24,24 @@ fn of_robot(mut error: LoopModelError, fill: usize) -> LoopModelError {
     error
 }
 
-/// Loops on a model of any size.
+/// Loops on a model filled up to V velocity coordinates.
+fn loops_on<const B: usize, const Q: usize, const V: usize>(
+    model: &Model<f64, B, Q, V>,
+    counts: Counts,
+    joints: &[LoopJoint],
+    (actuated, damped_below): (&[usize], f64),
+) -> Result<Filled<V>, LoopModelError> {
+    // The bodies that fill the model up have motors, so that they are free to move.
+    let motors: Vec<usize> = actuated.iter().copied().chain(counts.v..V).collect();
+    let filled = Filled::<V>::try_filled(model, joints, &motors);
+    let filled = filled.map_err(|error| of_robot(error, V - counts.v))?;
+    Ok(filled.damped_below(damped_below))
+}
+
+/// Loops on the models of a robot.
 #[derive(Debug)]
 pub struct AnyLoops {
-    filled: Box<dyn Any + Send + Sync>,
+    filled: Vec<Box<dyn Any + Send + Sync>>,
     /// The actuated coordinates, as indices in q̇.
     pub actuated: Vec<usize>,
     /// The number of directions that the loops constrain.
@@ -46,34 +60,19 @@ impl AnyLoops {
         actuated: &[usize],
         damped_below: f64,
     ) -> Result<Self, LoopModelError> {
-        match &models.general {
-            General::Small(model) => Self::on(model, counts, joints, actuated, damped_below),
-            General::Large(model) => Self::on(model, counts, joints, actuated, damped_below),
+        let General { small, large } = &models.general;
+        let last = loops_on(large, counts, joints, (actuated, damped_below))?;
+        let rows = last.rows(joints.len().saturating_sub(1)).end;
+        let mut filled: Vec<Box<dyn Any + Send + Sync>> = vec![Box::new(last)];
+        if let Some(small) = small {
+            filled.push(Box::new(loops_on(small, counts, joints, (actuated, damped_below))?));
         }
-    }
-
-    fn on<const B: usize, const Q: usize, const V: usize>(
-        model: &Model<f64, B, Q, V>,
-        counts: Counts,
-        joints: &[LoopJoint],
-        actuated: &[usize],
-        damped_below: f64,
-    ) -> Result<Self, LoopModelError> {
-        // The bodies that fill the model up have motors, so that they are free to move.
-        let motors: Vec<usize> = actuated.iter().copied().chain(counts.v..V).collect();
-        let filled = Filled::<V>::try_filled(model, joints, &motors);
-        let filled = filled.map_err(|error| of_robot(error, V - counts.v))?;
-        let last = filled.rows(joints.len().saturating_sub(1));
-        Ok(Self {
-            filled: Box::new(filled.damped_below(damped_below)),
-            actuated: actuated.to_vec(),
-            rows: last.end,
-        })
+        Ok(Self { filled, actuated: actuated.to_vec(), rows })
     }
 
     /// The loops on a model of V velocity coordinates, which is the robot's.
     pub(crate) fn get<const V: usize>(&self) -> &Filled<V> {
-        match self.filled.downcast_ref() {
+        match self.filled.iter().find_map(|filled| filled.downcast_ref()) {
             Some(filled) => filled,
             None => unreachable!("the loops are those of another robot"),
         }

@@ -45,12 +45,12 @@ pub enum Fast<R: Real> {
     None,
 }
 
-/// A model of joints of any kind.
-pub enum General<R: Real> {
-    /// Up to 16 velocity coordinates.
-    Small(Box<Model<R, 28, 32, 28>>),
+/// The models of joints of any kind.
+pub struct General<R: Real> {
+    /// For the most used algorithms, of a robot of up to 16 velocity coordinates.
+    pub small: Option<Box<Model<R, 28, 32, 28>>>,
     /// Up to 64 velocity coordinates.
-    Large(Box<Model<R, 76, 80, 76>>),
+    pub large: Box<Model<R, 76, 80, 76>>,
 }
 
 /// The most velocity coordinates of a robot.
@@ -176,17 +176,13 @@ impl Bodies {
     /// More coordinates than [`MOST_COORDINATES`], or numbers that the library refuses.
     pub fn models<R: Real>(&self) -> Result<Models<R>, NoModel> {
         let Counts { bodies, v, .. } = self.counts();
-        let general = match v.max(bodies) {
-            _ if self.is_small() => General::Small(self.filled(false)?),
-            0..=MOST_COORDINATES => General::Large(self.filled(false)?),
-            found => {
-                return Err(NoModel::TooLarge {
-                    what: "velocity coordinates or bodies",
-                    found,
-                    most: MOST_COORDINATES,
-                });
-            }
-        };
+        let found = v.max(bodies);
+        if found > MOST_COORDINATES {
+            let (what, most) = ("velocity coordinates or bodies", MOST_COORDINATES);
+            return Err(NoModel::TooLarge { what, found, most });
+        }
+        let small = if self.is_small() { Some(self.filled(false)?) } else { None };
+        let general = General { small, large: self.filled(false)? };
         let fast = self.fast()?;
         let lanes = match self.fast()? {
             Fast::None => None,

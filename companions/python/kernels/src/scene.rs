@@ -20,8 +20,12 @@ pub const HARMONICS: usize = 8;
 pub trait AtJoint<R: Real> {
     /// Adds its torque at a joint.
     fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R);
-    /// Adds the derivatives of that.
+    /// Adds the derivatives of that which an implicit step takes.
     fn derivatives(&self, joint: usize, at: JointState<R>, derivatives: &mut TorqueDerivatives<R>);
+    /// Adds the derivatives of that.
+    fn slopes(&self, joint: usize, at: JointState<R>, slopes: &mut TorqueDerivatives<R>);
+    /// Whether the library knows them.
+    fn is_differentiable(&self) -> bool;
 }
 
 /// One of the library's for V velocity coordinates.
@@ -35,6 +39,14 @@ impl<R: Real, E: Effect<R, 1, V>, const V: usize> AtJoint<R> for At<E, V> {
 
     fn derivatives(&self, joint: usize, at: JointState<R>, derivatives: &mut TorqueDerivatives<R>) {
         self.0.derivatives(joint, at, derivatives);
+    }
+
+    fn slopes(&self, joint: usize, at: JointState<R>, slopes: &mut TorqueDerivatives<R>) {
+        self.0.slopes(joint, at, slopes);
+    }
+
+    fn is_differentiable(&self) -> bool {
+        E::DIFFERENTIABLE
     }
 }
 
@@ -198,6 +210,8 @@ impl<R: Real, const B: usize, const V: usize, const M: bool> Effect<R, B, V>
         hook::Inertia::on([true; B], |scene, body, inertia| scene.0.add_payloads(body, inertia));
     const ACCELERATIONS: bool = true;
     const VELOCITY_PRODUCTS: bool = true;
+    // The extension module asks `Spec::is_differentiable` before.
+    const DIFFERENTIABLE: bool = true;
 
     fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
         self.0.torque(joint, at, tau);
@@ -206,6 +220,12 @@ impl<R: Real, const B: usize, const V: usize, const M: bool> Effect<R, B, V>
     fn derivatives(&self, joint: usize, at: JointState<R>, derivatives: &mut TorqueDerivatives<R>) {
         for effect in &self.0.joints {
             effect.derivatives(joint, at, derivatives);
+        }
+    }
+
+    fn slopes(&self, joint: usize, at: JointState<R>, slopes: &mut TorqueDerivatives<R>) {
+        for effect in &self.0.joints {
+            effect.slopes(joint, at, slopes);
         }
     }
 

@@ -270,6 +270,17 @@ impl Spec {
                 | Self::Contact { .. }
         )
     }
+
+    /// Whether the library knows the derivatives of what it adds.
+    pub fn is_differentiable(&self) -> bool {
+        match self {
+            Self::Payload { .. } | Self::MovingBase { .. } => true,
+            _ => {
+                !self.is_extra()
+                    && of_joints::<f64, 8>(self).is_none_or(|effect| effect.is_differentiable())
+            }
+        }
+    }
 }
 
 /// Why the effects cannot act on a robot of so many velocity coordinates; `alone` says whether a

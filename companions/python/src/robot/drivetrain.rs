@@ -3,13 +3,12 @@
 use pyo3::prelude::*;
 use robot_dynamics_kernels::Which;
 
-use super::given::differentiable;
+use super::given::elastic;
 use super::{Array, Robot};
 use crate::angles::Use;
 use crate::effects::{given as effects_of, refused};
 use crate::error::wanted;
 use crate::methods::Machine;
-use robot_dynamics_kernels::spec::Spec;
 
 #[pymethods]
 impl Robot {
@@ -40,12 +39,9 @@ impl Robot {
         effects: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Array<'py>> {
         let effects = effects_of(effects)?;
-        differentiable(py, &effects)?;
+        elastic(py, &effects)?;
         let refuse =
             |effect: &str, text: String| Err(refused(py, effect, format!("{effect}: {text}")));
-        if let Some(spec) = effects.iter().find(|spec| matches!(spec, Spec::MovingBase { .. })) {
-            return refuse(spec.name(), "elastic joints need a base at rest".to_owned());
-        }
         let v = self.counts.v;
         let joints = [&*stiffness, &*rotor, &*friction];
         for (name, values) in ["stiffness", "rotor", "friction"].iter().zip(joints) {

@@ -4,7 +4,7 @@ use pyo3::prelude::*;
 use robot_dynamics_kernels::Which;
 use robot_dynamics_kernels::spec::Spec;
 
-use super::given::differentiable;
+use super::given::{differentiable, moving};
 use super::{Array, Robot, with_inertia, without_rotors};
 use crate::arrays::Argument;
 use crate::effects::{RIGID_BODY, with_own};
@@ -128,13 +128,12 @@ methods! {
     /// that the parent exerts on each body through its joint, (…, bodies, 6), couple and force,
     /// N·m and N, in the body's own frame; q (…, nq), q̇ and q̈ (…, nv). That of a body beyond a
     /// force sensor is what the sensor shows, but for its offset.
-    rnea_and_wrenches(q: q, qd: v, qdd: v; under effects) = several(RneaAndWrenches): [v], [bodies, 6];
+    rnea_and_wrenches(q: q, qd: v, qdd: v; under effects moving) = several(RneaAndWrenches): [v], [bodies, 6];
 
     /// The derivatives of inverse dynamics, ∂τ/∂q and ∂τ/∂q̇, each (…, nv, nv), by rows of τ: N·m/rad
     /// and N·m·s/rad between revolute joints, N/m and N·s/m between prismatic ones; q (…, nq), q̇
-    /// and q̈ (…, nv). ∂τ/∂q is along `integrate`; ∂τ/∂q̈ is `crba`. What an effect at joints does
-    /// not know of its derivatives counts as constant; wrenches, rotors that spin and friction of
-    /// gears have no place.
+    /// and q̈ (…, nv). ∂τ/∂q is along `integrate`; ∂τ/∂q̈ is `crba`. `Lugre`, wrenches, rotors that
+    /// spin and friction of gears have no place.
     rnea_derivatives(q: q, qd: v, qdd: v; under effects differentiable) = several(RneaDerivatives): [v, v], [v, v];
 
     /// The derivatives of forward dynamics, ∂q̈/∂q, ∂q̈/∂q̇ and ∂q̈/∂τ = M⁻¹, each (…, nv, nv), by
@@ -158,7 +157,7 @@ methods! {
     /// Torques and accelerations, each (…, nv), where of each coordinate one is given: its torque,
     /// or, where ``accelerated`` is not zero, its acceleration. q (…, nq), q̇, given and
     /// accelerated (…, nv).
-    hybrid_dynamics(q: q, qd: v, given: v, accelerated: v; under effects with_inertia) = several(Hybrid): [v], [v];
+    hybrid_dynamics(q: q, qd: v, given: v, accelerated: v; under effects moving) = several(Hybrid): [v], [v];
 
     /// The part of the motors' torques τ (…, nv) that arrives behind the friction of the gears
     /// (`LoadFriction`), (…, nv).

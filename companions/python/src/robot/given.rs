@@ -45,6 +45,11 @@ pub fn with_inertia(py: Python<'_>, effects: &[Spec]) -> PyResult<()> {
     checked(py, effects, &MOVING[..1], |_| false, "")
 }
 
+/// Refuses a scene without `Inertia` or `Coriolis`, which few algorithms are compiled for.
+pub fn moving(py: Python<'_>, effects: &[Spec]) -> PyResult<()> {
+    checked(py, effects, &MOVING, |_| false, "")
+}
+
 /// Refuses rotors that spin, which some algorithms of the library do not have.
 pub fn without_rotors(py: Python<'_>, effects: &[Spec]) -> PyResult<()> {
     let spins = |effect: &Spec| matches!(effect, Spec::GyroscopicRotors { .. });
@@ -60,7 +65,12 @@ pub fn whole(py: Python<'_>, effects: &[Spec]) -> PyResult<()> {
 
 /// Refuses scenes of which the library does not know derivatives.
 pub fn differentiable(py: Python<'_>, effects: &[Spec]) -> PyResult<()> {
-    let known = |spec: &Spec| matches!(spec, Spec::Payload { .. } | Spec::MovingBase { .. });
-    let foreign = |spec: &Spec| spec.is_extra() && !known(spec);
+    let foreign = |spec: &Spec| !spec.is_differentiable();
     checked(py, effects, &MOVING, foreign, "its derivatives are not known")
+}
+
+/// Refuses scenes that elastic joints do not have.
+pub fn elastic(py: Python<'_>, effects: &[Spec]) -> PyResult<()> {
+    let foreign = |spec: &Spec| spec.is_extra() && !matches!(spec, Spec::Payload { .. });
+    checked(py, effects, &MOVING, foreign, "elastic joints have no place for it")
 }

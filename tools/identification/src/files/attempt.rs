@@ -48,7 +48,8 @@ pub struct Options {
 }
 
 /// An effect at joints.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "files", derive(clap::ValueEnum))]
 #[serde(rename_all = "lowercase")]
 pub enum JointEffect {
     /// Viscous friction

@@ -4,8 +4,16 @@ use std::path::{Path, PathBuf};
 
 use dynamics_core::algorithms::inertial_parameters;
 use dynamics_core::model::ArmModel;
+#[cfg(feature = "files")]
 use robot_import::import::{self, Imported, Options};
 use robot_import::model;
+#[cfg(not(feature = "files"))]
+use robot_import::{
+    loops,
+    selection::Selection,
+    source,
+    tree::{Numbers, Tree},
+};
 
 use crate::OF_JOINT;
 
@@ -16,6 +24,14 @@ pub type OfJoint = [f64; OF_JOINT];
 
 /// A model, the ten parameters of each body, and those of each joint.
 pub type Described<const V: usize> = (ArmModel<f64, V>, [[f64; 10]; V], [OfJoint; V]);
+
+/// A part of a description; the program's importer, which a wheel has not, tells more of it.
+#[cfg(not(feature = "files"))]
+#[derive(Debug)]
+pub struct Imported {
+    pub name: String,
+    pub tree: Tree,
+}
 
 /// A robot whose joints have one coordinate each.
 #[derive(Debug)]
@@ -30,6 +46,7 @@ impl Robot {
     ///
     /// # Errors
     /// [`Error::Robot`], and [`Error::Unsuitable`] if a joint has not one coordinate.
+    #[cfg(feature = "files")]
     pub fn read(path: &Path, name: Option<&str>, options: &Options) -> Result<Self> {
         let args = import::Args {
             file: path.to_owned(),
@@ -39,6 +56,28 @@ impl Robot {
         };
         let imported = import::import(&args, "this day")
             .map_err(|source| Error::Robot { path: path.to_owned(), source: source.into() })?;
+        let has_loops = !imported.report.loops.is_empty();
+        Self::single(path, imported, has_loops)
+    }
+
+    /// The part of a description with these joints, or all.
+    ///
+    /// # Errors
+    /// [`Error::Robot`], and [`Error::Unsuitable`] if a joint has not one coordinate.
+    #[cfg(not(feature = "files"))]
+    pub fn read(path: &Path, joints: Vec<String>) -> Result<Self> {
+        let selection = Selection { joints, ..Selection::default() };
+        let read = source::read(path).and_then(|robot| {
+            let tree = Tree::of(&robot, &selection.of(&robot)?, Numbers::Exact)?;
+            let has_loops = !loops::closed(&robot, &tree).0.is_empty();
+            Ok((Imported { name: robot.name, tree }, has_loops))
+        });
+        let (imported, has_loops) =
+            read.map_err(|source| Error::Robot { path: path.to_owned(), source: source.into() })?;
+        Self::single(path, imported, has_loops)
+    }
+
+    fn single(path: &Path, imported: Imported, has_loops: bool) -> Result<Self> {
         let unsuitable =
             |reason: &str| Error::Unsuitable { path: path.to_owned(), reason: reason.to_owned() };
         if !imported.tree.is_single() {
@@ -47,7 +86,7 @@ impl Robot {
                  base that stands still",
             ));
         }
-        if !imported.report.loops.is_empty() {
+        if has_loops {
             return Err(unsuitable(
                 "parameters are identified of trees; this robot has loops: --without leaves out \
                  the link that closes one",

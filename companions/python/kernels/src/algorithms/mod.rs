@@ -8,7 +8,7 @@ use dynamics_core::scalar::{Matrix, Real, Vector};
 use dynamics_core::spatial::{Force, Motion};
 use dynamics_core::state::State;
 
-use crate::algorithm::{Algorithm, Call, Done, Terms};
+use crate::algorithm::{Algorithm, Call, Done, Sizes, Terms};
 use crate::dispatch::terms;
 use crate::job::{Problem, Row, Rows};
 use crate::lanes::Lanes;
@@ -29,9 +29,30 @@ macro_rules! algorithm {
     (@lanes Aba) => { true };
     (@lanes $other:ident) => { false };
     (@whole LoopForward machine) => { true };
-    (@whole $other:ident $scenes:ident) => { algorithm!(@small $scenes) };
-    (@small bending) => { true };
-    (@small $other:ident) => { false };
+    (@whole $other:ident bending) => { true };
+    (@whole $other:ident $scenes:ident) => { false };
+    (@sizes $name:ident all) => { Sizes::Both };
+    (@sizes $name:ident moving) => { Sizes::Both };
+    (@sizes $name:ident articulated) => { Sizes::Both };
+    (@sizes $name:ident matrix) => { Sizes::Both };
+    (@sizes Jacobian none) => { Sizes::Both };
+    (@sizes Poses none) => { Sizes::Both };
+    (@sizes LtdlOf none) => { Sizes::Both };
+    (@sizes Solve none) => { Sizes::Both };
+    (@sizes Inverse none) => { Sizes::Both };
+    (@sizes CholeskyOf none) => { Sizes::Both };
+    (@sizes CholeskySolve none) => { Sizes::Both };
+    (@sizes Integrate none) => { Sizes::Both };
+    (@sizes Difference none) => { Sizes::Both };
+    (@sizes RneaDerivatives machine) => { Sizes::Both };
+    (@sizes ForwardDynamicsDerivatives factored) => { Sizes::Both };
+    (@sizes InverseMass factored) => { Sizes::Both };
+    (@sizes ForwardWithError estimated) => { Sizes::Both };
+    (@sizes SpatialOperatorInverse machine) => { Sizes::Both };
+    (@sizes LoopInverse machine) => { Sizes::Both };
+    (@sizes LoopForward machine) => { Sizes::Both };
+    (@sizes $name:ident bending) => { Sizes::Small };
+    (@sizes $name:ident $other:ident) => { Sizes::Large };
     (@spins linked) => { false };
     (@spins machine) => { false };
     (@spins bending) => { false };
@@ -58,7 +79,7 @@ macro_rules! algorithm {
         impl $(<$life>)? Algorithm for $name $(<$life>)? {
             const FAST: bool = algorithm!(@fast $scenes);
             const WHOLE: bool = algorithm!(@whole $name $scenes);
-            const SMALL: bool = algorithm!(@small $scenes);
+            const SIZES: Sizes = algorithm!(@sizes $name $scenes);
             const LANES: bool = algorithm!(@lanes $name);
             const TERMS_ALONE: bool = algorithm!(@terms_alone $name);
 
@@ -320,7 +341,7 @@ algorithm! {
 
 algorithm! {
     /// τ of q, q̇ and q̈, and the wrenches in the joints of all bodies.
-    RneaAndWrenches, wrenched, |this, robot, counts, scene, row| {
+    RneaAndWrenches, rigid, |this, robot, counts, scene, row| {
         let found = algorithms::rnea_and_wrenches(robot, &state(row, counts, 3), scene);
         put(row, 0, 0, &found.tau[..counts.v]);
         for (i, f) in found.wrenches[..counts.bodies].iter().enumerate() {
@@ -374,7 +395,7 @@ algorithm! {
 
 algorithm! {
     /// τ and q̈ of q, q̇, what is given of each coordinate, and whether that is its acceleration.
-    Hybrid, moved, |this, robot, counts, scene, row| {
+    Hybrid, rigid, |this, robot, counts, scene, row| {
         let state = state(row, counts, 2);
         let (values, kinds) = (filled::<R, V>(row, 2, counts.v), filled::<R, V>(row, 3, counts.v));
         let given = std::array::from_fn(|i| match kinds[i] == R::ZERO {

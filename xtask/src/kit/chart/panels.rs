@@ -25,7 +25,9 @@ impl Panels {
     /// Two panels beside each other, each with its heading, as many rows of them as there are.
     pub fn svg(&self, panels: &[(String, Vec<Row>)]) -> Result<String> {
         let most = panels.iter().map(|(_, rows)| rows.len()).max().unwrap_or(0);
-        let height = ABOVE + (ROW * most) as u32 + BELOW;
+        // A picture is at most as high as a screen.
+        let row = ROW.min(720 / most.max(1));
+        let height = ABOVE + (row * most) as u32 + BELOW;
         let lines = panels.len().div_ceil(2);
         let names = self.legend.iter();
         let names = names.map(|(name, colour)| ((*name).to_owned(), *colour, 0));

@@ -95,8 +95,8 @@ function fronts(json, source) {
   return fronts;
 }
 
-/// The hard cases of the page and its totals; the one further figure that README.md knows to be
-/// beyond its bound.
+/// The hard cases of the page and its totals, among which 71 to 94 are left to the suite; the one
+/// further figure that README.md knows to be beyond its bound.
 function hard(page, readme) {
   const totals = /^\d+ cases: \d+ figures within .* shown\.$/m.exec(page)?.[0];
   const row = /^\[(\d+)\. (.*)\]\(#case-\d+\) \| (\S+) \| (\S+) \| (?:(.*): (\S+))?$/gm;
@@ -104,8 +104,8 @@ function hard(page, readme) {
     case: Number(number), title, f32: Number(single), f64: Number(double), naive: way && { way, share: Number(times) },
   }));
   const [, words, number] = /One figure of a further case\s+is beyond its bound, ([^(]*case (\d+)[^(]*) \(\[/.exec(readme) ?? [];
-  refuse(totals?.startsWith(`${cases.length} cases:`) && cases.every((one, i) => one.case === i + 1 && one.f64 >= 0), "docs/hard-cases.md cannot be read");
-  refuse(Number(number) > cases.length, "README.md has no further case that is beyond its bound");
+  refuse(totals?.startsWith(`${cases.length} cases:`) && cases.every((one, i) => one.case === (i < 70 ? i + 1 : i + 25) && one.f64 >= 0), "docs/hard-cases.md cannot be read");
+  refuse(number && cases.every((one) => one.case !== Number(number)), "README.md has no further case that is beyond its bound");
   return { totals, cases, further: { case: Number(number), words: `Known to be beyond its bound: ${words.replaceAll("`", "")}.` } };
 }
 

@@ -1,7 +1,7 @@
 //! ∂τ/∂y at rest through the loops: the stiffness of a robot with clusters.
 
 use super::{ClusterError, Clustered, ClusteredRobot, TreeAlgorithms, TreeMotion};
-use crate::algorithms::{rnea, rnea_derivatives};
+use crate::algorithms::{MassMatrix, rnea, rnea_derivatives};
 use crate::effects::Effect;
 use crate::model::Static;
 use crate::scalar::Real;
@@ -74,9 +74,8 @@ impl<A> Clustered<A> {
         let rest = Self::motion(&State::at(*y))?;
         let tau = rnea(tree, rest.state(), effects);
         let by = rnea_derivatives(tree, rest.state(), effects);
-        // Gᵀ (∂ID/∂q G): the columns of ∂ID/∂q G are rows here.
-        let columns = rest.through(&by.dq);
-        let mut k: [[R; Y]; Y] = columns.map(|column| rest.torque(&column));
+        // Gᵀ ∂ID/∂q G as of M; its columns are rows here, since ∂ID/∂q need not be symmetric.
+        let mut k: [[R; Y]; Y] = rest.inertia(&MassMatrix { rows: by.dq }).rows;
         // Σ τ_v q̈_v along one or two unit rates.
         let bend = |i: usize, j: usize| {
             let mut state = State::at(*y);

@@ -152,24 +152,19 @@ where
     /// Y times.
     #[must_use]
     pub fn inertia(&self, m: &MassMatrix<R, V>) -> MassMatrix<R, Y> {
-        MassMatrix { rows: self.through(&m.rows).map(|column| self.torque(&column)) }
-    }
-
-    /// A G of a matrix A of the tree, by columns.
-    #[cfg_attr(optimised, inline(always))]
-    pub(super) fn through(&self, a: &[[R; V]; V]) -> [[R; V]; Y] {
+        // M G by columns, and Gᵀ of each.
         let mut columns = [[R::ZERO; V]; Y];
         for v in 0..V {
             let (first, g, _) = self.row(v);
             for (k, &g) in g.iter().enumerate() {
                 if let Some(column) = columns.get_mut(first + k) {
-                    for (sum, row) in column.iter_mut().zip(a) {
-                        *sum += entry(row, v) * g;
+                    for (i, entry) in column.iter_mut().enumerate() {
+                        *entry += m.get(i, v) * g;
                     }
                 }
             }
         }
-        columns
+        MassMatrix { rows: columns.map(|column| self.torque(&column)) }
     }
 
     /// J G: the Jacobian of a body with respect to ẏ, by columns, of that of the tree.

@@ -188,7 +188,10 @@ pub fn measure(
     let regions = workspace.output(&format!("{}.regions", scene.name()))?;
     // A later build of the same bin with other features takes the place of cargo's file.
     let kept = workspace.output(&format!("{}.elf", scene.name()))?;
-    std::fs::copy(elf, &kept).map_err(Error::file("copy", &kept))?;
+    // A second run has the kept file itself, which a copy onto itself would empty.
+    if elf != kept {
+        std::fs::copy(elf, &kept).map_err(Error::file("copy", &kept))?;
+    }
     let elf = &*kept;
     let (recording, raw) = record(tools, scene, elf, Some((plugin, &regions)))?;
     let metered = workspace::read(&regions)?;

@@ -4,7 +4,7 @@
 
 use dynamics_core::Core;
 use dynamics_core::effects::Effect;
-use dynamics_core::model::{Calibrated, JointLimits, Robot, model};
+use dynamics_core::model::{Calibrated, JointLimits, Model, Robot};
 use dynamics_core::state::State;
 use embedded_hal::digital::OutputPin;
 use embedded_hal::pwm::SetDutyCycle;
@@ -76,6 +76,9 @@ pub trait Scene<const B: usize, const Q: usize, const V: usize, const N: usize>:
     /// The name of that pose; a name that ends in `inertia` says what [`Scene::inertia`] is
     /// instead.
     const GAIN_POSE_NAME: &'static str;
+    /// The driven joints' limits.
+    const LIMITS: [JointLimits<f32>; N] =
+        limits_of(&<Self::Robot as Robot<B, Q, V>>::MODEL, last_places::<V, N>());
 
     /// The runs of every scene.
     const RUNS: [Run<Self, B, Q, V, N>; 4] = [
@@ -120,17 +123,6 @@ pub trait Scene<const B: usize, const Q: usize, const V: usize, const N: usize>:
     /// The robot at the start, with noise if the controller is not to know it exactly.
     fn plant(noise: Option<&mut Noise>) -> Self::Plant;
 
-    /// The driven joints' limits.
-    #[inline(never)]
-    fn limits() -> [JointLimits<f32>; N] {
-        let links = &model::<f32, Self::Robot, B, Q, V>().links;
-        core::array::from_fn(|joint| {
-            // The last, since a body without a joint has the index of the next joint.
-            let link = links.iter().rfind(|link| link.idx_v == V - N + joint);
-            link.unwrap_or(&links[0]).limits
-        })
-    }
-
     /// The inertia that each driven joint's gains are for, kg·m² or kg: M's diagonal.
     fn inertia(environment: &Self::Environment) -> [f32; N] {
         let effects = Self::current(environment);
@@ -147,7 +139,7 @@ pub trait Scene<const B: usize, const Q: usize, const V: usize, const N: usize>:
     /// without a change of its position, twice the speed limit from one reference to the next,
     /// torques at their limits for 50 ticks.
     fn detectors() -> Detectors<f32, N> {
-        let limits = Self::limits();
+        let limits = Self::LIMITS;
         Detectors {
             frozen: FrozenEncoder::new([10.0 * Self::RESOLUTION; N], 3),
             steps: ReferenceStep::new(limits.map(|limit| 2.0 * limit.velocity * Self::TICK)),
@@ -171,6 +163,39 @@ pub trait Scene<const B: usize, const Q: usize, const V: usize, const N: usize>:
             devices, gains, detectors, start, new,
         )
     }
+}
+
+/// The limits of the joints at these coordinates.
+pub const fn limits_of<const B: usize, const Q: usize, const V: usize, const N: usize>(
+    model: &Model<f64, B, Q, V>,
+    coordinates: [usize; N],
+) -> [JointLimits<f32>; N] {
+    let links = model.to_f32().links;
+    let mut limits = [links[0].limits; N];
+    let mut n = 0;
+    while n < N {
+        let mut i = 0;
+        while i < B {
+            // The last stays, since a body without a joint has the index of the next joint.
+            if links[i].idx_v == coordinates[n] {
+                limits[n] = links[i].limits;
+            }
+            i += 1;
+        }
+        n += 1;
+    }
+    limits
+}
+
+/// The places of the last N of V coordinates.
+const fn last_places<const V: usize, const N: usize>() -> [usize; N] {
+    let mut places = [V - N; N];
+    let mut n = 0;
+    while n < N {
+        places[n] += n;
+        n += 1;
+    }
+    places
 }
 
 /// A robot at rest at q: the scene's, or one whose masses the controller does not know, nor of the

@@ -240,7 +240,7 @@ where
         let link = links.find(|link| link.idx_v == V - N + joint);
         link.is_some_and(|link| link.joint.kind == JointKind::Prismatic)
     };
-    let limits = S::limits().into_iter().enumerate();
+    let limits = S::LIMITS.into_iter().enumerate();
     let joints = limits.map(|(joint, limits)| Axis { limits, prismatic: slides(joint) });
     machine_of(S::NAME, S::TICK, timer_hz, joints)
 }

@@ -89,7 +89,7 @@ where
     S: Scene<B, V, V, 3>,
 {
     let reference = S::reference().unwrap();
-    let limits = S::limits();
+    let limits = S::LIMITS;
     let mut most = [0.0_f32; 2];
     for tick in 0..=reference.ticks() {
         let (wanted, environment) = (reference.at(tick), S::environment(&reference, tick as f32));

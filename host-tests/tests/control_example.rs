@@ -33,7 +33,7 @@ struct Outcome {
 
 /// The arm on its way, without measurements for `lost` ticks from the tick `at` on.
 fn lost_frames(at: u32, lost: u32) -> Outcome {
-    let limits = SafetyLimits::from(PickAndPlace::limits()).with_rate_share(0.5);
+    let limits = SafetyLimits::from(PickAndPlace::LIMITS).with_rate_share(0.5);
     let way = PickAndPlace::reference().unwrap();
     let mut arm = State::at(way.at(0).q);
     let mut controller = example::controller(limits).unwrap();

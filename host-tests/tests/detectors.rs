@@ -16,7 +16,7 @@ fn the_scene_has_no_false_alarm() {
     let noises = [Some(seeded), None];
     for noise in noises.into_iter().take(everyday_or_full(1, 2)) {
         let wires: &'static Wires<6> = Box::leak(Box::default());
-        let torque = PickAndPlace::limits().map(|limit| limit.torque);
+        let torque = PickAndPlace::LIMITS.map(|limit| limit.torque);
         let mut rig = Rig::new(PickAndPlace::plant(noise), torque, wires);
         let detectors = PickAndPlace::detectors();
         let control = simulated_loop::<PickAndPlace, _, 6, 6, 6, 6>(&path, wires, detectors);

@@ -238,7 +238,7 @@ where
             plant,
             brake,
             control,
-            limits: S::limits().map(|limit| limit.torque),
+            limits: S::LIMITS.map(|limit| limit.torque),
             clock: 0,
             tick: 0,
             fault: None,

@@ -205,7 +205,7 @@ where
 {
     let mut noise = Noise::seeded();
     let noise = (truth == PlantModel::Mismatched).then_some(&mut noise);
-    let torque = S::limits().map(|l| l.torque);
+    let torque = S::LIMITS.map(|l| l.torque);
     let rig = Rig::new(S::plant(noise), torque, wires);
     let control = simulated_loop::<S, D, B, Q, V, N>(reference, wires, detectors)?;
     Ok((rig, control))

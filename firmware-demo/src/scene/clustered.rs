@@ -5,7 +5,7 @@ use core::marker::PhantomData;
 
 use dynamics_core::clusters::{ClusterError, Clustered, ClusteredRobot, MotorTorques};
 use dynamics_core::effects::Effect;
-use dynamics_core::model::{Calibrated, JointLimits, model};
+use dynamics_core::model::Calibrated;
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
 use motion_control::Reference;
@@ -85,20 +85,6 @@ where
         disturb(&mut effects, noise);
     }
     ClusterPlant::new(robot, effects, y)
-}
-
-/// The limits of the joints at these coordinates.
-pub fn limits<T, const B: usize, const V: usize, const N: usize>(
-    motors: &[usize; N],
-) -> [JointLimits<f32>; N]
-where
-    T: ClusteredRobot<B, V, V, N, N>,
-{
-    let model = model::<f32, T, B, V, V>();
-    motors.map(|v| {
-        let of_motor = model.links.iter().find(|link| link.idx_v == v);
-        of_motor.unwrap_or(&model.links[0]).limits
-    })
 }
 
 /// The inertia at each motor at y while the other motors do not move, kg·m²: the diagonal of G_a⁻ᵀ

@@ -113,10 +113,10 @@ where
     D: Detect<f32, N>,
 {
     let Devices { encoders, drives, brake } = devices;
-    let scales = FullScale::of(S::limits().map(|limit| limit.torque)).map_err(SetupError::Drive)?;
+    let scales = FullScale::of(S::LIMITS.map(|limit| limit.torque)).map_err(SetupError::Drive)?;
     // The plants start within half a turn of zero. One mapping for all joints, with the speed of
     // the fastest, takes less stack than one for each.
-    let fastest = S::limits().iter().fold(0.0_f32, |most, limit| most.max(limit.velocity));
+    let fastest = S::LIMITS.iter().fold(0.0_f32, |most, limit| most.max(limit.velocity));
     let mapping = JointMapping::IDENTITY.with_range(JointRange::Near(0.0), fastest * S::TICK);
     let mapping = mapping.map_err(SetupError::Encoder)?;
     let mut joint = 0;
@@ -127,7 +127,7 @@ where
     });
     let controller = MotionController::new(MotionControllerConfig {
         supervisor: SupervisorConfig {
-            limits: SafetyLimits::from(S::limits()).with_rate_share(0.5),
+            limits: SafetyLimits::from(S::LIMITS).with_rate_share(0.5),
             tick: S::TICK,
             resolution: S::RESOLUTION,
             ride_through_ticks: RIDE,

@@ -3,14 +3,14 @@
 use dynamics_core::effects::{
     Armature, Coriolis, Coulomb, Effect, Gravity, Inertia, Viscous, Width,
 };
-use dynamics_core::model::JointLimits;
+use dynamics_core::model::{JointLimits, Robot};
 use dynamics_core::state::State;
 use motion_control::TrajectoryError;
 
 use crate::plant::ClusterPlant;
 use crate::robots::PickDelta;
 use crate::scene::clustered;
-use crate::scene::{Noise, Scene};
+use crate::scene::{Noise, Scene, limits_of};
 use crate::trajectories::picks::{FEEDER, Picks, cranks};
 
 pub type Effects =
@@ -59,6 +59,7 @@ impl Scene<12, 12, 12, 3> for Picking {
     /// A step takes 40,000 instructions, and the emulated processor executes 125,000 in a tick.
     const STEPS: u32 = 2;
     const GAIN_POSE_NAME: &'static str = "feeder";
+    const LIMITS: [JointLimits<f32>; 3] = limits_of(&PickDelta::MODEL, PickDelta::MOTORS);
 
     fn reference() -> Result<Picks, TrajectoryError> {
         Picks::new()
@@ -83,10 +84,6 @@ impl Scene<12, 12, 12, 3> for Picking {
                 noise.friction(&mut coulomb.torque);
             },
         )
-    }
-
-    fn limits() -> [JointLimits<f32>; 3] {
-        clustered::limits::<PickDelta, 12, 12, 3>(&PickDelta::MOTORS)
     }
 
     fn inertia((): &()) -> [f32; 3] {

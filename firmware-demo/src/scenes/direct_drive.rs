@@ -71,7 +71,7 @@ impl Scene<3, 3, 3, 3> for FastArm {
     ];
 
     fn reference() -> Result<Self::Reference, TrajectoryError> {
-        through(&WAY, &Self::limits(), [150.0; 3])
+        through(&WAY, &Self::LIMITS, [150.0; 3])
     }
 
     fn environment(_: &Self::Reference, _: f32) {}

@@ -65,7 +65,7 @@ impl Scene<7, 7, 7, 7> for CompliantArm {
     ];
 
     fn reference() -> Result<Self::Reference, TrajectoryError> {
-        RestToRest::new(&SWING, TICK, &speeds(&Self::limits(), [8.0; 7]))
+        RestToRest::new(&SWING, TICK, &speeds(&Self::LIMITS, [8.0; 7]))
     }
 
     fn environment(reference: &Self::Reference, ticks: f32) -> ElasticReference<f32, 7, 7> {

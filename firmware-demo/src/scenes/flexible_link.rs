@@ -36,7 +36,7 @@ pub const PAUSE: u32 = 600;
 /// # Errors
 /// A motion beyond the joints' limits.
 pub fn swing(from: [f32; 2], to: [f32; 2]) -> Result<Move, TrajectoryError> {
-    rest_to_rest(from, to, SWING, &speeds(&BendingArm::limits(), [100.0; 2]))
+    rest_to_rest(from, to, SWING, &speeds(&BendingArm::LIMITS, [100.0; 2]))
 }
 
 #[derive(Clone, Copy, Debug)]

@@ -134,7 +134,7 @@ impl Scene<7, 7, 7, 7> for Carry {
     fn reference() -> Result<Job, TrajectoryError> {
         let accelerations = [15.0, 7.5, 10.0, 12.5, 15.0, 20.0, 20.0];
         Ok(Job {
-            trajectory: through(&PANDA_CARRY, &Self::limits(), accelerations)?,
+            trajectory: through(&PANDA_CARRY, &Self::LIMITS, accelerations)?,
             // An impossible part is not picked up.
             part: part().unwrap_or_default(),
             spring: Impedance::at_the_start(),

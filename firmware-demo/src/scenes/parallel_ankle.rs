@@ -6,14 +6,14 @@ use dynamics_core::clusters::{Clustered, MotorTorques};
 use dynamics_core::effects::{
     Armature, Coriolis, Coulomb, Effect, Gravity, Inertia, JointState, RIGID_BODY, Viscous, Width,
 };
-use dynamics_core::model::JointLimits;
+use dynamics_core::model::{JointLimits, Robot};
 use dynamics_core::state::State;
 use motion_control::{MotionLimits, Trajectory, TrajectoryError, WayPoint};
 
 use crate::plant::ClusterPlant;
 use crate::robots::{G1Ankle, SerialAnkle};
 use crate::scene::clustered::{self, MotorReference};
-use crate::scene::{Noise, PlantModel, Run, Scene, TICK};
+use crate::scene::{Noise, PlantModel, Run, Scene, TICK, limits_of};
 use crate::trajectories::{MID_STANCE, pass, stop};
 use joint_drivers::Law;
 
@@ -79,6 +79,7 @@ impl Scene<9, 9, 9, 3> for AnkleSteps {
     const EFFECTS: Effects = EFFECTS;
     const CONSTANT_EFFECTS: bool = true;
     const GAIN_POSE_NAME: &'static str = "mid-stance";
+    const LIMITS: [JointLimits<f32>; 3] = limits_of(&G1Ankle::MODEL, G1Ankle::MOTORS);
     const BASELINES: &'static [Run<Self, 9, 9, 9, 3>] =
         &[Run::of::<SerialJoints>(PlantModel::Exact, "serial-ankle")];
 
@@ -110,10 +111,6 @@ impl Scene<9, 9, 9, 3> for AnkleSteps {
                 noise.friction(&mut coulomb.torque);
             },
         )
-    }
-
-    fn limits() -> [JointLimits<f32>; 3] {
-        clustered::limits::<G1Ankle, 9, 9, 3>(&G1Ankle::MOTORS)
     }
 
     fn inertia(_: &Self::Environment) -> [f32; 3] {

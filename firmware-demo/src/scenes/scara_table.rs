@@ -64,7 +64,7 @@ impl Scene<3, 3, 3, 3> for Serve {
     ];
 
     fn reference() -> Result<Self::Reference, TrajectoryError> {
-        through(&SCARA_SERVES, &Self::limits(), [60.0, 120.0, 250.0])
+        through(&SCARA_SERVES, &Self::LIMITS, [60.0, 120.0, 250.0])
     }
 
     fn environment(_: &Self::Reference, _: f32) {}

@@ -27,13 +27,13 @@ use dynamics_core::Engine;
 use dynamics_core::effects::{
     Armature, Coriolis, Coulomb, Effect, Gravity, Inertia, LoadFriction, Viscous, Width,
 };
-use dynamics_core::model::{JointLimits, model};
+use dynamics_core::model::{JointLimits, Robot};
 use dynamics_core::robots::So101;
 use dynamics_core::state::State;
 use motion_control::{Estimate, Gains, Trajectory, TrajectoryError, WayPoint};
 
 use crate::plant::ServoPlant;
-use crate::scene::{Noise, PlantModel, Run, Scene, rigid, speeds};
+use crate::scene::{Noise, PlantModel, Run, Scene, limits_of, rigid, speeds};
 use crate::trajectories::{SO101_START, stop};
 use joint_drivers::Law;
 
@@ -128,6 +128,16 @@ impl Scene<6, 6, 6, 6> for TaughtPath {
     const TICK: f32 = 2e-3;
     const RESOLUTION: f32 = RESOLUTION;
     const GAIN_POSE_NAME: &'static str = "half a rotor's inertia";
+    /// Those of the source, with the torque and speed of the servo.
+    const LIMITS: [JointLimits<f32>; 6] = {
+        let mut limits = limits_of(&So101::MODEL, [0, 1, 2, 3, 4, 5]);
+        let mut j = 0;
+        while j < 6 {
+            (limits[j].velocity, limits[j].torque) = (MAX_SPEED, MAX_DUTY * STALL);
+            j += 1;
+        }
+        limits
+    };
     const BASELINES: &'static [Run<Self, 6, 6, 6, 6>] = &[
         Run::of::<PositionLoop>(PlantModel::Exact, "position-loop"),
         Run::of::<PositionLoop>(PlantModel::Mismatched, "position-loop"),
@@ -138,7 +148,7 @@ impl Scene<6, 6, 6, 6> for TaughtPath {
     ];
 
     fn reference() -> Result<Self::Reference, TrajectoryError> {
-        Trajectory::new(&TAUGHT, Self::TICK, &speeds(&Self::limits(), [30.0; 6]))
+        Trajectory::new(&TAUGHT, Self::TICK, &speeds(&Self::LIMITS, [30.0; 6]))
     }
 
     fn environment(_: &Self::Reference, _: f32) {}
@@ -173,17 +183,6 @@ impl Scene<6, 6, 6, 6> for TaughtPath {
             step: 1e-3 * STALL,
             resolution: RESOLUTION,
         }
-    }
-
-    /// Those of the source, with the torque and speed of the servo.
-    fn limits() -> [JointLimits<f32>; 6] {
-        let model = model::<f32, So101, 6, 6, 6>();
-        core::array::from_fn(|j| JointLimits {
-            lower: model.links[j].limits.lower,
-            upper: model.links[j].limits.upper,
-            velocity: MAX_SPEED,
-            torque: MAX_DUTY * STALL,
-        })
     }
 
     /// Half a rotor's: a K_p of half of what the servo's own loop has.

@@ -64,7 +64,7 @@ impl Scene<7, 13, 12, 6> for ReachOut {
     ];
 
     fn reference() -> Result<Self::Reference, TrajectoryError> {
-        through(&REACH_OUT, &Self::limits(), [3.0; 6])
+        through(&REACH_OUT, &Self::LIMITS, [3.0; 6])
     }
 
     fn environment(_: &Self::Reference, _: f32) {}

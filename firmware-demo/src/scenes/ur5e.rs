@@ -75,7 +75,7 @@ impl Scene<6, 6, 6, 6> for PickAndPlace {
 /// # Errors
 /// As [`Scene::reference`].
 pub fn plan(path: &mut Trajectory<f32, 6, 9>) -> Result<(), TrajectoryError> {
-    let limits = speeds(&PickAndPlace::limits(), [12.0; 6]);
+    let limits = speeds(&PickAndPlace::LIMITS, [12.0; 6]);
     path.plan(&PICK_AND_PLACE, TICK, &limits)
 }
 

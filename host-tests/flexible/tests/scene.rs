@@ -79,7 +79,7 @@ fn a_shaped_reference_leaves_a_tenth_of_the_vibration() {
     for (modes, most) in [(&MODES_2, 0.1), (&MODES_2_SOFT, 1.0 / 3.0)] {
         let [plain, without] = [run(&there, modes, true), run(&shaped, modes, true)];
         println!("unshaped {plain:?}, shaped {without:?}");
-        let limits = BendingArm::limits().map(|limit| limit.torque);
+        let limits = BendingArm::LIMITS.map(|limit| limit.torque);
         assert!((0..2).all(|j| plain.torque[j] < limits[j]), "{plain:?}");
         assert!(without.vibration < most * plain.vibration, "{plain:?} {without:?}");
     }

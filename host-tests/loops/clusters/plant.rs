@@ -16,7 +16,7 @@ use motion_control::{Mode, Reference};
 fn the_motors_of_a_leg_with_rods_follow_their_reference() {
     let reference = AnkleSteps::reference().unwrap();
     let wires: &'static Wires<3> = Box::leak(Box::default());
-    let torque = AnkleSteps::limits().map(|limit| limit.torque);
+    let torque = AnkleSteps::LIMITS.map(|limit| limit.torque);
     let mut rig = Rig::new::<State<f32, 3, 3>>(AnkleSteps::plant(None), torque, wires);
     let control = simulated_loop::<AnkleSteps, _, 9, 9, 9, 3>(&reference, wires, ());
     let mut control = control.unwrap();

@@ -86,7 +86,7 @@ impl<F: Effect<f32, 6, 6> + Clone> Cell<F> {
             plant,
             controller: MotionController::new(MotionControllerConfig {
                 supervisor: SupervisorConfig {
-                    limits: SafetyLimits::from(PickAndPlace::limits()).with_rate_share(0.5),
+                    limits: SafetyLimits::from(PickAndPlace::LIMITS).with_rate_share(0.5),
                     tick: TICK,
                     resolution: sensing.step,
                     ride_through_ticks: RIDE,

@@ -62,7 +62,7 @@ fn hop_derivatives_agree_with_differences() {
 fn each_hop_rises_at_least_five_centimetres() {
     let wires: &'static Wires<3> = Box::leak(Box::new(Wires::new()));
     let (hop, _) = ways();
-    let torque = Hopping::limits().map(|l| l.torque);
+    let torque = Hopping::LIMITS.map(|l| l.torque);
     let mut rig = Rig::new(Hopping::plant(None), torque, wires);
     let environment = |tick: u32| Hopping::environment(&hop, tick as f32);
     let mut control = simulated_loop::<Hopping, _, 5, 4, 4, 3>(&hop, wires, ()).unwrap();

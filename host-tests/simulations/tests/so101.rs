@@ -27,7 +27,7 @@ fn plant(exact: bool) -> Servos {
 fn error<L: Law<6>>(exact: bool) -> f64 {
     let reference = TaughtPath::reference().expect("within the limits");
     let wires: &'static Wires<6> = Box::leak(Box::default());
-    let full_scale = TaughtPath::limits().map(|limit| limit.torque);
+    let full_scale = TaughtPath::LIMITS.map(|limit| limit.torque);
     let mut rig = Rig::new::<()>(plant(exact), full_scale, wires);
     let mut control = simulated_loop::<TaughtPath, _, 6, 6, 6, 6>(&reference, wires, ()).unwrap();
     let ticks = reference.ticks() + 100;

@@ -142,7 +142,7 @@ pub struct Arm {
 impl Arm {
     pub fn new() -> Self {
         let wires: &'static Wires<6> = Box::leak(Box::new(Wires::new()));
-        let limits = PickAndPlace::limits();
+        let limits = PickAndPlace::LIMITS;
         let torque = limits.map(|l| l.torque);
         let rig = Rig::new(PickAndPlace::plant(None), torque, wires);
         let bent: [Rc<Bent>; 6] = Default::default();

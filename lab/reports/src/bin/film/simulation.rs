@@ -79,7 +79,7 @@ pub struct Motion {
 pub fn run() -> Motion {
     let way = PickAndPlace::reference().expect("the arm can go there");
     let wires: &'static Wires<6> = Box::leak(Box::default());
-    let full_scale = PickAndPlace::limits().map(|limit| limit.torque);
+    let full_scale = PickAndPlace::LIMITS.map(|limit| limit.torque);
     let mut rig = Rig::new(PickAndPlace::plant(None), full_scale, wires);
     let mut control: SimLoop<6> =
         simulated_loop::<PickAndPlace, (), 6, 6, 6, 6>(&way, wires, ()).expect("torque limits");

@@ -148,19 +148,14 @@ where
     for case in cases {
         defmt::assert!(forward::<T, M>(case).is_some() && feedforward::<T, M>(case).is_some());
     }
-    let run = inverse::<T, M>;
-    of("rnea").measure(run as *const () as usize, cases, run);
-    let run = inertia::<T, M>;
-    of("crba").measure(run as *const () as usize, cases, run);
-    let run = forward::<T, M>;
-    of("forward_dynamics").measure(run as *const () as usize, cases, run);
+    of("rnea").measure(inverse::<T, M> as *const () as usize, cases, inverse::<T, M>);
+    of("crba").measure(inertia::<T, M> as *const () as usize, cases, inertia::<T, M>);
+    of("forward_dynamics").measure(forward::<T, M> as *const () as usize, cases, forward::<T, M>);
     let run = feedforward::<T, M>;
     of("modal_feedforward").measure(run as *const () as usize, cases, run);
     let of = |algorithm| Row::of::<TwoLink, 2, 2>(algorithm, "engine", inputs, true);
-    let run = folded::<M>;
-    of("rnea").measure(run as *const () as usize, cases, run);
-    let run = folded_inertia::<M>;
-    of("crba").measure(run as *const () as usize, cases, run);
+    of("rnea").measure(folded::<M> as *const () as usize, cases, folded);
+    of("crba").measure(folded_inertia::<M> as *const () as usize, cases, folded_inertia);
     let run = folded_forward::<M>;
     of("forward_dynamics").measure(run as *const () as usize, cases, run);
     let run = folded_feedforward::<M>;

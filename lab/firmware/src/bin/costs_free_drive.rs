@@ -38,15 +38,13 @@ fn measure(arm: &mut Arm<'_>) {
         Some(came)
     })();
     let Some(came) = came else { return };
-    let run = tick;
-    let address = run as *const () as usize;
-    row("tick").measure(address, &came, |came| run(&mut all.borrow_mut(), came));
+    let address = tick as *const () as usize;
+    row("tick").measure(address, &came, |came| tick(&mut all.borrow_mut(), came));
     let estimates: [_; STATES] = core::array::from_fn(|k| Estimate {
         q: Q.map(|q| q + 1e-3 * k as f32),
         qd: [1e-3 * k as f32; 7],
     });
-    let run = torque;
-    row("law").measure(run as *const () as usize, &estimates, |estimate| run(law, estimate));
+    row("law").measure(torque as *const () as usize, &estimates, |estimate| torque(law, estimate));
 }
 
 fn run() -> ! {

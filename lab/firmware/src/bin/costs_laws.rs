@@ -73,19 +73,17 @@ fn around(start: &ArmState<f32, 6>) -> [Ask<6>; STATES] {
 
 fn laws(asks: &[Ask<6>; STATES]) -> Result<(), ConfigError> {
     let gains = PassivityGains { lambda: [10.0; 6], kd: [60.0, 60.0, 30.0, 5.0, 5.0, 5.0] };
-    let run = slotine_li;
     row("slotine_li", "core", true)
-        .measure(run as *const () as usize, asks, |ask| run(&gains, &ask.state));
+        .measure(slotine_li as *const () as usize, asks, |ask| slotine_li(&gains, &ask.state));
     let mut law = CartesianImpedance::try_new(ImpedanceConfig {
         stiffness: [30.0, 30.0, 30.0, 600.0, 600.0, 600.0],
         zeta: 0.7,
         slowest: 2.0,
     })?;
-    let run = impedance;
     // Those that jump are the way in: from one posture to any other.
     for (inputs, asks) in [("full", &around(&asks[0].state)), ("jumps", asks)] {
         let row = Row::of::<robots::Ur5e, 6, 6>("impedance", "engine", inputs, false);
-        row.measure(run as *const () as usize, asks, |ask| run(&mut law, ask));
+        row.measure(impedance as *const () as usize, asks, |ask| impedance(&mut law, ask));
     }
     let spring = LimitedSpring { stiffness: [300.0; 6], damping: [20.0; 6], torque: [40.0; 6] };
     let law = HandGuiding::try_new(HandGuidingConfig {
@@ -100,23 +98,20 @@ fn laws(asks: &[Ask<6>; STATES]) -> Result<(), ConfigError> {
         wall: spring,
         lock: spring,
     })?;
-    let run = guided;
     row("hand_guiding", "law", false)
-        .measure(run as *const () as usize, asks, |ask| run(&law, &ask.state));
+        .measure(guided as *const () as usize, asks, |ask| guided(&law, &ask.state));
     let law = InertiaShaping::try_new(InertiaShapingConfig {
         amplification: 1.0,
         dead_band: [1.0; 6],
         damping: [5.0; 6],
         torque: [30.0; 6],
     })?;
-    let run = shaped;
     row("inertia_shaping", "law", false)
-        .measure(run as *const () as usize, asks, |ask| run(&law, &ask.state));
+        .measure(shaped as *const () as usize, asks, |ask| shaped(&law, &ask.state));
     let config = ObserverConfig { bandwidth: 50.0, tick: 1e-3 };
     let mut detector = ContactDetector::try_new(config, [5.0; 6])?;
-    let run = detected;
     row("contact_detector", "law", false)
-        .measure(run as *const () as usize, asks, |ask| run(&mut detector, &ask.state));
+        .measure(detected as *const () as usize, asks, |ask| detected(&mut detector, &ask.state));
     Ok(())
 }
 
@@ -136,14 +131,15 @@ fn regressor_row(at: &ArmState<f32, 6>) -> [[f32; 10]; 6] {
 }
 
 fn regressors(asks: &[Ask<6>; STATES]) {
-    let run = regressor;
-    row("regressor", "core", true).measure(run as *const () as usize, asks, |ask| run(&ask.state));
-    let run = regressor_columns;
-    row("regressor_columns", "core", true)
-        .measure(run as *const () as usize, asks, |ask| run(&ask.state));
-    let run = regressor_row;
+    row("regressor", "core", true)
+        .measure(regressor as *const () as usize, asks, |ask| regressor(&ask.state));
+    row("regressor_columns", "core", true).measure(
+        regressor_columns as *const () as usize,
+        asks,
+        |ask| regressor_columns(&ask.state),
+    );
     row("regressor_row", "core", true)
-        .measure(run as *const () as usize, asks, |ask| run(&ask.state));
+        .measure(regressor_row as *const () as usize, asks, |ask| regressor_row(&ask.state));
 }
 
 /// A point of a motion along a path, in a grid of 201 points.
@@ -191,34 +187,30 @@ fn goals(asks: &[Ask<6>; STATES]) {
     let Ok(mut goal) = MovingGoal::try_new(&asks[0].state.q, limits, 1e-3) else {
         return;
     };
-    let run = moving_goal;
-    row("moving_goal", "law", false).measure(run as *const () as usize, asks, |ask| {
+    row("moving_goal", "law", false).measure(moving_goal as *const () as usize, asks, |ask| {
         let tick = goal.ticks() / 3 * 2;
-        run(&mut goal, tick, &ask.state.q)
+        moving_goal(&mut goal, tick, &ask.state.q)
     });
     let ticks: [u32; STATES] = core::array::from_fn(|k| goal.ticks() / STATES as u32 * k as u32);
     // All joints brake towards goals that are a little farther in each tick.
     let started = goal.set_from(0, &State::at([0.0; 6]), &[1.5; 6]);
     let (mut tick, mut spreading) = (started.unwrap_or(0) - 250, (goal, None));
     let farther = |tick: u32| core::array::from_fn(|j| 1.5 + 1e-5 * (tick * (j as u32 + 1)) as f32);
-    let run = moving_goal;
     Row::of::<robots::Ur5e, 6, 6>("moving_goal", "law", "longest", false).measure(
-        run as *const () as usize,
+        moving_goal as *const () as usize,
         &[(goal, farther(tick))],
-        |(goal, to)| run(&mut goal.clone(), tick, to),
+        |(goal, to)| moving_goal(&mut goal.clone(), tick, to),
     );
-    let run = spread;
     Row::of::<robots::Ur5e, 6, 6>("moving_goal", "law", "spread", false).measure(
-        run as *const () as usize,
+        spread as *const () as usize,
         &[(); STATES],
         |()| {
             tick += 1;
-            run(&mut spreading, tick, &farther(tick))
+            spread(&mut spreading, tick, &farther(tick))
         },
     );
-    let run = on_the_way;
     row("moving_goal_at", "law", false)
-        .measure(run as *const () as usize, &ticks, |tick| run(&goal, *tick));
+        .measure(on_the_way as *const () as usize, &ticks, |tick| on_the_way(&goal, *tick));
 }
 
 fn paths(asks: &[Ask<6>; STATES]) {
@@ -241,12 +233,11 @@ fn paths(asks: &[Ask<6>; STATES]) {
         return;
     }
     let ticks: [u32; STATES] = core::array::from_fn(|k| motion.ticks() * k as u32 / STATES as u32);
-    let run = timed_path;
     row("timed_path", "law", false)
-        .measure(run as *const () as usize, &ticks, |tick| run(&motion, *tick));
-    let run = taught_path;
-    row("taught_path", "law", false)
-        .measure(run as *const () as usize, asks, |ask| run(&mut taught, &ask.state.q));
+        .measure(timed_path as *const () as usize, &ticks, |tick| timed_path(&motion, *tick));
+    row("taught_path", "law", false).measure(taught_path as *const () as usize, asks, |ask| {
+        taught_path(&mut taught, &ask.state.q)
+    });
 }
 
 fn run() -> ! {

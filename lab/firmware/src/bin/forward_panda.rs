@@ -38,11 +38,10 @@ fn run() -> ! {
         tolerance: 0.0,
         iterations: 130,
     };
-    let run = solve;
     Row::of::<Panda, 7, 7>("pose_solver", "engine", "130_iterations", true).measure(
-        run as *const () as usize,
+        solve as *const () as usize,
         &asks::<Panda, 7, 7, STATES>(),
-        |ask| run(&solver, ask),
+        |ask| solve(&solver, ask),
     );
     costs::forward::both::<Panda, 7, 7, TIP>()
 }

@@ -79,12 +79,12 @@ pub fn parameters(asks: &[Ask<6>; STATES]) {
     };
     let bodies = SELECTED.bodies();
     let row = |inputs, trig| Row::of::<So101, 6, 6>("parameter_update", "core", inputs, trig);
-    let run = with_row;
-    row("with_row", true)
-        .measure(run as *const () as usize, asks, |ask| run(&mut estimator, &bodies, &ask.state));
+    row("with_row", true).measure(with_row as *const () as usize, asks, |ask| {
+        with_row(&mut estimator, &bodies, &ask.state)
+    });
     let rows = asks.each_ref().map(|ask| parameter_row(&bodies, &ask.state));
-    let run = update;
-    row("row_given", false).measure(run as *const () as usize, &rows, |y| run(&mut estimator, y));
+    row("row_given", false)
+        .measure(update as *const () as usize, &rows, |y| update(&mut estimator, y));
 }
 
 #[inline(always)]

@@ -31,37 +31,36 @@ pub struct Forms<'a, const N: usize, const TIP: usize> {
     jacobian_before: fn(&JointTrig<f32, N>, OnBody<TIP>, LocalWorldAligned) -> [Motion<f32>; N],
 }
 
-pub fn of_core<'a, T: Robot<B, N, N>, const B: usize, const N: usize, const TIP: usize>()
--> Forms<'a, N, TIP> {
-    Forms {
-        name: "core",
-        crba: Core::<T>::crba,
-        crba_before: Core::<T>::crba,
-        factor_solve: core_factor_solve::<T, B, N>,
-        forward: Core::<T>::forward_dynamics,
-        forward_before: Core::<T>::forward_dynamics,
-        aba: Core::<T>::aba,
-        aba_before: Core::<T>::aba,
-        jacobian: Core::<T>::jacobian,
-        jacobian_before: Core::<T>::jacobian,
-    }
+macro_rules! forms {
+    ($of:ident, $factor_solve:ident, $Form:ident, $name:literal) => {
+        pub fn $of<'a, T: Robot<B, N, N>, const B: usize, const N: usize, const TIP: usize>()
+        -> Forms<'a, N, TIP> {
+            Forms {
+                name: $name,
+                crba: $Form::<T>::crba,
+                crba_before: $Form::<T>::crba,
+                factor_solve: $factor_solve::<T, B, N>,
+                forward: $Form::<T>::forward_dynamics,
+                forward_before: $Form::<T>::forward_dynamics,
+                aba: $Form::<T>::aba,
+                aba_before: $Form::<T>::aba,
+                jacobian: $Form::<T>::jacobian,
+                jacobian_before: $Form::<T>::jacobian,
+            }
+        }
+
+        #[inline(never)]
+        fn $factor_solve<T: Robot<B, N, N>, const B: usize, const N: usize>(
+            m: &MassMatrix<f32, N>,
+            tau: &[f32; N],
+        ) -> Solution<N> {
+            Ok($Form::<T>::solve(&$Form::<T>::ltdl(m)?, tau))
+        }
+    };
 }
 
-pub fn of_engine<'a, T: Robot<B, N, N>, const B: usize, const N: usize, const TIP: usize>()
--> Forms<'a, N, TIP> {
-    Forms {
-        name: "engine",
-        crba: Engine::<T>::crba,
-        crba_before: Engine::<T>::crba,
-        factor_solve: engine_factor_solve::<T, B, N>,
-        forward: Engine::<T>::forward_dynamics,
-        forward_before: Engine::<T>::forward_dynamics,
-        aba: Engine::<T>::aba,
-        aba_before: Engine::<T>::aba,
-        jacobian: Engine::<T>::jacobian,
-        jacobian_before: Engine::<T>::jacobian,
-    }
-}
+forms!(of_core, core_factor_solve, Core, "core");
+forms!(of_engine, engine_factor_solve, Engine, "engine");
 
 pub fn both<T: Robot<B, N, N>, const B: usize, const N: usize, const TIP: usize>() -> ! {
     let asks = &asks::<T, B, N, STATES>();
@@ -76,22 +75,6 @@ pub fn core<T: Robot<B, N, N>, const B: usize, const N: usize, const TIP: usize>
     let asks = &asks::<T, B, N, STATES>();
     run::<T, B, N, TIP>(asks, &[of_core::<T, B, N, TIP>()]);
     done()
-}
-
-#[inline(never)]
-fn engine_factor_solve<T: Robot<B, N, N>, const B: usize, const N: usize>(
-    m: &MassMatrix<f32, N>,
-    tau: &[f32; N],
-) -> Solution<N> {
-    Ok(Engine::<T>::solve(&Engine::<T>::ltdl(m)?, tau))
-}
-
-#[inline(never)]
-fn core_factor_solve<T: Robot<B, N, N>, const B: usize, const N: usize>(
-    m: &MassMatrix<f32, N>,
-    tau: &[f32; N],
-) -> Solution<N> {
-    Ok(Core::<T>::solve(&Core::<T>::ltdl(m)?, tau))
 }
 
 /// Measures the rows of these forms. Torques are the states' accelerations: any will do, since the

@@ -39,6 +39,7 @@ fn work() {
     rows::of::<Ur5e, 6, 6>();
     rows::of::<Panda, 7, 7>();
     rows::of::<Iiwa14, 7, 7>();
+    rows::derivatives::<Iiwa14, 7, 7>();
     rows::of::<XArm7, 7, 7>();
     rows::of::<A1, 16, 12>();
     ticks::of::<PickAndPlace, 6, 6, 6, 6>(&UR5E);

@@ -1,4 +1,4 @@
-//! The algorithms of a robot: inverse dynamics, gravity, M and forward dynamics.
+//! The algorithms of a robot: inverse dynamics and its derivatives, gravity, M and forward dynamics.
 
 use core::hint::black_box;
 
@@ -134,4 +134,15 @@ pub fn of<T: Robot<B, N, N>, const B: usize, const N: usize>() {
     rows! { "engine": Engine, forward_dynamics; }
     #[cfg(not(target_os = "none"))]
     exact::<T, B, N>(asks);
+}
+
+/// The row of the derivatives of inverse dynamics.
+#[inline(never)]
+pub fn derivatives<T: Robot<B, N, N>, const B: usize, const N: usize>() {
+    row(
+        [T::MODEL.name, "rnea_derivatives", "engine", "outside"],
+        &asks::<T, B, N>(),
+        |ask| Engine::<T>::rnea_derivatives(ask.trig.with(&ask.state), &RIGID_BODY),
+        |by, digest| by.dq.iter().chain(&by.dqd).for_each(|row| digest.add(*row)),
+    );
 }

@@ -248,18 +248,19 @@ where
         self.call.effects.slopes(I, state, &mut own);
         self.gradient.dq[I][I] = (by_q.along(joint, length_inv) * unit).get() + own.dq;
         self.gradient.dqd[I][I] = (by_qd.along(joint, length_inv) * unit).get() + own.dqd;
-        self.pair_up_inward::<I>(all, [by_q, by_qd], unit);
+        self.pair_up_inward::<I>(all, I, [by_q, by_qd], unit);
     }
 
-    /// The entries of coordinate C with the ancestors of its joint.
+    /// The entries of coordinate `c` of joint I with the ancestors.
     #[cfg_attr(optimised, inline(always))]
-    fn pair_up_inward<const C: usize>(
+    fn pair_up_inward<const I: usize>(
         &mut self,
         all: &Composite<Scalar>,
+        c: usize,
         [mut by_q, mut by_qd]: [Wrench<Scalar>; 2],
         unit: Folded<Scalar>,
     ) {
-        let joint = CompiledJoint::<Tree, C>::JOINT;
+        let joint = &Tree::JOINTS[c];
         let length_inv = Folded::constant(Tree::LENGTH_INV);
         let one = Folded::constant(1.0);
         // Forces along a prismatic joint are in units of length.
@@ -267,7 +268,7 @@ where
         let mut felt = all.felt(joint);
         by_q = by_q + all.moved_wrench(joint);
         for_each_joint_reversed!(K, {
-            if JointPair::<Tree, K, C>::SUPPORTS {
+            if JointPair::<Tree, K, I>::SUPPORTS {
                 let other = CompiledJoint::<Tree, K>::JOINT;
                 if other.parent != BASE && other.first == K {
                     let at = self.call.displacement::<K>();
@@ -277,15 +278,15 @@ where
                     if parent.count > 1 {
                         let scales = [unit, of(joint)];
                         let first = CompiledJoint::<Tree, K>::PARENT_FIRST;
-                        self.pair_up_with_several(first, C, &[by_q, by_qd], &felt, scales);
+                        self.pair_up_with_several(first, c, &[by_q, by_qd], &felt, scales);
                     } else {
                         let [by_position, by_rate] = self.changes_of_parent::<K>();
                         let scale = of(parent) * of(joint);
                         let (q, qd) = (felt.of(&by_position), felt.of(&by_rate));
-                        self.gradient.dq[j][C] = (by_q.along(parent, length_inv) * unit).get();
-                        self.gradient.dqd[j][C] = (by_qd.along(parent, length_inv) * unit).get();
-                        self.gradient.dq[C][j] = (q * scale).get();
-                        self.gradient.dqd[C][j] = (qd * scale).get();
+                        self.gradient.dq[j][c] = (by_q.along(parent, length_inv) * unit).get();
+                        self.gradient.dqd[j][c] = (by_qd.along(parent, length_inv) * unit).get();
+                        self.gradient.dq[c][j] = (q * scale).get();
+                        self.gradient.dqd[c][j] = (qd * scale).get();
                     }
                 }
             }

@@ -124,14 +124,20 @@ where
         all: &Composite<Scalar>,
         at: &Displacement<Scalar, Tree, I>,
     ) {
-        for_each_joint!(
-            K,
-            JointPair::<Tree, I, K>::IS_COORDINATE,
-            pair_up = Self::pair_up_coordinate::<K> as fn(&mut _, &_),
-            {
-                pair_up(self, all);
-            }
-        );
+        // A translation after the rotation about its axis, whose products it shares.
+        let six = CompiledJoint::<Tree, I>::COUNT > 3;
+        self.pair_up_coordinate::<I>(all, I);
+        if six {
+            self.pair_up_coordinate::<I>(all, I + 3);
+        }
+        self.pair_up_coordinate::<I>(all, I + 1);
+        if six {
+            self.pair_up_coordinate::<I>(all, I + 4);
+        }
+        self.pair_up_coordinate::<I>(all, I + 2);
+        if six {
+            self.pair_up_coordinate::<I>(all, I + 5);
+        }
         for_each_joint!(K, {
             if JointPair::<Tree, I, K>::IS_COORDINATE {
                 let joint = CompiledJoint::<Tree, K>::JOINT;
@@ -154,15 +160,16 @@ where
         });
     }
 
-    /// The column of coordinate C in the rows of its own joint, and its entries with the ancestors.
+    /// The column of coordinate `c` of joint I in the joint's rows, and its entries with the
+    /// ancestors.
     #[cfg_attr(optimised, inline(always))]
-    fn pair_up_coordinate<const C: usize>(&mut self, all: &Composite<Scalar>) {
-        let (joint, first) = (CompiledJoint::<Tree, C>::JOINT, CompiledJoint::<Tree, C>::FIRST);
+    fn pair_up_coordinate<const I: usize>(&mut self, all: &Composite<Scalar>, c: usize) {
+        let (joint, first) = (&Tree::JOINTS[c], CompiledJoint::<Tree, I>::JOINT);
         let unit = Folded::constant(if joint.prismatic { Tree::LENGTH_INV } else { 1.0 });
         let [by_position, by_rate] = self.carried(first).changes(joint);
         let wrenches = [all.wrench_by(&by_position), all.wrench_by(&by_rate)];
-        self.write_column(first, C, &wrenches, unit);
-        self.pair_up_inward::<C>(all, wrenches, unit);
+        self.write_column(first, c, &wrenches, unit);
+        self.pair_up_inward::<I>(all, c, wrenches, unit);
     }
 
     /// The entries of coordinate `c` with an ancestor's joint of this first coordinate: wrenches and

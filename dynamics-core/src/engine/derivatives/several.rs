@@ -49,18 +49,17 @@ impl<Scalar: Real> Carried<Scalar> {
         self.alpha.cross(x) + self.omega.cross(self.omega.cross(x))
     }
 
-    /// The changes by the position and the rate of a coordinate.
+    /// The wrenches by which the position and the rate of a coordinate are felt.
     #[cfg_attr(optimised, inline(always))]
-    fn changes(&self, joint: &Joint) -> [Change<Scalar>; 2] {
+    fn wrenches(&self, all: &Composite<Scalar>, joint: &Joint) -> [Wrench<Scalar>; 2] {
         let Twist { ang, lin } = subspace(joint);
         let omega = self.omega.cross(ang);
         let swung = omega.cross(self.v);
         let accel = self.accel.cross(ang) + swung + swung + self.field(lin);
-        let by_rate = ang.cross(self.v) + self.both.cross(lin);
-        [
-            Change { omega, accel, beta: self.field(ang) },
-            Change { omega: ang, accel: by_rate, beta: self.both.cross(ang) },
-        ]
+        let by_position = Change { omega, accel, beta: self.field(ang) };
+        let accel = ang.cross(self.v) + self.both.cross(lin);
+        let by_rate = Change { omega: ang, accel, beta: self.both.cross(ang) };
+        [all.wrench_by(&by_position), all.wrench_by(&by_rate)]
     }
 }
 
@@ -124,20 +123,9 @@ where
         all: &Composite<Scalar>,
         at: &Displacement<Scalar, Tree, I>,
     ) {
-        // A translation after the rotation about its axis, whose products it shares.
-        let six = CompiledJoint::<Tree, I>::COUNT > 3;
-        self.pair_up_coordinate::<I>(all, I);
-        if six {
-            self.pair_up_coordinate::<I>(all, I + 3);
-        }
-        self.pair_up_coordinate::<I>(all, I + 1);
-        if six {
-            self.pair_up_coordinate::<I>(all, I + 4);
-        }
-        self.pair_up_coordinate::<I>(all, I + 2);
-        if six {
-            self.pair_up_coordinate::<I>(all, I + 5);
-        }
+        self.pair_up_axis::<I>(all, I);
+        self.pair_up_axis::<I>(all, I + 1);
+        self.pair_up_axis::<I>(all, I + 2);
         for_each_joint!(K, {
             if JointPair::<Tree, I, K>::IS_COORDINATE {
                 let joint = CompiledJoint::<Tree, K>::JOINT;
@@ -160,16 +148,24 @@ where
         });
     }
 
-    /// The column of coordinate `c` of joint I in the joint's rows, and its entries with the
-    /// ancestors.
+    /// The columns of coordinate `c` of joint I, and of a free joint's translation along its axis,
+    /// which has products in common with it: in the joint's rows, and with the ancestors.
     #[cfg_attr(optimised, inline(always))]
-    fn pair_up_coordinate<const I: usize>(&mut self, all: &Composite<Scalar>, c: usize) {
-        let (joint, first) = (&Tree::JOINTS[c], CompiledJoint::<Tree, I>::JOINT);
-        let unit = Folded::constant(if joint.prismatic { Tree::LENGTH_INV } else { 1.0 });
-        let [by_position, by_rate] = self.carried(first).changes(joint);
-        let wrenches = [all.wrench_by(&by_position), all.wrench_by(&by_rate)];
-        self.write_column(first, c, &wrenches, unit);
-        self.pair_up_inward::<I>(all, c, wrenches, unit);
+    fn pair_up_axis<const I: usize>(&mut self, all: &Composite<Scalar>, c: usize) {
+        let first = CompiledJoint::<Tree, I>::JOINT;
+        let (length_inv, one) = (Folded::constant(Tree::LENGTH_INV), Folded::constant(1.0));
+        let unit = if Tree::JOINTS[c].prismatic { length_inv } else { one };
+        let carried = self.carried(first);
+        let by_turn = carried.wrenches(all, &Tree::JOINTS[c]);
+        if first.count > 3 {
+            let by_shift = carried.wrenches(all, &Tree::JOINTS[c + 3]);
+            self.write_column(first, c, &by_turn, unit);
+            self.write_column(first, c + 3, &by_shift, length_inv);
+            self.pair_up_inward::<I>(all, c + 3, by_shift, length_inv);
+        } else {
+            self.write_column(first, c, &by_turn, unit);
+        }
+        self.pair_up_inward::<I>(all, c, by_turn, unit);
     }
 
     /// The entries of coordinate `c` with an ancestor's joint of this first coordinate: wrenches and

@@ -14,6 +14,7 @@ use firmware_demo::robots::Scara;
 use host_tests::measured::largest;
 use host_tests::random::{random_numbers, state_of};
 use host_tests::recordings::{load, row};
+use host_tests::trees::{TreeA, TreeB};
 
 /// The largest difference of two matrices relative to the largest entry of the second.
 struct Worst {
@@ -76,6 +77,8 @@ fn the_engines_derivatives_are_pinocchios() {
     check::<So101, 6, 6, 6>();
     check::<A1, 16, 12, 12>();
     check::<A1Free, 17, 19, 18>();
+    check::<TreeA, 17, 35, 32>();
+    check::<TreeB, 17, 35, 32>();
     let off = recorded::<f64, Panda, 7, 7, 7>(1.001);
     assert!(off.iter().all(|&error| error > 1e-5), "{off:?}");
 }
@@ -119,6 +122,13 @@ fn core_and_engine_have_the_same_derivatives_under_effects() {
     };
     let springs = Spring { stiffness: [30.0; 18], rest: [0.1; 18] };
     alike::<A1Free, _, 17, 19, 18>(&(RIGID_BODY, Viscous([0.7; 18]), springs));
+    alike::<A1Free, _, 17, 19, 18>(&(RIGID_BODY, ship));
+    let springs = Spring { stiffness: [30.0; 32], rest: [0.1; 32] };
+    let tip = Payload::<f64, 16>(load.0);
+    let all = (RIGID_BODY, Armature([0.3; 32]), tip, ship, Viscous([0.7; 32]), springs);
+    alike::<TreeA, _, 17, 35, 32>(&RIGID_BODY);
+    alike::<TreeA, _, 17, 35, 32>(&all);
+    alike::<TreeB, _, 17, 35, 32>(&all);
     alike::<Ur5e, _, 6, 6, 6>(&(RIGID_BODY, Armature([0.3; 6]), load, ship, Viscous([0.7; 6])));
     alike::<Scara, _, 3, 3, 3>(&RIGID_BODY);
     alike::<Scara, _, 3, 3, 3>(&(RIGID_BODY, ship));

@@ -18,8 +18,8 @@ impl<Arm, Sines> Engine<Arm, Sines> {
     /// joints, with q̈ itself and the factors of M for ∂q̈/∂τ = M⁻¹.
     ///
     /// The same as
-    /// [`forward_dynamics_derivatives`](crate::algorithms::forward_dynamics_derivatives()), for the
-    /// robots of [`Engine::rnea_derivatives`]. `state.qdd` is not read.
+    /// [`forward_dynamics_derivatives`](crate::algorithms::forward_dynamics_derivatives()).
+    /// `state.qdd` is not read.
     ///
     /// # Shape
     /// Two of V × V.

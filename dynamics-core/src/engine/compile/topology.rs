@@ -310,6 +310,8 @@ impl<Tree: Compiled, const I: usize> CompiledJoint<Tree, I> {
     pub(crate) const BODY: &'static Joint = &joint::<Tree>(Self::LAST);
     /// The parent, or the padding joint.
     pub(crate) const PARENT: &'static Joint = &joint::<Tree>(Self::JOINT.parent);
+    /// The first coordinate of the parent's joint, or the padding joint.
+    pub(crate) const PARENT_FIRST: &'static Joint = &joint::<Tree>(Self::PARENT.first);
     /// Whether its parent is the base.
     pub(crate) const IS_ON_BASE: bool = is_parent::<Tree>(BASE, I);
     /// The number of bodies that move with it as one.

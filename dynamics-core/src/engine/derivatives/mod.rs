@@ -7,6 +7,7 @@
 //! δv(r) = δω × r        δa(r) = δa + β × r + 2 δω × (v(r) − v(0))
 //! revolute    ∂/∂q: δω = ω × z, δa = a × z, β = U z     ∂/∂q̇: δω = z, δa = 0, β = 2 ω × z
 //! prismatic   ∂/∂q: δω = 0, δa = U z, β = 0             ∂/∂q̇: δω = 0, δa = 2 ω × z, β = 0
+//! helical     that of a revolute joint and its pitch times that of a prismatic one
 //! ```
 //!
 //! with the origin on the axis, so that a composite body feels them by m, h and Σ and by its rates
@@ -19,33 +20,31 @@
 //! The composites are those of Singh, Russell & Wensing (2022); the classical acceleration takes
 //! the place of the spatial one, as in [`super::acceleration_field`].
 
-mod floating;
+mod composite;
+mod several;
 
 use core::borrow::Borrow;
 
 use crate::algorithms::{TorqueGradient, named_derivatives};
 use crate::effects::{Declared, Effect, TorqueDerivatives};
 use crate::engine::Engine;
-use crate::engine::acceleration_field::{AccelerationField, Inertia, Wrench, along_z};
+use crate::engine::acceleration_field::{AccelerationField, Wrench, along_z};
 use crate::engine::call::Call;
-use crate::engine::compile::{
-    Compiled, CompiledJoint, CompiledRobot, Joint, JointMotion, JointPair,
-};
-use crate::engine::displacement::Displacement;
-use crate::engine::folding::{Folded, Mat3, Vec3, rotate_matrix_to_parent, rotate_to_parent};
-use crate::engine::joint_rates::JointRates;
+use crate::engine::compile::{Compiled, CompiledJoint, Joint, JointPair};
+use crate::engine::folding::{Folded, Vec3, rotate_to_parent};
+use crate::engine::joint_rates::{JointRates, Twist};
 use crate::model::{BASE, Robot};
 use crate::scalar::Real;
 use crate::state::{Configuration, RobotState, State};
 use crate::trig::Kernel;
-use floating::Floating;
+use composite::Composite;
 
 impl<Arm, Sines> Engine<Arm, Sines> {
     /// ∂τ/∂q and ∂τ/∂q̇ of inverse dynamics τ = ID(q, q̇, q̈) under the effects of the scene,
     /// N·m/rad and N·m·s/rad between revolute joints; ∂τ/∂q̈ is M, that of [`Engine::crba`].
     ///
-    /// The same as [`rnea_derivatives`](crate::algorithms::rnea_derivatives()), for robots of
-    /// revolute and prismatic joints, on a base that is fixed, moves or is free; others do not compile.
+    /// The same as [`rnea_derivatives`](crate::algorithms::rnea_derivatives()), with its tangent at
+    /// spherical, planar and free joints.
     ///
     /// # Shape
     /// Two of V × V.
@@ -77,34 +76,13 @@ impl<Arm, Sines> Engine<Arm, Sines> {
         Effects: Effect<Scalar, B, V>,
     {
         scene_is_taken!();
-        const {
-            named_derivatives::<Scalar, Effects, B, V>();
-            takes_joints::<CompiledRobot<Arm, B, Q, V>>(Effects::BASE_MOTION);
-        };
+        const { named_derivatives::<Scalar, Effects, B, V>() };
         let trig = state.configuration().trig_or(Self::trig_source());
         let mut gradient =
             TorqueGradient { dq: [[Scalar::ZERO; V]; V], dqd: [[Scalar::ZERO; V]; V] };
         let call = Self::call(trig.borrow(), effects);
         call.torque_gradient(state.state(), &mut gradient);
         gradient
-    }
-}
-
-/// A robot of revolute and prismatic joints, on a base that may move or be free.
-const fn takes_joints<Tree: Compiled>(base_moves: bool) {
-    let mut i = 0;
-    while i < Tree::JOINTS.len() {
-        let first = Tree::JOINTS[Tree::JOINTS[i].first];
-        assert!(
-            match first.motion {
-                JointMotion::Turn | JointMotion::Slide => true,
-                JointMotion::Free => first.parent == BASE && !base_moves,
-                _ => false,
-            },
-            "the engine differentiates robots of revolute and prismatic joints, on a base that is \
-             fixed, moves or is free; use `algorithms::rnea_derivatives`"
-        );
-        i += 1;
     }
 }
 
@@ -124,32 +102,13 @@ impl<Scalar: Real> Change<Scalar> {
     }
 }
 
-/// The inertia of a body and its descendants, its rates, and the wrench that it needs.
-#[derive(Clone, Copy)]
-struct Composite<Scalar> {
-    inertia: Inertia<Scalar>,
-    /// P.
-    momentum: Vec3<Scalar>,
-    /// D, whose column k is ∫ r ṙ_k dm.
-    product: Mat3<Scalar>,
-    wrench: Wrench<Scalar>,
-}
-
-/// The coefficients of the torque by which a joint feels a change: g δa + κ β + 2 s δω.
-#[derive(Clone, Copy)]
-struct Felt<Scalar> {
-    /// (g, κ): the wrench of a unit acceleration.
-    unit: Wrench<Scalar>,
-    rate: Vec3<Scalar>,
-}
-
 /// The data that all bodies share.
 struct Task<'a, Scalar: Real, Tree, Effects, const B: usize, const Q: usize, const V: usize> {
     call: Call<'a, Scalar, Tree, Effects, B, Q, V>,
     state: &'a State<Scalar, Q, V>,
-    /// The parts of the changes by each joint, and by a free base.
+    /// The parts of the changes by each joint of one coordinate, and by others.
     kept: [Kept<Scalar>; V],
-    base: Floating<Scalar>,
+    carried: [several::Kept<Scalar>; V],
     gradient: &'a mut TorqueGradient<Scalar, V>,
 }
 
@@ -167,8 +126,8 @@ where
         gradient: &mut TorqueGradient<Scalar, V>,
     ) {
         let base = self.base();
-        let (kept, floating) = ([Kept::default(); V], Floating::default());
-        let mut task = Task { call: self, state, kept, base: floating, gradient };
+        let (kept, carried) = ([Kept::default(); V], [several::Kept::default(); V]);
+        let mut task = Task { call: self, state, kept, carried, gradient };
         for_each_joint!(
             J,
             CompiledJoint::<Tree, J>::IS_ON_BASE,
@@ -199,14 +158,12 @@ where
             accel: Folded::runtime_if(Effects::ACCELERATIONS, self.state.qdd[I]) * unit,
         };
         let at = self.call.displacement::<I>();
-        let floats = CompiledJoint::<Tree, I>::COUNT > 1;
-        let field = if floats { self.float::<I>(parent, &at) } else { parent.across(&at, rates) };
+        let several = CompiledJoint::<Tree, I>::COUNT > 1;
+        let field =
+            if several { self.across_several::<I>(parent, &at) } else { parent.across(&at, rates) };
         let offset = Vec3::constant(joint.pos) + at.shift();
-        let mut step = parent.omega_products.cross(offset);
-        if joint.prismatic {
-            let along = rotate_to_parent::<Scalar, Tree, I>(along_z(rates.omega_products));
-            step = step + along;
-        }
+        let own = at.leave(self.velocity::<I>().lin);
+        let step = parent.omega_products.cross(offset) + rotate_to_parent::<Scalar, Tree, I>(own);
         self.kept[I] = Kept::of(&field, step);
 
         let inertia = self.call.inertia::<I>(Effects::BASE_MOTION);
@@ -219,12 +176,22 @@ where
                 all = all + visit(self, &field);
             }
         );
-        if floats {
-            self.pair_up_floating::<I>(&all, &at);
+        if several {
+            self.pair_up_several::<I>(&all, &at);
         } else {
-            self.pair_up::<I>(&all, &changes(joint.prismatic, &field), unit);
+            self.pair_up::<I>(&all, &changes(joint, &field), unit);
         }
         all.to_parent(&at, step, offset)
+    }
+
+    /// The velocity of joint I in the velocity products, along the axes of its body.
+    #[cfg_attr(optimised, inline(always))]
+    fn velocity<const I: usize>(&self) -> Twist<Scalar> {
+        let (joint, moves) = (CompiledJoint::<Tree, I>::JOINT, Effects::VELOCITY_PRODUCTS);
+        if CompiledJoint::<Tree, I>::COUNT > 1 {
+            return Twist::of::<Tree, V, I>(&self.state.qd, moves);
+        }
+        Twist::along(joint, Tree::LENGTH_INV, Folded::runtime_if(moves, self.state.qd[I]))
     }
 
     /// v(0) of joint K's body less its parent's, of which the components are known zeros that no
@@ -257,7 +224,7 @@ where
         let [a0, a1] = kept.accel.map(Folded::runtime);
         let [u0, u1, u2] = kept.along.map(|x| Folded::runtime_if(moves, x));
         changes_by(
-            CompiledJoint::<Tree, K>::PARENT.prismatic,
+            CompiledJoint::<Tree, K>::PARENT,
             Vec3([w0, w1, Folded::ZERO]),
             Vec3([a0, a1, Folded::ZERO]),
             Vec3([u0, u1, u2]),
@@ -274,18 +241,32 @@ where
     ) {
         let joint = CompiledJoint::<Tree, I>::JOINT;
         let length_inv = Folded::constant(Tree::LENGTH_INV);
-        let one = Folded::constant(1.0);
-        // Forces along a prismatic joint are in units of length.
-        let of = |joint: &Joint| if joint.prismatic { length_inv } else { one };
         let [by_position, by_rate] = changes;
-        let (mut by_q, mut by_qd) = (all.wrench_by(by_position), all.wrench_by(by_rate));
-        let mut felt = all.felt(joint.prismatic);
+        let (by_q, by_qd) = (all.wrench_by(by_position), all.wrench_by(by_rate));
         let mut own = TorqueDerivatives::default();
         let state = self.call.joint_state::<I>(self.state);
         self.call.effects.slopes(I, state, &mut own);
         self.gradient.dq[I][I] = (by_q.along(joint, length_inv) * unit).get() + own.dq;
         self.gradient.dqd[I][I] = (by_qd.along(joint, length_inv) * unit).get() + own.dqd;
-        by_q = by_q + all.turned_wrench(joint.prismatic);
+        self.pair_up_inward::<I>(all, I, [by_q, by_qd], unit);
+    }
+
+    /// The entries of coordinate `c` of joint I with the ancestors.
+    #[cfg_attr(optimised, inline(always))]
+    fn pair_up_inward<const I: usize>(
+        &mut self,
+        all: &Composite<Scalar>,
+        c: usize,
+        [mut by_q, mut by_qd]: [Wrench<Scalar>; 2],
+        unit: Folded<Scalar>,
+    ) {
+        let joint = &Tree::JOINTS[c];
+        let length_inv = Folded::constant(Tree::LENGTH_INV);
+        let one = Folded::constant(1.0);
+        // Forces along a prismatic joint are in units of length.
+        let of = |joint: &Joint| if joint.prismatic { length_inv } else { one };
+        let mut felt = all.felt(joint);
+        by_q = by_q + all.moved_wrench(joint);
         for_each_joint_reversed!(K, {
             if JointPair::<Tree, K, I>::SUPPORTS {
                 let other = CompiledJoint::<Tree, K>::JOINT;
@@ -296,15 +277,16 @@ where
                     let (j, parent) = (other.parent, CompiledJoint::<Tree, K>::PARENT);
                     if parent.count > 1 {
                         let scales = [unit, of(joint)];
-                        self.pair_up_with_base::<I>(parent.first, [&by_q, &by_qd], &felt, scales);
+                        let first = CompiledJoint::<Tree, K>::PARENT_FIRST;
+                        self.pair_up_with_several(first, c, &[by_q, by_qd], &felt, scales);
                     } else {
                         let [by_position, by_rate] = self.changes_of_parent::<K>();
                         let scale = of(parent) * of(joint);
                         let (q, qd) = (felt.of(&by_position), felt.of(&by_rate));
-                        self.gradient.dq[j][I] = (by_q.along(parent, length_inv) * unit).get();
-                        self.gradient.dqd[j][I] = (by_qd.along(parent, length_inv) * unit).get();
-                        self.gradient.dq[I][j] = (q * scale).get();
-                        self.gradient.dqd[I][j] = (qd * scale).get();
+                        self.gradient.dq[j][c] = (by_q.along(parent, length_inv) * unit).get();
+                        self.gradient.dqd[j][c] = (by_qd.along(parent, length_inv) * unit).get();
+                        self.gradient.dq[c][j] = (q * scale).get();
+                        self.gradient.dqd[c][j] = (qd * scale).get();
                     }
                 }
             }
@@ -341,140 +323,24 @@ impl<Scalar: Real> Kept<Scalar> {
 
 /// The changes by a joint's position and by its rate, in the frame of its body.
 #[cfg_attr(optimised, inline(always))]
-fn changes<Scalar: Real>(
-    is_prismatic: bool,
-    field: &AccelerationField<Scalar>,
-) -> [Change<Scalar>; 2] {
+fn changes<Scalar: Real>(joint: &Joint, field: &AccelerationField<Scalar>) -> [Change<Scalar>; 2] {
     let cross_z = |v: Vec3<Scalar>| Vec3([v.0[1], -v.0[0], Folded::ZERO]);
-    changes_by(is_prismatic, cross_z(field.omega_products), cross_z(field.a), field.u.0[2])
+    changes_by(joint, cross_z(field.omega_products), cross_z(field.a), field.u.0[2])
 }
 
-/// The same from ω × z, a × z and U z.
+/// The same from ω × z, a × z and U z; a screw turns and slides.
 #[cfg_attr(optimised, inline(always))]
 fn changes_by<Scalar: Real>(
-    is_prismatic: bool,
+    joint: &Joint,
     w: Vec3<Scalar>,
     accel: Vec3<Scalar>,
     along: Vec3<Scalar>,
 ) -> [Change<Scalar>; 2] {
-    if is_prismatic {
+    if joint.prismatic {
         return [Change::shift(along), Change::shift(w + w)];
     }
+    let pitch = Folded::constant(joint.pitch);
     let omega = along_z(Folded::constant(1.0));
-    let by_rate = Change { omega, accel: Vec3::ZERO, beta: w + w };
-    [Change { omega: w, accel, beta: along }, by_rate]
-}
-
-impl<Scalar: Real> Composite<Scalar> {
-    /// A body alone: P = ω × h, D = Σ \[ω\]×ᵀ.
-    #[cfg_attr(optimised, inline(always))]
-    fn of(inertia: Inertia<Scalar>, field: &AccelerationField<Scalar>) -> Self {
-        let ([wx, wy, wz], [x, y, z]) = (field.omega_products.0, inertia.second.columns());
-        let product =
-            Mat3([z.scale(wy) - y.scale(wz), x.scale(wz) - z.scale(wx), y.scale(wx) - x.scale(wy)]);
-        let momentum = field.omega_products.cross(inertia.moment);
-        Self { inertia, momentum, product, wrench: field.wrench(&inertia) }
-    }
-
-    /// The wrench by which a change is felt, at the origin.
-    #[cfg_attr(optimised, inline(always))]
-    fn wrench_by(&self, change: &Change<Scalar>) -> Wrench<Scalar> {
-        let (h, s, d) = (self.inertia.moment, &self.inertia.second, &self.product.0);
-        let (w, beta) = (change.omega, change.beta);
-        let [x, y, z] = s.columns();
-        let half_f = w.cross(self.momentum);
-        let f = change.accel.scale(self.inertia.mass) + beta.cross(h) + half_f + half_f;
-        let half_n = w.scale(d[0].0[0] + d[1].0[1] + d[2].0[2])
-            - Vec3([d[0].dot(w), d[1].dot(w), d[2].dot(w)]);
-        let spin = beta.scale(s.xx + s.yy + s.zz) - Vec3([x.dot(beta), y.dot(beta), z.dot(beta)]);
-        Wrench { f, n: h.cross(change.accel) + spin + half_n + half_n }
-    }
-
-    /// The coefficients of the joint's torque.
-    #[cfg_attr(optimised, inline(always))]
-    fn felt(&self, is_prismatic: bool) -> Felt<Scalar> {
-        let (zero, [hx, hy, _]) = (Folded::ZERO, self.inertia.moment.0);
-        let (s, d) = (&self.inertia.second, &self.product.0);
-        if is_prismatic {
-            let [px, py, _] = self.momentum.0;
-            let unit = Wrench { f: along_z(self.inertia.mass), n: Vec3([hy, -hx, zero]) };
-            return Felt { unit, rate: Vec3([py, -px, zero]) };
-        }
-        let unit = Wrench { f: Vec3([-hy, hx, zero]), n: Vec3([-s.xz, -s.yz, s.xx + s.yy]) };
-        Felt { unit, rate: Vec3([-d[2].0[0], -d[2].0[1], d[0].0[0] + d[1].0[1]]) }
-    }
-
-    /// The change of the composite's wrench as it is turned or shifted by the joint.
-    #[cfg_attr(optimised, inline(always))]
-    fn turned_wrench(&self, is_prismatic: bool) -> Wrench<Scalar> {
-        let z_cross = |v: Vec3<Scalar>| Vec3([-v.0[1], v.0[0], Folded::ZERO]);
-        let Wrench { f, n } = self.wrench;
-        if is_prismatic {
-            return Wrench { f: Vec3::ZERO, n: z_cross(f) };
-        }
-        Wrench { f: z_cross(f), n: z_cross(n) }
-    }
-
-    /// The same in the frame of joint I's parent and about its origin, which is `offset` away and
-    /// moves more slowly by `step`.
-    #[cfg_attr(optimised, inline(always))]
-    fn to_parent<Tree: Compiled, const I: usize>(
-        self,
-        at: &Displacement<Scalar, Tree, I>,
-        step: Vec3<Scalar>,
-        offset: Vec3<Scalar>,
-    ) -> Self {
-        let turned = self.inertia.turned(at);
-        let h = rotate_to_parent::<Scalar, Tree, I>(turned.moment);
-        let p = rotate_to_parent::<Scalar, Tree, I>(at.leave(self.momentum));
-        let Mat3([x, y, z]) =
-            rotate_matrix_to_parent::<Scalar, Tree, I>(&at.leave_matrix(&self.product));
-        let m = self.inertia.mass;
-        let ([px, py, pz], [ux, uy, uz]) = (p.0, step.0);
-        let there = h + offset.scale(m);
-        let product = Mat3([
-            x + offset.scale(px) + there.scale(ux),
-            y + offset.scale(py) + there.scale(uy),
-            z + offset.scale(pz) + there.scale(uz),
-        ]);
-        Self {
-            inertia: turned.turned_to_parent(at),
-            momentum: p + step.scale(m),
-            product,
-            wrench: self.wrench.to_parent(at),
-        }
-    }
-}
-
-impl<Scalar: Real> core::ops::Add for Composite<Scalar> {
-    type Output = Self;
-    #[cfg_attr(optimised, inline(always))]
-    fn add(self, o: Self) -> Self {
-        Self {
-            inertia: self.inertia + o.inertia,
-            momentum: self.momentum + o.momentum,
-            product: self.product + o.product,
-            wrench: self.wrench + o.wrench,
-        }
-    }
-}
-
-impl<Scalar: Real> Felt<Scalar> {
-    #[cfg_attr(optimised, inline(always))]
-    fn of(&self, change: &Change<Scalar>) -> Folded<Scalar> {
-        let half = self.rate.dot(change.omega);
-        self.unit.f.dot(change.accel) + self.unit.n.dot(change.beta) + half + half
-    }
-
-    /// The same in the frame of joint I's parent, at whose origin the change is then.
-    #[cfg_attr(optimised, inline(always))]
-    fn to_parent<Tree: Compiled, const I: usize>(
-        self,
-        at: &Displacement<Scalar, Tree, I>,
-        step: Vec3<Scalar>,
-    ) -> Self {
-        let unit = self.unit.to_parent(at);
-        let rate = rotate_to_parent::<Scalar, Tree, I>(at.leave(self.rate));
-        Self { unit, rate: rate + step.cross(unit.f) }
-    }
+    let by_rate = Change { omega, accel: (w + w).scale(pitch), beta: w + w };
+    [Change { omega: w, accel: accel + along.scale(pitch), beta: along }, by_rate]
 }

@@ -1,0 +1,146 @@
+//! What a body and its descendants feel of a change of their motion: see the [module](super).
+
+use super::Change;
+use crate::engine::acceleration_field::{AccelerationField, Inertia, Wrench};
+use crate::engine::compile::{Compiled, Joint};
+use crate::engine::displacement::Displacement;
+use crate::engine::folding::{Folded, Mat3, Vec3, rotate_matrix_to_parent, rotate_to_parent};
+use crate::engine::joint_rates::Twist;
+use crate::scalar::Real;
+
+/// The inertia of a body and its descendants, its rates, and the wrench that it needs.
+#[derive(Clone, Copy)]
+pub(super) struct Composite<Scalar> {
+    pub(super) inertia: Inertia<Scalar>,
+    /// P.
+    pub(super) momentum: Vec3<Scalar>,
+    /// D, whose column k is ∫ r ṙ_k dm.
+    pub(super) product: Mat3<Scalar>,
+    pub(super) wrench: Wrench<Scalar>,
+}
+
+/// The coefficients of the torque by which a joint feels a change: g δa + κ β + 2 s δω.
+#[derive(Clone, Copy)]
+pub(super) struct Felt<Scalar> {
+    /// (g, κ): the wrench of a unit acceleration.
+    pub(super) unit: Wrench<Scalar>,
+    pub(super) rate: Vec3<Scalar>,
+}
+
+/// S of a coordinate, in units of length.
+#[cfg_attr(optimised, inline(always))]
+pub(super) fn subspace<Scalar: Real>(joint: &Joint) -> Twist<Scalar> {
+    Twist::along(joint, 1.0, Folded::ONE)
+}
+
+impl<Scalar: Real> Composite<Scalar> {
+    /// A body alone: P = ω × h, D = Σ \[ω\]×ᵀ.
+    #[cfg_attr(optimised, inline(always))]
+    pub(super) fn of(inertia: Inertia<Scalar>, field: &AccelerationField<Scalar>) -> Self {
+        let ([wx, wy, wz], [x, y, z]) = (field.omega_products.0, inertia.second.columns());
+        let product =
+            Mat3([z.scale(wy) - y.scale(wz), x.scale(wz) - z.scale(wx), y.scale(wx) - x.scale(wy)]);
+        let momentum = field.omega_products.cross(inertia.moment);
+        Self { inertia, momentum, product, wrench: field.wrench(&inertia) }
+    }
+
+    /// The wrench by which a change is felt, at the origin.
+    #[cfg_attr(optimised, inline(always))]
+    pub(super) fn wrench_by(&self, change: &Change<Scalar>) -> Wrench<Scalar> {
+        let (h, s, d) = (self.inertia.moment, &self.inertia.second, &self.product.0);
+        let (w, beta) = (change.omega, change.beta);
+        let [x, y, z] = s.columns();
+        let half_f = w.cross(self.momentum);
+        let f = change.accel.scale(self.inertia.mass) + beta.cross(h) + half_f + half_f;
+        let half_n = w.scale(d[0].0[0] + d[1].0[1] + d[2].0[2])
+            - Vec3([d[0].dot(w), d[1].dot(w), d[2].dot(w)]);
+        let spin = beta.scale(s.xx + s.yy + s.zz) - Vec3([x.dot(beta), y.dot(beta), z.dot(beta)]);
+        Wrench { f, n: h.cross(change.accel) + spin + half_n + half_n }
+    }
+
+    /// The coefficients of a joint's torque, in units of length.
+    #[cfg_attr(optimised, inline(always))]
+    pub(super) fn felt(&self, joint: &Joint) -> Felt<Scalar> {
+        let Mat3([x, y, z]) = self.product;
+        let ([xx, xy, xz], [yx, yy, yz], [zx, zy, zz]) = (x.0, y.0, z.0);
+        let turned = match joint.axis {
+            0 => [yy + zz, -xy, -xz],
+            1 => [-yx, xx + zz, -yz],
+            _ => [-zx, -zy, xx + yy],
+        };
+        let s = subspace(joint);
+        let turned = if joint.prismatic { Vec3::ZERO } else { Vec3(turned) };
+        let unit = self.inertia.wrench_of(joint, Folded::ONE);
+        Felt { unit, rate: turned + self.momentum.cross(s.lin) }
+    }
+
+    /// The change of the composite's wrench as the joint moves it.
+    #[cfg_attr(optimised, inline(always))]
+    pub(super) fn moved_wrench(&self, joint: &Joint) -> Wrench<Scalar> {
+        let (Wrench { f, n }, s) = (self.wrench, subspace(joint));
+        Wrench { f: s.ang.cross(f), n: s.ang.cross(n) + s.lin.cross(f) }
+    }
+
+    /// The same in the frame of joint I's parent and about its origin, which is `offset` away and
+    /// moves more slowly by `step`.
+    #[cfg_attr(optimised, inline(always))]
+    pub(super) fn to_parent<Tree: Compiled, const I: usize>(
+        self,
+        at: &Displacement<Scalar, Tree, I>,
+        step: Vec3<Scalar>,
+        offset: Vec3<Scalar>,
+    ) -> Self {
+        let turned = self.inertia.turned(at);
+        let h = rotate_to_parent::<Scalar, Tree, I>(turned.moment);
+        let p = rotate_to_parent::<Scalar, Tree, I>(at.leave(self.momentum));
+        let Mat3([x, y, z]) =
+            rotate_matrix_to_parent::<Scalar, Tree, I>(&at.leave_matrix(&self.product));
+        let m = self.inertia.mass;
+        let ([px, py, pz], [ux, uy, uz]) = (p.0, step.0);
+        let there = h + offset.scale(m);
+        let product = Mat3([
+            x + offset.scale(px) + there.scale(ux),
+            y + offset.scale(py) + there.scale(uy),
+            z + offset.scale(pz) + there.scale(uz),
+        ]);
+        Self {
+            inertia: turned.turned_to_parent(at),
+            momentum: p + step.scale(m),
+            product,
+            wrench: self.wrench.to_parent(at),
+        }
+    }
+}
+
+impl<Scalar: Real> core::ops::Add for Composite<Scalar> {
+    type Output = Self;
+    #[cfg_attr(optimised, inline(always))]
+    fn add(self, o: Self) -> Self {
+        Self {
+            inertia: self.inertia + o.inertia,
+            momentum: self.momentum + o.momentum,
+            product: self.product + o.product,
+            wrench: self.wrench + o.wrench,
+        }
+    }
+}
+
+impl<Scalar: Real> Felt<Scalar> {
+    #[cfg_attr(optimised, inline(always))]
+    pub(super) fn of(&self, change: &Change<Scalar>) -> Folded<Scalar> {
+        let half = self.rate.dot(change.omega);
+        self.unit.f.dot(change.accel) + self.unit.n.dot(change.beta) + half + half
+    }
+
+    /// The same in the frame of joint I's parent, at whose origin the change is then.
+    #[cfg_attr(optimised, inline(always))]
+    pub(super) fn to_parent<Tree: Compiled, const I: usize>(
+        self,
+        at: &Displacement<Scalar, Tree, I>,
+        step: Vec3<Scalar>,
+    ) -> Self {
+        let unit = self.unit.to_parent(at);
+        let rate = rotate_to_parent::<Scalar, Tree, I>(at.leave(self.rate));
+        Self { unit, rate: rate + step.cross(unit.f) }
+    }
+}

@@ -1,4 +1,4 @@
-//! The algorithms of a robot: inverse dynamics and its derivatives, gravity, M and forward dynamics.
+//! The algorithms of a robot: inverse dynamics with derivatives, gravity, M and forward dynamics.
 
 use core::hint::black_box;
 

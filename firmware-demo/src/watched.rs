@@ -127,6 +127,8 @@ where
     }
 
     /// Moves the robot on by a tick; returns whether it has no forward dynamics any more.
+    // Inlined into the tick it would take the registers with which the record is put into the queue.
+    #[inline(never)]
     fn advance(&mut self, count: u32) -> bool {
         let environment = |ticks: f32| S::environment(&self.reference, ticks);
         let part = 1.0 / S::STEPS as f32;

@@ -165,7 +165,7 @@ pub trait Scene<const B: usize, const Q: usize, const V: usize, const N: usize>:
     }
 }
 
-/// The limits of the joints at these coordinates.
+/// The limits of the joints at these coordinates; a coordinate of no joint does not compile.
 pub const fn limits_of<const B: usize, const Q: usize, const V: usize, const N: usize>(
     model: &Model<f64, B, Q, V>,
     coordinates: [usize; N],
@@ -174,14 +174,12 @@ pub const fn limits_of<const B: usize, const Q: usize, const V: usize, const N: 
     let mut limits = [links[0].limits; N];
     let mut n = 0;
     while n < N {
-        let mut i = 0;
-        while i < B {
-            // The last stays, since a body without a joint has the index of the next joint.
-            if links[i].idx_v == coordinates[n] {
-                limits[n] = links[i].limits;
-            }
-            i += 1;
+        // From the last, since a body without a joint has the index of the next joint.
+        let mut i = B - 1;
+        while links[i].idx_v != coordinates[n] {
+            i -= 1;
         }
+        limits[n] = links[i].limits;
         n += 1;
     }
     limits

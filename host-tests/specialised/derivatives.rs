@@ -56,8 +56,8 @@ where
 
 fn check<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>() {
     for (scalar, bound, errors) in [
-        ("f64", 1e-13, recorded::<f64, T, B, Q, V>(1.0)),
-        ("f32", 5e-6, recorded::<f32, T, B, Q, V>(1.0)),
+        ("f64", 1e-14, recorded::<f64, T, B, Q, V>(1.0)),
+        ("f32", 2.5e-6, recorded::<f32, T, B, Q, V>(1.0)),
     ] {
         println!("{} {scalar}: {errors:?}", T::MODEL.name);
         assert!(errors.iter().all(|&e| e < bound), "{} {scalar}: {errors:?}", T::MODEL.name);
@@ -103,7 +103,8 @@ where
         worst[1].see(&got.dqd, &want.dqd);
     }
     let errors = worst.map(|worst| worst.error / worst.scale);
-    let bounds = [1e-13, 1e-13, 1e-11, 1e-11];
+    let bounds = [1e-14, 1e-14, 1e-11, 1e-11];
+    println!("{}: {errors:?}", T::MODEL.name);
     let close = errors.iter().zip(bounds).all(|(&error, bound)| error < bound);
     assert!(close, "{}: {errors:?}", T::MODEL.name);
 }

@@ -13,7 +13,7 @@
 use core::f32::consts::{PI, TAU};
 
 use dynamics_core::effects::{Armature, Coriolis, Coulomb, Gravity, Inertia, Viscous, Width};
-use dynamics_core::model::JointLimits;
+use dynamics_core::model::{JointLimits, Robot};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 use motion_control::{
@@ -22,6 +22,7 @@ use motion_control::{
 };
 
 use crate::robots::{Straight, WheelLeg};
+use crate::scene::limits_of;
 use crate::{marker, region};
 
 pub mod gains;
@@ -68,21 +69,8 @@ const fn at_motors([crank, wheel]: [f32; 2]) -> [f32; 16] {
     all
 }
 
-const fn limits_f32(of: JointLimits<f64>) -> JointLimits<f32> {
-    let JointLimits { lower, upper, velocity, torque } = of;
-    JointLimits {
-        lower: lower as f32,
-        upper: upper as f32,
-        velocity: velocity as f32,
-        torque: torque as f32,
-    }
-}
-
 /// The limits of rear crank, front crank and wheel, of the left leg and of the right one.
-pub fn limits() -> [JointLimits<f32>; 6] {
-    let [crank, wheel] = WheelLeg::LIMITS;
-    [crank, crank, wheel, crank, crank, wheel].map(limits_f32)
-}
+pub const LIMITS: [JointLimits<f32>; 6] = limits_of(&WheelLeg::MODEL, [6, 8, 10, 11, 13, 15]);
 
 /// The inertial unit's pitch and its rate, rad and rad/s.
 #[derive(Clone, Copy, Debug, Default)]
@@ -154,7 +142,7 @@ impl Balance {
     pub fn new(less: Less) -> Result<Self, ConfigError> {
         let gate = MotionController::try_new(MotionControllerConfig {
             supervisor: SupervisorConfig {
-                limits: SafetyLimits::from(limits()),
+                limits: SafetyLimits::from(LIMITS),
                 tick: TICK,
                 resolution: RESOLUTION,
                 ride_through_ticks: 5,

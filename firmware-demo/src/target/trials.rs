@@ -72,9 +72,9 @@ pub fn openarm_free_drive() -> ! {
 /// The robot that balances on its wheels; its motors have no reference.
 pub fn wheel_leg_balance() -> ! {
     use wheel_leg_balance::trial::Trial;
-    use wheel_leg_balance::{Less, TICK, limits};
+    use wheel_leg_balance::{LIMITS, Less, TICK};
 
-    let mut sender = Sender::new("wheel_leg_balance", TICK, limits());
+    let mut sender = Sender::new("wheel_leg_balance", TICK, LIMITS);
     loop {
         let trial = Trial::of_scene(Less::Nothing, PlantModel::Exact);
         let seen = trial.run_watched(|tick, q, command, _| {

@@ -1,4 +1,5 @@
-//! What a body and its descendants feel of a change of their motion: see the [module](super).
+//! The wrench that a change of motion causes in a body with its descendants: see the
+//! [module](super).
 
 use super::Change;
 use crate::engine::acceleration_field::{AccelerationField, Inertia, Wrench};

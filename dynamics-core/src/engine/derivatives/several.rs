@@ -1,9 +1,10 @@
 //! The rows and columns of planar, spherical and free joints.
 //!
-//! The twist (ω_J, v_J) and its rate are along the axes of the body, and a small motion of it is one
-//! along the same axes, so that both stay as they are while the body moves: what it is carried by
-//! turns and shifts, the field of the parent, ω_λ and U_λ, and the acceleration A of its point at
-//! the body's origin. Of a free base at rest that is gravity alone.
+//! The joint's twist (ω_J, v_J) and its rate are along the axes of the body, and so is a small motion
+//! of the joint: both keep their components while the body moves. The motion of the parent does not:
+//! ω_λ, the parent's field U_λ, and the acceleration A of the parent's point at the body's origin
+//! have other components along the turned axes, and other values at the shifted origin. A free base
+//! on a base at rest has gravity alone in A, and zeros for the rest.
 //!
 //! ```text
 //! ω = ω_λ + ω_J                                            a = A + v̇_J + (ω_λ + ω) × v_J
@@ -25,11 +26,11 @@ use crate::engine::joint_rates::{SeveralRates, Twist};
 use crate::model::BASE;
 use crate::scalar::Real;
 
-/// [`Carried`] in memory.
+/// The vectors of [`Carried`], in memory.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Kept<Scalar>([[Scalar; 3]; 5]);
 
-/// What the changes by a joint are made from, along the axes of its body.
+/// The quantities of which the changes by a joint are made, along the axes of its body.
 struct Carried<Scalar> {
     /// A.
     accel: Vec3<Scalar>,
@@ -95,7 +96,7 @@ where
         field
     }
 
-    /// What carries the joint of this first coordinate, again.
+    /// The motion that carries the joint of this first coordinate, from memory.
     #[cfg_attr(optimised, inline(always))]
     fn carried(&self, first: &Joint) -> Carried<Scalar> {
         let moves = Self::moves(first);
@@ -192,7 +193,7 @@ where
         let by_q = spread(first.motion, by_turn.scale(scale), by_shift.scale(along));
         let by_qd = spread(first.motion, by_rate, f.cross(both).scale(along));
         let (row, rates) = (&mut self.gradient.dq[c], &mut self.gradient.dqd[c]);
-        // Nothing changes as a free base shifts that is carried by nothing.
+        // A translation of a free base on a base at rest changes nothing.
         write(row, first.first, if Self::moves(first) { first.count } else { 3 }, by_q);
         write(rates, first.first, first.count, by_qd);
     }

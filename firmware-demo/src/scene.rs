@@ -166,6 +166,18 @@ pub trait Scene<const B: usize, const Q: usize, const V: usize, const N: usize>:
 }
 
 /// The limits of the joints at these coordinates; a coordinate of no joint does not compile.
+///
+/// ```
+/// use dynamics_core::{model::{JointLimits, Robot}, robots::Ur5e};
+/// const WRIST: [JointLimits<f32>; 1] = firmware_demo::scene::limits_of(&Ur5e::MODEL, [5]);
+/// assert_eq!(WRIST[0], Ur5e::MODEL.to_f32().links[5].limits);
+/// ```
+///
+/// ```compile_fail,E0080
+/// use dynamics_core::{model::{JointLimits, Robot}, robots::Ur5e};
+/// const NONE: [JointLimits<f32>; 1] = firmware_demo::scene::limits_of(&Ur5e::MODEL, [6]);
+/// assert_eq!(NONE[0], Ur5e::MODEL.to_f32().links[5].limits);
+/// ```
 pub const fn limits_of<const B: usize, const Q: usize, const V: usize, const N: usize>(
     model: &Model<f64, B, Q, V>,
     coordinates: [usize; N],

@@ -29,37 +29,34 @@ const QUALIFIABLE: &str = "qualifiable";
 /// The linker's scripts, which stand among the flags of `.cargo/config.toml`.
 const LINKER: &str = "-Clink-arg=-Tlink.x -Clink-arg=-Tdefmt.x";
 
-const BINS: [&str; 2] = ["costs_ur5e", "costs_panda"];
+const BIN: &str = "costs_ur5e";
 /// The scene whose tick is read.
 const SCENE: &str = "ur5e";
-const ALGORITHMS: [&str; 2] = ["rnea", "crba"];
 /// The sources of Rust's own crates in the paths of the debug information.
 const RUST: &str = "/library/";
 
-/// Builds the bins by each line of flags and runs them under the meter.
+/// Builds the bin by each line of flags and runs it under the meter.
 pub fn measure(bench: &Bench<'_>) -> Result<Found> {
     let (workspace, tools) = (bench.workspace, bench.tools()?);
     let profiles = profiles::measure(workspace, tools)?;
     let (mut lines, mut core) = (Vec::new(), BTreeMap::new());
     for (name, flags) in LINES {
         let flags = flags.map(|flags| format!("{flags} {LINKER}"));
-        let build = |bins: &[&str], debug: Option<(&str, &str)>| {
+        let build = |bin: &str, debug: Option<(&str, &str)>| {
             let mut command = tools.toolchain.firmware(workspace, "build");
-            command.args(["--profile", RELEASE]);
-            command.args(bins.iter().flat_map(|bin| ["--bin", bin]));
+            command.args(["--profile", RELEASE, "--bin", bin]);
             command.envs(flags.iter().map(|flags| ("RUSTFLAGS", flags))).envs(debug);
             shell::capture(&mut command)?;
-            let elves = bins.iter().map(|bin| tools.toolchain.elf(workspace, RELEASE, bin));
-            Ok(elves.collect::<Vec<_>>())
+            Ok(tools.toolchain.elf(workspace, RELEASE, bin))
         };
-        let mut rows = rows::run_all(workspace, tools, &BINS, &build(&BINS, None)?)?.0;
+        let mut rows = rows::run_all(workspace, tools, &[BIN], &[build(BIN, None)?])?.0;
         rows.retain(is_shown);
         lines.push(rows);
         if name == QUALIFIABLE {
             // Without scopes in the debug information, functions of one name could not be told
             // apart.
             let debug = Some(("CARGO_PROFILE_RELEASE_DEBUG", "limited"));
-            core = functions_of_rust(&build(&[SCENE], debug)?[0])?;
+            core = functions_of_rust(&build(SCENE, debug)?)?;
         }
     }
     let text = format!(
@@ -78,12 +75,13 @@ pub fn measure(bench: &Bench<'_>) -> Result<Found> {
     })
 }
 
-/// Functions with their sines and cosines, of the engine, and of inverse dynamics also of the core.
+/// Inverse dynamics with its sines and cosines.
 fn is_shown(row: &Row) -> bool {
-    let is_rnea_of_core = row.algorithm == "rnea" && row.inputs == "full";
-    let algorithm = ALGORITHMS.contains(&&*row.algorithm);
-    let inputs = ["full", "gravity"].contains(&&*row.inputs);
-    row.trig && algorithm && inputs && (row.form == "engine" || is_rnea_of_core)
+    let is_of_form = match &*row.form {
+        "engine" => ["full", "gravity"].contains(&&*row.inputs),
+        _ => row.inputs == "full",
+    };
+    row.algorithm == "rnea" && row.trig && is_of_form
 }
 
 /// A row of each function, a column of each line of flags.
@@ -166,7 +164,7 @@ mod tests {
         number(cycles)
     }
 
-    /// By how much the first figures of pairs exceed the second: `37 to 40 %`.
+    /// By how much the first figures of pairs exceed the second: `37 to 39 %`.
     fn excess(pairs: &[[f64; 2]]) -> String {
         let excess = pairs.iter().map(|[more, less]| 100.0 * (more / less - 1.0));
         let [least, most] =

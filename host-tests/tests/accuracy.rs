@@ -70,16 +70,17 @@ fn excess(recorded: &[Value], robot: &str, these: &[String], cost: &str) -> Vec<
     let points: Vec<&Value> = recorded.iter().filter(of).collect();
     let number = |point: &Value, name: &str| point[name].as_f64().unwrap_or(f64::INFINITY);
     let is_one = |point: &Value| these.iter().any(|key| point["key"] == **key);
+    let read = |point: &&Value| (number(point, "error_max"), number(point, cost), is_one(point));
+    let costs: Vec<(f64, f64, bool)> = points.iter().map(read).collect();
     let default = points.iter().find(|point| point["key"] == "default").expect("the default");
     let least = number(default, "error_max");
     let decade = |ten| (10..100).map(move |digits| 0.1 * f64::from(digits) * 10_f64.powi(ten));
     let allowed = (-8..2).flat_map(decade).filter(|allowed| *allowed >= least);
     let excess = allowed.map(|allowed| {
-        let within = points.iter().filter(|point| number(point, "error_max") <= allowed);
-        let costs = within.map(|point| (number(point, cost), is_one(point)));
+        let within = costs.iter().filter(|(error, ..)| *error <= allowed);
         let cheapest = |wanted: fn(bool) -> bool| {
-            let wanted = costs.clone().filter(|(_, one)| wanted(*one));
-            wanted.map(|(cost, _)| cost).fold(f64::INFINITY, f64::min)
+            let wanted = within.clone().filter(|(.., one)| wanted(*one));
+            wanted.map(|(_, cost, _)| *cost).fold(f64::INFINITY, f64::min)
         };
         cheapest(|one| one) / cheapest(|_| true) - 1.0
     });

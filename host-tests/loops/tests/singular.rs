@@ -9,7 +9,6 @@ use dynamics_core::loops::{
 use dynamics_core::model::{Robot, RobotModel, Static};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::{State, all_finite};
-use host_tests::everyday_or_full;
 use host_tests::measured::within;
 use loop_tests::distance::{distance, inverse, squares, table};
 use loop_tests::machines::{Delta, FOUR_BAR, FiveBar, FourBar, Machine, Parallelogram, Stewart};
@@ -67,7 +66,7 @@ impl<const Q: usize, const L: usize, const C: usize, const A: usize> Sweep<Q, L,
         let torque = |loops, at| self.torque::<R, T, B, V>(loops, at);
         let (mut fullest, mut undamped, mut outside) = (0.0_f64, 0.0_f64, 0.0_f64);
         let mut counts = [0; 2];
-        for k in (-80_i32..=80).step_by(everyday_or_full(2, 1)) {
+        for k in (-80_i32..=80).step_by(2) {
             let off = f64::from(k.signum()) * self.reach * (f64::from(80 - k.abs()) * -0.25).exp();
             for moving in [0.0, 1.0] {
                 let found = torque(&self.loops, (off, moving));

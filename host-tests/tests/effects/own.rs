@@ -69,7 +69,7 @@ fn a_cable_dissipates_energy_in_the_plant() {
     let mut scene = (Inertia, Coriolis, cable::<f64>());
     let energy = |arm: &State<f64, 6, 6>| kinetic_energy(&Ur5e::MODEL, arm, &(Inertia,));
     let (start, mut last) = (energy(&arm), energy(&arm));
-    for _ in 0..everyday_or_full(2_000, 10_000) {
+    for _ in 0..everyday_or_full(2_000, 4_000) {
         linearly_implicit(&Ur5e::MODEL, &mut arm, &[0.0; 6], &mut scene, h).unwrap();
         let now = energy(&arm);
         assert!(now < last + 1e-4 * start, "{now} after {last}");
@@ -130,7 +130,7 @@ fn engine_equals_core_under_the_remaining_effects() {
         );
         let rng = &mut random_numbers();
         let (mut worst, mut full_scale) = (0.0_f64, 0.0_f64);
-        for _ in 0..everyday_or_full(2_000, 10_000) {
+        for _ in 0..everyday_or_full(2_000, 4_000) {
             let [q, qd, qdd] = [3.1, 3.0, 10.0].map(|bound| within::<6>(rng, bound));
             let state = cast::<R, 6>(&State { q, qd, qdd });
             let core = Core::<Ur5e>::rnea(&state, &scene);
@@ -173,7 +173,7 @@ fn engine_equals_core_on_a_moving_base() {
         let slow = (RIGID_BODY.0, Inertia, base, wind);
         let rng = &mut random_numbers();
         let (mut worst, mut full_scale) = ([0.0_f64; 2], [0.0_f64; 2]);
-        for _ in 0..everyday_or_full(2_000, 10_000) {
+        for _ in 0..everyday_or_full(2_000, 4_000) {
             let [q, qd, qdd] = [3.1, 3.0, 10.0].map(|bound| within::<7>(rng, bound));
             let state = cast::<R, 7>(&State { q, qd, qdd });
             let core =

@@ -23,11 +23,7 @@ pub struct Together {
 pub const SHARED: Together = Together {
     packages: "--workspace --exclude xtask --exclude telemetry-watch --exclude firmware-demo \
          --exclude lab-firmware --exclude identification --exclude simulation-tests",
-    // Cases that compute for minutes are optimised, which would take the compiler longer than the
-    // parts of an everyday run.
-    full: "--features guide/full,host-tests/full,robot-import/full \
-         --config profile.dev.package.simulation-tests.opt-level=2 \
-         --config profile.dev.package.flexible-tests.opt-level=2",
+    full: "--features guide/full,host-tests/full,robot-import/full",
     folder: "debug",
 };
 

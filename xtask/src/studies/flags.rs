@@ -43,21 +43,21 @@ pub fn measure(bench: &Bench<'_>) -> Result<Found> {
     let (mut lines, mut core) = (Vec::new(), BTreeMap::new());
     for (name, flags) in LINES {
         let flags = flags.map(|flags| format!("{flags} {LINKER}"));
-        let build = |bin: &str, debug: Option<(&str, &str)>| {
+        // Without scopes in the debug information, functions of one name could not be told apart.
+        let has_list = name == QUALIFIABLE;
+        let debug = has_list.then_some(("CARGO_PROFILE_RELEASE_DEBUG", "limited"));
+        let build = |bin: &str| {
             let mut command = tools.toolchain.firmware(workspace, "build");
             command.args(["--profile", RELEASE, "--bin", bin]);
             command.envs(flags.iter().map(|flags| ("RUSTFLAGS", flags))).envs(debug);
             shell::capture(&mut command)?;
             Ok(tools.toolchain.elf(workspace, RELEASE, bin))
         };
-        let mut rows = rows::run_all(workspace, tools, &[BIN], &[build(BIN, None)?])?.0;
+        let mut rows = rows::run_all(workspace, tools, &[BIN], &[build(BIN)?])?.0;
         rows.retain(is_shown);
         lines.push(rows);
-        if name == QUALIFIABLE {
-            // Without scopes in the debug information, functions of one name could not be told
-            // apart.
-            let debug = Some(("CARGO_PROFILE_RELEASE_DEBUG", "limited"));
-            core = functions_of_rust(&build(SCENE, debug)?)?;
+        if has_list {
+            core = functions_of_rust(&build(SCENE)?)?;
         }
     }
     let text = format!(

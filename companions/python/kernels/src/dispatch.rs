@@ -98,10 +98,8 @@ pub mod terms {
             (false, false, true) => [false, false, true]
         },
         any {
-            (true, true, false) => [true, true, false],
-            (true, true, true) => [true, true, true],
-            (false, false, false) => [false, false, false],
-            (false, false, true) => [false, false, true],
+            (true, true, _) => [true, true, true],
+            (false, false, _) => [false, false, true],
             (true, false, _) => [true, false, true],
             (false, true, _) => [false, true, true]
         }
@@ -114,17 +112,18 @@ pub mod terms {
             (_, true, true) => [true, true, true]
         },
         any {
-            (_, true, false) => [true, true, false],
-            (_, true, true) => [true, true, true],
+            (_, true, _) => [true, true, true],
             (_, false, _) => [true, false, true]
         }
     }
     scenes! {
         /// The same by articulated bodies, with Coriolis.
-        articulated {
+        articulated,
+        fast {
             (_, true, false) => [true, true, false],
             (_, true, true) => [true, true, true]
-        }
+        },
+        any { (_, true, _) => [true, true, true] }
     }
     scenes! {
         /// As [`moving`], with effects at bodies where there are any.

@@ -5,7 +5,7 @@ use std::any::Any;
 use dynamics_core::loops::{LoopJoint, LoopModelError, LoopProblem, Loops};
 use dynamics_core::model::Model;
 
-use crate::model::{Counts, General, Models};
+use crate::model::{Counts, Models};
 
 /// The greatest number of loops of a robot.
 pub const MOST_LOOPS: usize = 8;
@@ -38,10 +38,10 @@ fn loops_on<const B: usize, const Q: usize, const V: usize>(
     Ok(filled.damped_below(damped_below))
 }
 
-/// Loops on the models of a robot.
+/// Loops on the larger model of a robot, the only one for which their algorithms are compiled.
 #[derive(Debug)]
 pub struct AnyLoops {
-    filled: Vec<Box<dyn Any + Send + Sync>>,
+    filled: Box<dyn Any + Send + Sync>,
     /// The actuated coordinates, as indices in q̇.
     pub actuated: Vec<usize>,
     /// The number of directions that the loops constrain.
@@ -60,19 +60,14 @@ impl AnyLoops {
         actuated: &[usize],
         damped_below: f64,
     ) -> Result<Self, LoopModelError> {
-        let General { small, large } = &models.general;
-        let last = loops_on(large, counts, joints, (actuated, damped_below))?;
-        let rows = last.rows(joints.len().saturating_sub(1)).end;
-        let mut filled: Vec<Box<dyn Any + Send + Sync>> = vec![Box::new(last)];
-        if let Some(small) = small {
-            filled.push(Box::new(loops_on(small, counts, joints, (actuated, damped_below))?));
-        }
-        Ok(Self { filled, actuated: actuated.to_vec(), rows })
+        let filled = loops_on(&models.general.large, counts, joints, (actuated, damped_below))?;
+        let rows = filled.rows(joints.len().saturating_sub(1)).end;
+        Ok(Self { filled: Box::new(filled), actuated: actuated.to_vec(), rows })
     }
 
-    /// The loops on a model of V velocity coordinates, which is the robot's.
+    /// The loops on the larger model, which has V velocity coordinates.
     pub(crate) fn get<const V: usize>(&self) -> &Filled<V> {
-        match self.filled.iter().find_map(|filled| filled.downcast_ref()) {
+        match self.filled.downcast_ref() {
             Some(filled) => filled,
             None => unreachable!("the loops are those of another robot"),
         }

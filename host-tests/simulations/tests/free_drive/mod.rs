@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 use firmware_demo::scenes::openarm_free_drive::trial::{Less, Outcome, Seen, Trial};
 use host_tests::everyday_or_full;
 
-const RUNS: u32 = everyday_or_full(16, 200);
+const RUNS: u32 = everyday_or_full(16, 60);
 /// The runs of each law that lacks a part; `cargo xtask demo --scene openarm_free_drive` has one.
 const TABLE: u32 = everyday_or_full(5, 16);
 

@@ -175,7 +175,7 @@ impl Drop for Trial {
 }
 
 /// The number of random inputs that each function of a library for C gets.
-const SAMPLES: &str = "1000000";
+const SAMPLES: &str = "200000";
 const PROBE: &str = "inverse dynamics of the probe";
 const FIRST: &str = "torques of the first tick";
 /// Runs the project by its dev profile in QEMU.
@@ -241,8 +241,7 @@ fn a_pendulum() {
     let robot = robot("Pendulum", text, [&pendulum::JOINTS, &pendulum::BODIES], effects);
     let scene = (Gravity::EARTH, Inertia, Coriolis, pendulum::VISCOUS);
     let expected = expected::<pendulum::Pendulum, _, 1>(&scene);
-    rust_project("a-pendulum", robot.clone(), &expected);
-    c_project("a-pendulum-for-c", robot, &expected);
+    rust_project("a-pendulum", robot, &expected);
 }
 
 #[test]
@@ -253,7 +252,12 @@ fn an_arm() {
     let expected = expected::<so101::So101, _, 6>(&so101::SCENE);
     let trial = rust_project("an-arm", robot.clone(), &expected);
     // At opt-level 0 the build warns and the run fails: no tick of six joints ends within its
-    // period.
+    // period, which a hundred of them show.
+    let report = trial.folder.join("src/report.rs");
+    let whole = fs::read_to_string(&report).expect("a source");
+    let fewer = whole.replace("for tick in 0..outcome.ticks {", "for tick in 0..100 {");
+    assert_ne!(fewer, whole, "no loop over ticks");
+    fs::write(&report, fewer).expect("written");
     let mut slow = trial.command("cargo", &DEV);
     let slow = slow.env("CARGO_PROFILE_DEV_OPT_LEVEL", "0").output();
     let slow = slow.expect("cargo runs");

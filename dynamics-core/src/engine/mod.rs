@@ -15,23 +15,36 @@
 /// Expands a block once for each joint that there may be, its number a constant: loops are not
 /// unrolled at every opt-level, and a constant can be a const generic argument.
 ///
-/// With a condition and a function, only for joints that meet it: see [`only_if`].
+/// With a condition and a function, only for joints that meet it: see [`only_if`]. The functions
+/// of all joints are one constant, since the compiler would evaluate 64 of them in each instance.
 macro_rules! for_each_joint {
     ($j:ident, $condition:expr, $name:ident = $function:expr, $body:block) => {
-        for_each_joint!($j, {
+        for_each_joint!(@all functions $j ($condition) $name ($function) $body)
+    };
+    ($j:ident, $body:block) => {
+        for_each_joint!(@all joints $j $body)
+    };
+    (@all $($site:tt)*) => {
+        for_each_joint!(@ $($site)* 0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15
+            16 17 18 19 20 21 22 23 24 25 26 27 28 29 30 31 32 33 34 35 36 37 38 39 40 41 42 43 44 45 46 47
+            48 49 50 51 52 53 54 55 56 57 58 59 60 61 62 63)
+    };
+    (@ functions $j:ident ($condition:expr) $name:ident ($function:expr) $body:block $($n:literal)*) => {
+        let functions = const {
+            &[$({
+                const $j: usize = $n;
+                $crate::engine::only_if($condition, $function)
+            }),*]
+        };
+        for_each_joint!(@ joints $j {
             if $condition
-                && let Some($name) = const { $crate::engine::only_if($condition, $function) }
+                && let Some($name) = functions[$j]
             {
                 $body
             }
-        })
+        } $($n)*);
     };
-    ($j:ident, $body:block) => {
-        for_each_joint!(@ $j $body 0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15
-            16 17 18 19 20 21 22 23 24 25 26 27 28 29 30 31 32 33 34 35 36 37 38 39 40 41 42 43 44 45 46 47
-            48 49 50 51 52 53 54 55 56 57 58 59 60 61 62 63);
-    };
-    (@ $j:ident $body:block $($n:literal)*) => {$({
+    (@ joints $j:ident $body:block $($n:literal)*) => {$({
         const $j: usize = $n;
         $body
     })*};

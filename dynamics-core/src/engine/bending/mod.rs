@@ -31,7 +31,7 @@ use crate::state::State;
 /// Expands a block once for each mode that a link may have, its number a constant.
 macro_rules! for_each_mode {
     ($k:ident, $body:block) => {
-        $crate::engine::for_each_joint!(@ $k $body 0 1 2 3 4 5)
+        $crate::engine::for_each_joint!(@ joints $k $body 0 1 2 3 4 5)
     };
 }
 

@@ -100,8 +100,8 @@ fn a_hundred_names_of_projects_compile() {
 
 #[cfg(feature = "full")]
 #[test]
-fn two_thousand_names_of_projects_compile() {
-    compile(&draw(2_000));
+fn five_hundred_names_of_projects_compile() {
+    compile(&draw(500));
 }
 
 #[test]

@@ -34,7 +34,7 @@ MEMORY
 /// tick has the same work whatever the data.
 const TICKS: u32 = 200;
 const ALL_TICKS: &str = "for tick in 0..outcome.ticks {";
-/// The longest run took 15 s with other work beside it.
+/// The longest run took 30 s with other work beside it.
 const LIMIT: Duration = Duration::from_secs(600);
 /// The period of the project's tick, µs.
 const PERIOD: f64 = 1e3;
@@ -42,15 +42,13 @@ const PERIOD: f64 = 1e3;
 /// Profiles: the name in the table, cargo's arguments, and whether the project's compiler flags
 /// act.
 #[rustfmt::skip]
-const PROFILES: [(&str, &str, bool); 7] = [
+const PROFILES: [(&str, &str, bool); 6] = [
     ("release as written: 3, fat LTO", "--release", true),
     (WITHOUT_FLAGS, "--release", false),
     ("release at s", "--release --config profile.release.opt-level='s'", true),
     ("dev as written: 1", "", true),
     ("dev at 3", "--config profile.dev.opt-level=3", true),
     ("dev at 0", "--config profile.dev.opt-level=0", true),
-    ("dev at 0, `package.\"*\"` at 3", "--config profile.dev.opt-level=0 --config \
-        profile.dev.package.\"*\".opt-level=3", true),
 ];
 pub const WITHOUT_FLAGS: &str = "release without the compiler flags";
 

@@ -30,10 +30,9 @@ MEMORY
   RAM   : ORIGIN = 0x20000000, LENGTH = 4M
 }
 ";
-/// The ticks of a run, and the loop of the written project that has those of its whole motion: a
-/// tick has the same work whatever the data.
-const TICKS: u32 = 200;
-const ALL_TICKS: &str = "for tick in 0..outcome.ticks {";
+/// The loop of the written project over its whole motion, and the one that is measured: a tick has
+/// the same work whatever the data.
+const LOOPS: [&str; 2] = ["for tick in 0..outcome.ticks {", "for tick in 0..200 {"];
 /// The longest run took 30 s with other work beside it.
 const LIMIT: Duration = Duration::from_secs(600);
 /// The period of the project's tick, µs.
@@ -80,7 +79,7 @@ pub fn measure(workspace: &Workspace, tools: &Tools) -> Result<Vec<Profile>> {
     workspace::write(&folder.join("memory.x"), MEMORY)?;
     let report = folder.join("src/report.rs");
     let whole = workspace::read(&report)?;
-    let fewer = whole.replace(ALL_TICKS, &format!("for tick in 0..{TICKS} {{"));
+    let fewer = whole.replace(LOOPS[0], LOOPS[1]);
     refuse_if!(fewer == whole, "{PROJECT} has no loop over its ticks");
     workspace::write(&report, fewer)?;
     let meter = firmware::build_meter(workspace)?;

@@ -175,7 +175,7 @@ impl Drop for Trial {
 }
 
 /// The number of random inputs that each function of a library for C gets.
-const SAMPLES: &str = "200000";
+const SAMPLES: &str = "100000";
 const PROBE: &str = "inverse dynamics of the probe";
 const FIRST: &str = "torques of the first tick";
 /// Runs the project by its dev profile in QEMU.

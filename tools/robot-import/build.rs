@@ -17,6 +17,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut list = "&[\n".to_owned();
     for name in CRATES {
         let folder = root.join(name);
+        // The wheel's source distribution, which writes no projects, has not all of them.
+        if !folder.exists() {
+            continue;
+        }
         let mut files = Vec::new();
         for beside in BESIDE.map(|name| folder.join(name)) {
             if beside.exists() {

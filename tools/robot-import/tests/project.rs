@@ -94,7 +94,6 @@ impl Trial {
             .args(arguments)
             .current_dir(&self.folder)
             .env("CARGO_TARGET_DIR", &self.built)
-            .env("SAMPLES", SAMPLES)
             .env_remove("RUSTFLAGS")
             .env_remove("CARGO_ENCODED_RUSTFLAGS");
         command
@@ -174,8 +173,6 @@ impl Drop for Trial {
     }
 }
 
-/// The number of random inputs that each function of a library for C gets.
-const SAMPLES: &str = "100000";
 const PROBE: &str = "inverse dynamics of the probe";
 const FIRST: &str = "torques of the first tick";
 /// Runs the project by its dev profile in QEMU.

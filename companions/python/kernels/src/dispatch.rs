@@ -89,7 +89,8 @@ pub mod terms {
 
     scenes! {
         /// Inverse dynamics: scenes without Inertia but with Coriolis, or the reverse, which few
-        /// have, over any joints only.
+        /// have, over any joints only. The code for any joints has effects at bodies in every scene:
+        /// that saves copies.
         all,
         fast {
             (true, true, false) => [true, true, false],

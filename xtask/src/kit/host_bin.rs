@@ -23,7 +23,9 @@ pub struct Together {
 pub const SHARED: Together = Together {
     packages: "--workspace --exclude xtask --exclude telemetry-watch --exclude firmware-demo \
          --exclude lab-firmware --exclude identification --exclude simulation-tests",
-    full: "--features guide/full,host-tests/full,robot-import/full",
+    // Hard cases that compute for minutes are optimised.
+    full: "--features guide/full,host-tests/full,robot-import/full \
+         --config profile.dev.package.simulation-tests.opt-level=2",
     folder: "debug",
 };
 

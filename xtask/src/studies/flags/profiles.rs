@@ -79,9 +79,8 @@ pub fn measure(workspace: &Workspace, tools: &Tools) -> Result<Vec<Profile>> {
     workspace::write(&folder.join("memory.x"), MEMORY)?;
     let report = folder.join("src/report.rs");
     let whole = workspace::read(&report)?;
-    let fewer = whole.replace(LOOPS[0], LOOPS[1]);
-    refuse_if!(fewer == whole, "{PROJECT} has no loop over its ticks");
-    workspace::write(&report, fewer)?;
+    refuse_if!(!whole.contains(LOOPS[0]), "{PROJECT} has no loop over its ticks");
+    workspace::write(&report, whole.replace(LOOPS[0], LOOPS[1]))?;
     let meter = firmware::build_meter(workspace)?;
     let profiles = PROFILES.iter().map(|&(name, arguments, has_flags)| {
         let target = workspace.target.join("profiles");

@@ -1,6 +1,10 @@
 //! Instruction fetch from flash that waits: the cycles that a sequence takes beyond those of memory
 //! that never waits. Its sources and its limits stand in the crate's documentation.
 
+use std::num::NonZeroUsize;
+
+use lru::LruCache;
+
 use crate::insn::Insn;
 
 /// A chip's flash, as its reference manual describes it.
@@ -11,14 +15,23 @@ pub struct Flash {
     /// Cycles that a read takes beyond the first.
     waits: u64,
     /// The lines that the caches of code and of data hold.
-    lines: [usize; 2],
+    lines: [NonZeroUsize; 2],
+}
+
+impl Flash {
+    const fn new(line: u32, waits: u64, lines: [usize; 2]) -> Self {
+        let [code, data] = lines;
+        let some = "a cache holds a line";
+        let lines = [NonZeroUsize::new(code).expect(some), NonZeroUsize::new(data).expect(some)];
+        Self { line, waits, lines }
+    }
 }
 
 /// STM32G474 at 170 MHz with two banks (RM0440, 3.3.3 to 3.3.5); the STM32L413 at 80 MHz is alike.
-pub const G474: Flash = Flash { line: 8, waits: 4, lines: [128, 32] };
+pub const G474: Flash = Flash::new(8, 4, [128, 32]);
 
 /// STM32F405 at 168 MHz and 2.7 V or more (RM0090, 3.5).
-pub const F405: Flash = Flash { line: 16, waits: 5, lines: [64, 8] };
+pub const F405: Flash = Flash::new(16, 5, [64, 8]);
 
 /// The flashes of [`Sample::waits`](crate::Sample::waits), in its order.
 pub const FLASHES: [Flash; 2] = [G474, F405];
@@ -46,32 +59,6 @@ fn waits(address: u32) -> bool {
 /// Words that the core fetches ahead of the instruction that it decodes.
 const AHEAD: u32 = 3;
 
-/// Lines that were read, the last used one first, and when each of them had come.
-#[derive(Debug)]
-struct Cache {
-    lines: Vec<(u32, u64)>,
-    capacity: usize,
-}
-
-impl Cache {
-    fn of(capacity: usize) -> Self {
-        Self { lines: Vec::with_capacity(capacity), capacity }
-    }
-
-    /// When the line had come, if it is there; it is then the last used one.
-    fn find(&mut self, line: u32) -> Option<u64> {
-        let at = self.lines.iter().position(|(cached, _)| *cached == line)?;
-        self.lines[..=at].rotate_right(1);
-        Some(self.lines[0].1)
-    }
-
-    /// Replaces the line that was not used for longest.
-    fn insert(&mut self, line: u32, comes: u64) {
-        self.lines.truncate(self.capacity - 1);
-        self.lines.insert(0, (line, comes));
-    }
-}
-
 /// The core's queue of words, the caches and the flash. All times are cycles, waits included.
 #[derive(Debug)]
 pub struct Fetch {
@@ -91,8 +78,9 @@ pub struct Fetch {
     queue: [(u64, u64); 4],
     /// The line of the last word, and when it came.
     line: (u32, u64),
-    code: Cache,
-    data: Cache,
+    /// Lines that were read, and when each of them had come.
+    code: LruCache<u32, u64>,
+    data: LruCache<u32, u64>,
     /// When the flash can be read again.
     free: u64,
 }
@@ -110,8 +98,8 @@ impl Fetch {
             came: 0,
             queue: [(0, 0); 4],
             line: (NOWHERE, 0),
-            code: Cache::of(flash.lines[0]),
-            data: Cache::of(flash.lines[1]),
+            code: LruCache::new(flash.lines[0]),
+            data: LruCache::new(flash.lines[1]),
             free: 0,
         }
     }
@@ -136,8 +124,8 @@ impl Fetch {
         }
         for load in loads {
             let line = load / self.flash.line;
-            let comes = match self.data.find(line) {
-                Some(comes) => comes,
+            let comes = match self.data.get(&line) {
+                Some(&comes) => comes,
                 None => self.read(line, self.now, |fetch| &mut fetch.data),
             };
             self.wait_until(comes);
@@ -209,12 +197,12 @@ impl Fetch {
     /// makes the flash read the next one too; whatever is read enters the cache.
     fn fetch(&mut self, line: u32, time: u64) -> u64 {
         if line != self.line.0 {
-            let comes = match self.code.find(line) {
-                Some(comes) => comes.max(time),
+            let comes = match self.code.get(&line) {
+                Some(&comes) => comes.max(time),
                 None => self.read(line, time, |fetch| &mut fetch.code),
             };
             self.line = (line, comes);
-            if self.code.find(line + 1).is_none() {
+            if self.code.get(&(line + 1)).is_none() {
                 self.read(line + 1, comes, |fetch| &mut fetch.code);
             }
         }
@@ -222,10 +210,15 @@ impl Fetch {
     }
 
     /// Reads a line once the flash has finished what it does.
-    fn read(&mut self, line: u32, time: u64, cache: fn(&mut Self) -> &mut Cache) -> u64 {
+    fn read(
+        &mut self,
+        line: u32,
+        time: u64,
+        cache: fn(&mut Self) -> &mut LruCache<u32, u64>,
+    ) -> u64 {
         let comes = time.max(self.free) + self.flash.waits;
         self.free = comes + 1;
-        cache(self).insert(line, comes);
+        cache(self).put(line, comes);
         comes
     }
 }

@@ -60,8 +60,11 @@ impl Direction for Aslant {
 /// Ulps of full scale that the two may differ by.
 const ULPS: f64 = 4.0;
 
-/// The worst difference over `states` random states and that of all zeros, in ulps of full scale.
-fn compare<R, T, E, const B: usize, const N: usize>(scene: &E, states: usize) -> f64
+/// Random states in which two are compared.
+const STATES: usize = 2_000;
+
+/// The worst difference over these states and that of all zeros, in ulps of full scale.
+fn compare<R, T, E, const B: usize, const N: usize>(scene: &E) -> f64
 where
     R: Real,
     T: Robot<B, N, N>,
@@ -72,7 +75,7 @@ where
         core::array::from_fn(|_| R::from_f64(rng.random_range(-bound..bound)))
     };
     let mut worst = Ulps::default();
-    for i in 0..=states {
+    for i in 0..=STATES {
         let mut state = State::at([R::ZERO; N]);
         if i > 0 {
             state = State { q: random(std::f64::consts::PI), qd: random(3.0), qdd: random(10.0) };
@@ -118,7 +121,7 @@ fn robot<R: Real, T, const B: usize, const N: usize>()
 where
     T: Robot<B, N, N>,
 {
-    let ulps = compare::<R, T, _, B, N>(&RIGID_BODY, 10_000);
+    let ulps = compare::<R, T, _, B, N>(&RIGID_BODY);
     assert!(ulps <= ULPS, "{}: {ulps:.2} ulp", T::MODEL.name);
 }
 
@@ -156,7 +159,7 @@ fn odd_tree<R: Real>() {
         Drag,
         payload::<R, 10>(),
     );
-    let ulps = compare::<R, StressRobot, _, 11, 7>(&scene, 10_000);
+    let ulps = compare::<R, StressRobot, _, 11, 7>(&scene);
     assert!(ulps <= ULPS, "{ulps:.2} ulp");
 }
 
@@ -171,9 +174,7 @@ fn engine_equals_core_on_an_odd_tree_under_every_effect() {
 fn engine_equals_core_on_an_odd_tree_in_f64() {
     odd_tree::<f64>();
     let ulps = compare::<f64, StressRobot, _, 11, 7>(
-        &(Gravity::<Aslant>::new(9.81), Inertia, Drag),
-        10_000,
-    );
+        &(Gravity::<Aslant>::new(9.81), Inertia, Drag));
     assert!(ulps <= ULPS, "{ulps:.2} ulp");
 }
 
@@ -213,7 +214,7 @@ fn a_payload_is_inertia_of_its_body() {
 #[test]
 fn an_effect_of_velocities_adds_no_coriolis_torque() {
     let scene = (Gravity::<Aslant>::new(9.81), Inertia, Drag);
-    let ulps = compare::<f32, StressRobot, _, 11, 7>(&scene, 10_000);
+    let ulps = compare::<f32, StressRobot, _, 11, 7>(&scene);
     assert!(ulps <= ULPS, "{ulps:.2} ulp");
     // The core itself: what drag adds does not depend on what else is there.
     let state = State { q: [0.3; 7], qd: [1.0, -2.0, 3.0, 1.5, -1.0, 2.0, 0.5], qdd: [0.0; 7] };
@@ -227,6 +228,6 @@ fn an_effect_of_velocities_adds_no_coriolis_torque() {
 
 #[test]
 fn engine_equals_core_where_nothing_moves() {
-    let ulps = compare::<f32, StressRobot, _, 11, 7>(&(Gravity::<Aslant>::new(9.81), Push), 10_000);
+    let ulps = compare::<f32, StressRobot, _, 11, 7>(&(Gravity::<Aslant>::new(9.81), Push));
     assert!(ulps <= ULPS, "{ulps:.2} ulp");
 }

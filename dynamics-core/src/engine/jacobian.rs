@@ -65,9 +65,9 @@ impl<Arm, Sines> Engine<Arm, Sines> {
         Arm: Robot<B, Q, V>,
         Sines: Kernel<Scalar>,
     {
-        let _ = (body, frame);
+        let _ = body;
         let trig = q.trig_or(Self::trig_source());
-        Self::call(trig.borrow(), &()).jacobian::<F, BODY>()
+        Self::call(trig.borrow(), &()).jacobian::<F, BODY>(frame)
     }
 }
 
@@ -76,12 +76,12 @@ impl<Scalar: Real, Tree: Compiled, Effects, const B: usize, const Q: usize, cons
 {
     /// The Jacobian of a body in the frame F.
     #[cfg_attr(optimised, inline(always))]
-    fn jacobian<F: Frame, const BODY: usize>(self) -> [Motion<Scalar>; V] {
+    fn jacobian<F: Frame, const BODY: usize>(self, frame: F) -> [Motion<Scalar>; V] {
         let mut columns = self.jacobian_columns::<BODY>();
         let [pose] = self.poses(OnBody::<BODY>);
         for_each_joint!(J, {
             if JointAndBody::<Tree, J, BODY>::SUPPORTS {
-                columns[J] = F::from_aligned(&pose, columns[J]);
+                columns[J] = frame.express_aligned(&pose, columns[J]);
             }
         });
         columns

@@ -215,7 +215,6 @@ impl<Arm, Sines> Engine<Arm, Sines> {
         Sines: Kernel<Scalar>,
         F: Frame,
     {
-        let _ = frame;
         let configuration = state.configuration();
         let trig = configuration.trig_or(Self::trig_source());
         let coasting = State { qdd: [Scalar::ZERO; V], ..*state.state() };
@@ -224,7 +223,7 @@ impl<Arm, Sines> Engine<Arm, Sines> {
             &(),
         )
         .walk::<_, 1, true>(&coasting, &AccelerationField::RESTING, body);
-        F::express(&pose, a) + F::classical_term(F::express(&pose, v))
+        frame.express(&pose, a) + frame.classical_term(frame.express(&pose, v))
     }
 }
 

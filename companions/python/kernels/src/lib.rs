@@ -15,11 +15,10 @@ pub mod model;
 mod scene;
 pub mod spec;
 
+use dynamics_core::algorithms::frame::AnyFrame;
 use dynamics_core::loops::Moving;
 use dynamics_core::model::RobotModel;
 use dynamics_core::scalar::Real;
-
-pub use algorithms::AnyFrame;
 
 use algorithm::{Algorithm, Call, Sizes, Terms};
 use flexible::AnyModes;

@@ -1,7 +1,7 @@
 //! Frames and scenes of algorithms, and what they refuse.
 
+use dynamics_core::algorithms::frame::AnyFrame;
 use pyo3::prelude::*;
-use robot_dynamics_kernels::AnyFrame;
 use robot_dynamics_kernels::spec::Spec;
 
 use crate::effects::refused;

@@ -1,7 +1,7 @@
 //! Inverse kinematics of a robot whose joints have one coordinate each: positions for a pose of a
 //! body, and joints whose motion is that of a tip.
 
-use dynamics_core::algorithms::frame::Pose;
+use dynamics_core::algorithms::frame::{AnyFrame, Pose};
 use dynamics_core::glam::{DMat3, DVec3};
 use dynamics_core::spatial::Motion;
 use motion_control::{
@@ -11,7 +11,7 @@ use numpy::{IntoPyArray, PyArrayMethods};
 use pyo3::prelude::*;
 use robot_dynamics_kernels::job::{Input, Job, Output};
 use robot_dynamics_kernels::model::MOST_COORDINATES as MOST;
-use robot_dynamics_kernels::{AnyFrame, Scalar, Setting, Which};
+use robot_dynamics_kernels::{Scalar, Setting, Which};
 
 use super::{Array, Robot};
 use crate::error::{Exception, wanted};

@@ -55,18 +55,19 @@ impl<R: Real> Pose<R> {
 }
 
 mod sealed {
-    /// Restricts [`super::Frame`] to the three frames of this module.
+    /// Restricts [`super::Frame`] to the frames of this module.
     pub trait Sealed {}
     impl Sealed for super::Local {}
     impl Sealed for super::World {}
     impl Sealed for super::LocalWorldAligned {}
+    impl Sealed for super::AnyFrame {}
 }
 
 /// A frame in which the motion of a body is expressed: [`Local`], [`World`] or
 /// [`LocalWorldAligned`].
 ///
-/// The frame is a type, not a flag, so that it is fixed at compile time. For a body with the
-/// angular velocity ω and the origin p:
+/// The frame is a type, not a flag, so that it is fixed at compile time; [`AnyFrame`] is chosen at
+/// run time. For a body with the angular velocity ω and the origin p:
 ///
 /// | frame | axes | reference point | bias acceleration J̇ q̇ |
 /// |---|---|---|---|
@@ -75,15 +76,15 @@ mod sealed {
 /// | `LocalWorldAligned` | the base's | the body's origin | ω̇ and p̈ at q̈ = 0 |
 pub trait Frame: sealed::Sealed + Copy {
     /// Transforms a motion of the body at `pose` from its own frame to this one.
-    fn express<R: Real>(pose: &Pose<R>, m: Motion<R>) -> Motion<R>;
+    fn express<R: Real>(self, pose: &Pose<R>, m: Motion<R>) -> Motion<R>;
     /// The transform that [`Frame::express`] applies.
-    fn from_body<R: Real>(pose: &Pose<R>) -> Xform<R>;
+    fn transform<R: Real>(self, pose: &Pose<R>) -> Xform<R>;
     /// Transforms a motion of the body at `pose` from [`LocalWorldAligned`] to this frame.
-    fn from_aligned<R: Real>(pose: &Pose<R>, m: Motion<R>) -> Motion<R>;
+    fn express_aligned<R: Real>(self, pose: &Pose<R>, m: Motion<R>) -> Motion<R>;
     /// The difference of the acceleration in this frame and the spatial one; v is the velocity in
     /// this frame.
     #[cfg_attr(optimised, inline(always))]
-    fn classical_term<R: Real>(v: Motion<R>) -> Motion<R> {
+    fn classical_term<R: Real>(self, v: Motion<R>) -> Motion<R> {
         let _ = v;
         Motion::ZERO
     }
@@ -104,50 +105,99 @@ pub struct LocalWorldAligned;
 
 impl Frame for Local {
     #[cfg_attr(optimised, inline(always))]
-    fn express<R: Real>(_: &Pose<R>, m: Motion<R>) -> Motion<R> {
+    fn express<R: Real>(self, _: &Pose<R>, m: Motion<R>) -> Motion<R> {
         m
     }
     #[cfg_attr(optimised, inline(always))]
-    fn from_body<R: Real>(_: &Pose<R>) -> Xform<R> {
+    fn transform<R: Real>(self, _: &Pose<R>) -> Xform<R> {
         Xform::IDENTITY
     }
     #[cfg_attr(optimised, inline(always))]
-    fn from_aligned<R: Real>(pose: &Pose<R>, m: Motion<R>) -> Motion<R> {
+    fn express_aligned<R: Real>(self, pose: &Pose<R>, m: Motion<R>) -> Motion<R> {
         Motion::new(pose.rot.transpose_mul(m.ang), pose.rot.transpose_mul(m.lin))
     }
 }
 
 impl Frame for World {
     #[cfg_attr(optimised, inline(always))]
-    fn express<R: Real>(pose: &Pose<R>, m: Motion<R>) -> Motion<R> {
-        Self::from_aligned(pose, LocalWorldAligned::express(pose, m))
+    fn express<R: Real>(self, pose: &Pose<R>, m: Motion<R>) -> Motion<R> {
+        self.express_aligned(pose, LocalWorldAligned.express(pose, m))
     }
     #[cfg_attr(optimised, inline(always))]
-    fn from_body<R: Real>(pose: &Pose<R>) -> Xform<R> {
+    fn transform<R: Real>(self, pose: &Pose<R>) -> Xform<R> {
         Xform { rot: pose.rot, pos: -pose.rot.transpose_mul(pose.pos) }
     }
     #[cfg_attr(optimised, inline(always))]
-    fn from_aligned<R: Real>(pose: &Pose<R>, m: Motion<R>) -> Motion<R> {
+    fn express_aligned<R: Real>(self, pose: &Pose<R>, m: Motion<R>) -> Motion<R> {
         Motion::new(m.ang, m.lin + pose.pos.cross(m.ang))
     }
 }
 
 impl Frame for LocalWorldAligned {
     #[cfg_attr(optimised, inline(always))]
-    fn express<R: Real>(pose: &Pose<R>, m: Motion<R>) -> Motion<R> {
+    fn express<R: Real>(self, pose: &Pose<R>, m: Motion<R>) -> Motion<R> {
         Motion::new(pose.rot * m.ang, pose.rot * m.lin)
     }
     #[cfg_attr(optimised, inline(always))]
-    fn from_body<R: Real>(pose: &Pose<R>) -> Xform<R> {
+    fn transform<R: Real>(self, pose: &Pose<R>) -> Xform<R> {
         Xform { rot: pose.rot, pos: R::Vec3::ZERO }
     }
     #[cfg_attr(optimised, inline(always))]
-    fn from_aligned<R: Real>(_: &Pose<R>, m: Motion<R>) -> Motion<R> {
+    fn express_aligned<R: Real>(self, _: &Pose<R>, m: Motion<R>) -> Motion<R> {
         m
     }
     #[cfg_attr(optimised, inline(always))]
-    fn classical_term<R: Real>(v: Motion<R>) -> Motion<R> {
+    fn classical_term<R: Real>(self, v: Motion<R>) -> Motion<R> {
         classical(Motion::ZERO, v)
+    }
+}
+
+/// A frame that is chosen at run time.
+///
+/// ```
+/// use dynamics_core::{Core, algorithms::frame, robots::Ur5e};
+/// let chosen = frame::AnyFrame::World; // by a user
+/// let q = [0.3_f32; 6];
+/// let (a, b) = (Core::<Ur5e>::jacobian(&q, 5, chosen), Core::<Ur5e>::jacobian(&q, 5, frame::World));
+/// assert_eq!(a, b);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AnyFrame {
+    /// [`Local`].
+    Local,
+    /// [`World`].
+    World,
+    /// [`LocalWorldAligned`].
+    LocalWorldAligned,
+}
+
+/// Calls a function of the frame that is chosen.
+macro_rules! of_chosen {
+    ($frame:expr, $function:ident($($argument:expr),*)) => {
+        match $frame {
+            AnyFrame::Local => Local.$function($($argument),*),
+            AnyFrame::World => World.$function($($argument),*),
+            AnyFrame::LocalWorldAligned => LocalWorldAligned.$function($($argument),*),
+        }
+    };
+}
+
+impl Frame for AnyFrame {
+    #[cfg_attr(optimised, inline(always))]
+    fn express<R: Real>(self, pose: &Pose<R>, m: Motion<R>) -> Motion<R> {
+        of_chosen!(self, express(pose, m))
+    }
+    #[cfg_attr(optimised, inline(always))]
+    fn transform<R: Real>(self, pose: &Pose<R>) -> Xform<R> {
+        of_chosen!(self, transform(pose))
+    }
+    #[cfg_attr(optimised, inline(always))]
+    fn express_aligned<R: Real>(self, pose: &Pose<R>, m: Motion<R>) -> Motion<R> {
+        of_chosen!(self, express_aligned(pose, m))
+    }
+    #[cfg_attr(optimised, inline(always))]
+    fn classical_term<R: Real>(self, v: Motion<R>) -> Motion<R> {
+        of_chosen!(self, classical_term(v))
     }
 }
 

@@ -47,7 +47,7 @@ pub fn jacobian<R: Real, D, F: Frame, const B: usize, const Q: usize, const V: u
     robot: &D,
     q: &impl Configuration<R, Q>,
     body: usize,
-    _: F,
+    frame: F,
 ) -> [Motion<R>; V]
 where
     D: RobotModel<R, B, Q, V>,
@@ -75,7 +75,7 @@ where
     }
     let pose = Pose { rot: x.rot.transpose(), pos: x.pos };
     for column in &mut columns {
-        *column = F::express(&pose, *column);
+        *column = frame.express(&pose, *column);
     }
     if body >= B && body != BASE {
         columns = [Motion::nan(); V];
@@ -116,7 +116,7 @@ pub fn bias_acceleration<R: Real, D, F: Frame, const B: usize, const Q: usize, c
     robot: &D,
     state: impl RobotState<R, Q, V>,
     body: usize,
-    _: F,
+    frame: F,
 ) -> Motion<R>
 where
     D: RobotModel<R, B, Q, V>,
@@ -133,8 +133,8 @@ where
         let a = link.plus_velocity_product(x * a, turns, &state.qd, v);
         if i == body {
             let pose = pose.in_link_frame(&link.to_joint_frame);
-            let express = |m| F::express(&pose, in_link_frame(&link, m));
-            return express(a) + F::classical_term(express(v));
+            let express = |m| frame.express(&pose, in_link_frame(&link, m));
+            return express(a) + frame.classical_term(express(v));
         }
         moving.push((pose, v, a));
     }

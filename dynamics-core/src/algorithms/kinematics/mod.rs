@@ -33,9 +33,8 @@ impl<R: Real, const B: usize> Kinematics<R, B> {
     /// not have.
     #[cfg_attr(optimised, inline(always))]
     pub fn velocity<F: Frame>(&self, body: usize, frame: F) -> Motion<R> {
-        let _ = frame;
         match (self.poses.get(body), self.velocities.get(body)) {
-            (Some(pose), Some(&v)) => F::express(pose, v),
+            (Some(pose), Some(&v)) => frame.express(pose, v),
             _ => Motion::nan(),
         }
     }
@@ -44,9 +43,8 @@ impl<R: Real, const B: usize> Kinematics<R, B> {
     /// robot does not have.
     #[cfg_attr(optimised, inline(always))]
     pub fn acceleration<F: Frame>(&self, body: usize, frame: F) -> Motion<R> {
-        let _ = frame;
         match (self.poses.get(body), self.accelerations.get(body)) {
-            (Some(pose), Some(&a)) => F::express(pose, a),
+            (Some(pose), Some(&a)) => frame.express(pose, a),
             _ => Motion::nan(),
         }
     }

@@ -212,7 +212,7 @@ pub fn osim_inverse<R: Real, D, E, F: Frame, const B: usize, const Q: usize, con
     robot: &D,
     q: &impl Configuration<R, Q>,
     body: usize,
-    _: F,
+    frame: F,
     effects: &E,
 ) -> Result<OsimInverse<R>, NotPositiveDefinite>
 where
@@ -238,7 +238,7 @@ where
         return Ok(OsimInverse::ZERO);
     };
     let own = Xform { rot: link.to_joint_frame.transpose(), pos: R::Vec3::ZERO };
-    let expressed = F::from_body(&pose.in_link_frame(&link.to_joint_frame));
+    let expressed = frame.transform(&pose.in_link_frame(&link.to_joint_frame));
     Ok(mobility.at(&(expressed * own)))
 }
 

@@ -1,5 +1,6 @@
 //! The library's algorithms over rows of numbers.
 
+use dynamics_core::algorithms::frame::AnyFrame;
 use dynamics_core::algorithms::{
     self, Damping, MassMatrix, OperationalSpace, Pose, Prescribed, jacobian_rows,
 };
@@ -190,37 +191,6 @@ fn fillers<R: Real, const V: usize>(counts: Counts) -> [R; V] {
     std::array::from_fn(|i| if i < counts.v { R::ZERO } else { R::ONE })
 }
 
-/// A frame that is known at run time.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum AnyFrame {
-    /// The axes and the origin of the body.
-    Local,
-    /// The base's, about its origin.
-    World,
-    /// The base's axes, about the body's origin.
-    LocalWorldAligned,
-}
-
-/// Evaluates an expression with the frame's type.
-macro_rules! in_frame {
-    ($frame:expr, $name:ident => $body:expr) => {
-        match $frame {
-            AnyFrame::Local => {
-                let $name = algorithms::frame::Local;
-                $body
-            }
-            AnyFrame::World => {
-                let $name = algorithms::frame::World;
-                $body
-            }
-            AnyFrame::LocalWorldAligned => {
-                let $name = algorithms::frame::LocalWorldAligned;
-                $body
-            }
-        }
-    };
-}
-
 // Parts of several algorithms are compiled once.
 
 /// The torques of all effects but those of accelerations, with the friction of gears or without.
@@ -268,7 +238,7 @@ fn columns<R: Real, D, const B: usize, const Q: usize, const V: usize>(
 where
     D: RobotModel<R, B, Q, V>,
 {
-    in_frame!(frame, frame => algorithms::jacobian(robot, q, body, frame))
+    algorithms::jacobian(robot, q, body, frame)
 }
 
 /// The factors of the inertia matrix M.
@@ -418,7 +388,7 @@ algorithm! {
     /// J̇ q̇ of a body.
     BiasAcceleration { body: usize, frame: AnyFrame }, none, |this, robot, counts, scene, row| {
         let state = state(row, counts, 2);
-        let a = in_frame!(this.frame, frame => algorithms::bias_acceleration(robot, &state, this.body, frame));
+        let a = algorithms::bias_acceleration(robot, &state, this.body, this.frame);
         put(row, 0, 0, &six::<R>(a.ang, a.lin));
     }
 }
@@ -443,9 +413,7 @@ algorithm! {
         let state = state(row, counts, 3);
         let found = algorithms::kinematics(robot, &state, scene);
         for i in 0..counts.bodies {
-            let (v, a) = in_frame!(this.frame, frame => {
-                (found.velocity(i, frame), found.acceleration(i, frame))
-            });
+            let (v, a) = (found.velocity(i, this.frame), found.acceleration(i, this.frame));
             put(row, 0, 6 * i, &six::<R>(v.ang, v.lin));
             put(row, 1, 6 * i, &six::<R>(a.ang, a.lin));
         }
@@ -549,10 +517,7 @@ algorithm! {
     /// The inverse Λ⁻¹ of the operational-space inertia of a body.
     OsimInverse { body: usize, frame: AnyFrame }, machine, |this, robot, counts, scene, row| {
         let q = filled::<R, Q>(row, 0, counts.q);
-        let found = in_frame!(this.frame, frame => {
-            algorithms::osim_inverse(robot, &q, this.body, frame, scene)
-        });
-        let found = found?;
+        let found = algorithms::osim_inverse(robot, &q, this.body, this.frame, scene)?;
         for j in 0..6 {
             let unit: [R; 6] = std::array::from_fn(|i| if i == j { R::ONE } else { R::ZERO });
             let [a, b, c, d, e, f] = unit;

@@ -173,8 +173,8 @@ fn engine_equals_core_on_an_odd_tree_under_every_effect() {
 #[test]
 fn engine_equals_core_on_an_odd_tree_in_f64() {
     odd_tree::<f64>();
-    let ulps = compare::<f64, StressRobot, _, 11, 7>(
-        &(Gravity::<Aslant>::new(9.81), Inertia, Drag));
+    let ulps =
+        compare::<f64, StressRobot, _, 11, 7>(&(Gravity::<Aslant>::new(9.81), Inertia, Drag));
     assert!(ulps <= ULPS, "{ulps:.2} ulp");
 }
 

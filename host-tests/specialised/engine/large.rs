@@ -72,6 +72,6 @@ fn engine_equals_core_on_a_large_tree_under_every_effect() {
         wind,
         payload::<f64, 17>(),
     );
-    let worst = compare::<f64, Large, _, 18, 18>(&scene, 2_000);
+    let worst = compare::<f64, Large, _, 18, 18>(&scene);
     assert!(worst <= ULPS, "{worst:.2} ulp");
 }

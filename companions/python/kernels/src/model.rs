@@ -50,11 +50,14 @@ pub struct General<R: Real> {
     /// For the most used algorithms, of a robot of up to 16 velocity coordinates.
     pub small: Option<Box<Model<R, 28, 32, 28>>>,
     /// Up to 64 velocity coordinates.
-    pub large: Box<Model<R, 76, 80, 76>>,
+    pub large: Box<Model<R, LARGE, 80, LARGE>>,
 }
 
 /// The most velocity coordinates of a robot.
 pub const MOST_COORDINATES: usize = 64;
+
+/// Bodies and velocity coordinates of the larger model, with those that fill it up.
+pub(crate) const LARGE: usize = 76;
 
 /// Why there is no model of a robot.
 #[derive(Debug)]

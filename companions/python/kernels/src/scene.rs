@@ -12,6 +12,7 @@ use dynamics_core::scalar::Real;
 use dynamics_core::spatial::{Force, Motion, SpatialInertia};
 
 use crate::algorithm::Terms;
+use crate::model::LARGE;
 
 /// The most harmonics of cogging.
 pub const HARMONICS: usize = 8;
@@ -28,11 +29,12 @@ pub trait AtJoint<R: Real> {
     fn is_differentiable(&self) -> bool;
 }
 
-/// One of the library's for V velocity coordinates.
-pub struct At<E, const V: usize>(pub E);
+/// One of the library's, for the velocity coordinates of the largest model.
+pub struct At<E>(pub E);
 
-// One function for all algorithms: the machine code has few copies of what few scenes need.
-impl<R: Real, E: Effect<R, 1, V>, const V: usize> AtJoint<R> for At<E, V> {
+// One function for all algorithms and models: the machine code has few copies of what few scenes
+// need.
+impl<R: Real, E: Effect<R, 1, LARGE>> AtJoint<R> for At<E> {
     fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
         self.0.torque(joint, at, tau);
     }

@@ -277,7 +277,7 @@ impl Spec {
             Self::Payload { .. } | Self::MovingBase { .. } => true,
             _ => {
                 !self.is_extra()
-                    && of_joints::<f64, 8>(self).is_none_or(|effect| effect.is_differentiable())
+                    && of_joints::<f64>(self).is_none_or(|effect| effect.is_differentiable())
             }
         }
     }
@@ -452,25 +452,26 @@ pub(crate) fn parts<R: Real, const V: usize>(
                     })));
                 }
             }
-            at_joint => parts.joints.extend(of_joints::<R, V>(at_joint)),
+            at_joint => parts.joints.extend(of_joints::<R>(at_joint)),
         }
     }
     parts
 }
 
-/// The joint effect that a description stands for; `None` if it acts elsewhere.
-fn of_joints<R: Real, const V: usize>(spec: &Spec) -> Option<Box<dyn AtJoint<R>>> {
+/// The joint effect that a description stands for; `None` if it acts elsewhere. It is compiled for
+/// the largest model alone.
+fn of_joints<R: Real>(spec: &Spec) -> Option<Box<dyn AtJoint<R>>> {
     macro_rules! at_joints {
         ($($name:ident { $($field:ident: $by:ident),* })*) => {
             match spec {
                 Spec::Viscous { coefficients } => {
-                    Box::new(At::<_, V>(Viscous(array(coefficients))))
+                    Box::new(At(Viscous(array(coefficients))))
                 }
                 Spec::ConstantTorque { torque } => {
-                    Box::new(At::<_, V>(ConstantTorque(array(torque))))
+                    Box::new(At(ConstantTorque(array(torque))))
                 }
                 $(Spec::$name { $($field),* } => {
-                    Box::new(At::<_, V>($name { $($field: $by($field)),* }))
+                    Box::new(At($name { $($field: $by($field)),* }))
                 })*
                 _ => return None,
             }

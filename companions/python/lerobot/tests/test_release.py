@@ -137,9 +137,12 @@ def comes_down(bench, posture, gears, ends):
 
 
 def by_ctrl_c(bus, teleoperator):
+    # A shell lets what it starts in the background ignore it.
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
     with pytest.raises(KeyboardInterrupt):
         teleoperator.loop.dynamics = lambda q, qd: signal.raise_signal(signal.SIGINT)
         teleoperator.tick()
+    signal.signal(signal.SIGINT, before)
 
 
 def by_a_bus_that_was_lost(bus, teleoperator):

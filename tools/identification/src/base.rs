@@ -13,8 +13,7 @@ use nalgebra::{DMatrix, DVector};
 use crate::columns::{OF_JOINT, columns};
 use crate::{ExcitationLimits, Friction, Parameter};
 
-/// States whose columns decide which parameters are independent: three rows for each parameter of
-/// any arm here.
+/// States whose columns decide which parameters are independent.
 const STATES: usize = 400;
 /// A column is a combination of others if these leave less than this share of it,
 const INDEPENDENT: f64 = 1e-8;

@@ -96,13 +96,11 @@ impl Robot {
     }
 
     pub fn joints(&self) -> Vec<String> {
-        let bodies = self.imported.tree.bodies.iter();
-        bodies.map(|body| body.joint.clone()).collect()
+        self.imported.tree.bodies.iter().map(|body| body.joint.clone()).collect()
     }
 
     pub fn bodies(&self) -> Vec<String> {
-        let bodies = self.imported.tree.bodies.iter();
-        bodies.map(|body| body.name.clone()).collect()
+        self.imported.tree.bodies.iter().map(|body| body.name.clone()).collect()
     }
 
     /// Its model, the parameters of its bodies, and those of its joints.

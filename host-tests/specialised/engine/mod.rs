@@ -60,7 +60,7 @@ impl Direction for Aslant {
 /// Ulps of full scale that the two may differ by.
 const ULPS: f64 = 4.0;
 
-/// Random states in which two are compared.
+/// Random states in which engine and core are compared.
 const STATES: usize = 2_000;
 
 /// The worst difference over these states and that of all zeros, in ulps of full scale.

@@ -29,7 +29,7 @@ pub trait AtJoint<R: Real> {
     fn is_differentiable(&self) -> bool;
 }
 
-/// One of the library's, for the velocity coordinates of the largest model.
+/// An effect of the library, for the velocity coordinates of the largest model.
 pub struct At<E>(pub E);
 
 // One function for all algorithms and models: the machine code has few copies of what few scenes

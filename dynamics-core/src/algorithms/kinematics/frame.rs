@@ -171,7 +171,7 @@ pub enum AnyFrame {
     LocalWorldAligned,
 }
 
-/// Calls a function of the frame that is chosen.
+/// Calls a method of the frame that was chosen.
 macro_rules! of_chosen {
     ($frame:expr, $function:ident($($argument:expr),*)) => {
         match $frame {

@@ -22,7 +22,7 @@ use crate::kit::error::Result;
 use study::Form::{Own, Part, Whole};
 use study::Held::{Bars, Step};
 use study::Lane::{Host, Target};
-use study::Scope::{Everyday, Full};
+use study::Scope::{Everyday, Full, Named};
 use study::{Study, given};
 
 /// The check of a study that no step measures.
@@ -40,7 +40,7 @@ pub const STUDIES: &[Study] = &[
     Study {
         name: "flags", about: "Measure what other flags of the compiler and profiles cost, rewrite docs/flags.md and a part of the guide's page on firmware",
         files: &["docs/flags.md"],
-        held: Step(Target, Full, "docs/flags.md has today's costs by other flags of the compiler and the functions of core in a tick, the guide those of profiles"),
+        held: Step(Target, Named, "docs/flags.md has today's costs by other flags of the compiler and the functions of core in a tick, the guide those of profiles"),
         form: Part(flags::measure),
     },
     Study {

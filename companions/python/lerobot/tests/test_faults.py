@@ -40,7 +40,7 @@ def ends(teleoperator, error, ticks=200):
 
 def no_torque(bus):
     assert [servo.torque_enabled for servo in bus.servos] == [False] * 6
-    assert [servo.torque(1.0) for servo in bus.servos] == [0.0] * 6
+    assert [servo.motor() for servo in bus.servos] == [(0.0, 0.0)] * 6
     assert [servo.signed(44, 10) for servo in bus.servos] == [0] * 6
 
 
@@ -76,7 +76,7 @@ def test_a_fault_is_named_and_ends_without_torque(warm, name):
     assert released is None or found.released is released
     if name == "without its cable":
         # Nothing reaches its registers any more.
-        assert [servo.torque(1.0) for servo in bus.servos] == [0.0] * 6
+        assert [servo.motor() for servo in bus.servos] == [(0.0, 0.0)] * 6
     elif name != "unplugged":
         no_torque(bus)
 

@@ -4,6 +4,7 @@ import numpy as np
 
 from ..calibration import LOWER, UPPER
 from . import plant
+from .servo import RESISTANCE
 
 STEP = 5e-4
 
@@ -37,10 +38,11 @@ class Arm:
     def advance(self, servos, seconds: float) -> None:
         steps = max(round(seconds / STEP), 1)
         h = seconds / steps
+        constants, volts = np.array([servo.motor() for servo in servos]).T
         for _ in range(steps):
-            motors = np.array([servo.torque(speed) for servo, speed in zip(servos, self.qd, strict=True)])
-            ends = 50.0 * (np.clip(self.q, LOWER, UPPER) - self.q)
-            ends -= np.where(ends != 0.0, 1.0, 0.0) * self.qd
+            motors = constants * (volts - constants * self.qd) / RESISTANCE
+            ends = 50.0 * (np.minimum(np.maximum(self.q, LOWER), UPPER) - self.q)
+            ends -= (ends != 0.0) * self.qd
             torque = motors + ends + self.hand(self.q, self.qd, self.time)
             self.qd = self.qd + h * self.forward(self.q, self.qd, torque)
             self.q = self.q + h * self.qd

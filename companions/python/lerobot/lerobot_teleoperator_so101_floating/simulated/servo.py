@@ -131,10 +131,9 @@ class Servo:
             duty = 0.0
         return max(-limit, min(limit, duty))
 
-    def torque(self, speed: float) -> float:
-        """The motor's torque at the joint, N·m; without power the bridge is open and the motor
-        turns free."""
+    def motor(self) -> tuple[float, float]:
+        """The motor's constant at the joint, N·m/A, and its voltage, V, until a register changes;
+        without power the bridge is open and the motor turns free, as one without a constant."""
         if not self.torque_enabled:
-            return 0.0
-        constant = TORQUE_CONSTANT * self.ratio
-        return constant * (self.duty() * self.supply - constant * speed) / RESISTANCE
+            return 0.0, 0.0
+        return TORQUE_CONSTANT * self.ratio, self.duty() * self.supply

@@ -78,11 +78,13 @@ const tests = {
 
   /// First torque, nothing from elsewhere.
   async opens({ browser, file, say }) {
-    const { page, problems, requests, firstTorque } = await opened(browser, file);
-    say("first torque", `${prompt(firstTorque).toFixed(0)} ms`);
+    const { result, processor, others } = await during(browser.process().pid, () => opened(browser, file));
+    const { page, problems, requests, firstTorque } = result;
+    say("first torque", prompt(firstTorque, processor, !measurable || calm(others)));
     alone(requests);
     await closed(page, problems);
-    refused("prompt", () => prompt(2_500));
+    refused("prompt", () => prompt(2_500, 500, true));
+    refused("prompt, busy", () => prompt(2_500, 4_500, false));
     refused("alone", () => alone(["https://example.org/a.js"]));
   },
 

@@ -10,6 +10,8 @@ mod contact_reaction;
 mod control_loop;
 mod fault_injection;
 mod free_drive;
+#[path = "../../tests/fuzz.rs"]
+mod fuzz;
 mod hand_guiding;
 mod hop;
 mod impedance;

@@ -37,7 +37,9 @@ const PICO_2: &str = "thumbv8m.main-none-eabihf";
 /// The guide's programs, and the servo bus on a serial port of Embassy where the target of its chip
 /// can be had.
 pub fn guide(context: &Context) -> Result<()> {
-    let check = |words: &str| format!("clippy --manifest-path {BOARDS} {words} -- -D warnings");
+    // By the profile and in the folder of the boards' images, whose macros are compiled once then.
+    let place = format!("--manifest-path {BOARDS} --release --target-dir target/boards");
+    let check = |words: &str| format!("clippy {place} {words} -- -D warnings");
     context.cargo(&[check(
         "--package guide-firmware --package nucleo-f446re --package nucleo-g474re --target \
          thumbv7em-none-eabihf",
@@ -46,8 +48,7 @@ pub fn guide(context: &Context) -> Result<()> {
         setup::for_cores(context.options, &[PICO_2], &[])
             .or_else(|_| skip(format!("no {PICO_2}")))?;
     }
-    let pico = check(&format!("--package pico2-embassy --target {PICO_2}"));
-    context.cargo(&[pico]).map(drop)
+    context.cargo(&[check(&format!("--package pico2-embassy --target {PICO_2}"))]).map(drop)
 }
 
 /// The projects that `robot-import new` writes, of a pendulum and of an arm, two libraries for C in

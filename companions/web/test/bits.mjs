@@ -5,15 +5,9 @@ import { join } from "node:path";
 import { gunzipSync } from "node:zlib";
 import { compiled, root } from "../build.mjs";
 
-/// The packages that the tests build together (`SHARED` of xtask): with fewer, crates below them have
-/// fewer features and are compiled once more.
-const SHARED = "--workspace --exclude xtask --exclude telemetry-watch --exclude firmware-demo --exclude lab-firmware --exclude identification --exclude simulation-tests";
-
 /// The lines that the host prints.
 export function hostBits() {
-  const options = { cwd: root, encoding: "utf8", stdio: ["ignore", "pipe", "inherit"] };
-  execFileSync("cargo", ["build", "--quiet", ...SHARED.split(" "), "--bin", "bits"], options);
-  const printed = execFileSync(join(process.env.CARGO_TARGET_DIR ?? join(root, "target"), "debug/bits"), options);
+  const printed = execFileSync("cargo", ["run", "--quiet", "--package", "host-reports", "--bin", "bits"], { cwd: root, encoding: "utf8", stdio: ["ignore", "pipe", "inherit"] });
   return printed.split("\n").filter((line) => line.startsWith("bits "));
 }
 

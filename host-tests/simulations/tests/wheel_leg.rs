@@ -7,10 +7,10 @@ use firmware_demo::scenes::wheel_leg_balance::{Balance, Less, Order, Pitch};
 use host_tests::everyday_or_full;
 use motion_control::{Fault, Mode, TablePlace};
 
-/// The runs; the claim is that of a thousand, which `BALANCE_RUNS=1000` names.
+/// The number of runs. The claim is that of a thousand, which `BALANCE_RUNS=1000` asks for.
 fn runs() -> u32 {
-    let runs = std::env::var("BALANCE_RUNS").ok().and_then(|n| n.parse().ok());
-    runs.unwrap_or(everyday_or_full(100, 200))
+    let named = std::env::var("BALANCE_RUNS");
+    named.map_or(everyday_or_full(100, 200), |runs| runs.parse().expect("BALANCE_RUNS is a number"))
 }
 /// The runs with harder pushes.
 const PUSHED: u32 = 50;

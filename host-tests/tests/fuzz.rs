@@ -5,6 +5,7 @@ use host_tests::fuzz::{BYTES_PER_FRAME, can_frames, controller, description, dyn
 use host_tests::random::random_numbers;
 use proptest::prelude::RngExt;
 
+/// A number of inputs: few without optimisation, and many in `simulation-tests`.
 const fn few_or_many(few: usize, many: usize) -> usize {
     if cfg!(debug_assertions) { few } else { many }
 }
@@ -41,7 +42,7 @@ fn no_frame_is_mistaken_for_another() {
 #[test]
 fn no_frame_of_a_drive_says_or_does_what_it_should_not() {
     let rng = &mut random_numbers();
-    // Of many, 10⁷ replies and as many commands.
+    // Many are 10⁷ replies and as many commands.
     let mut bytes = vec![0; 1_000 * BYTES_PER_FRAME];
     for _ in 0..few_or_many(100, 10_000) {
         rng.fill(&mut bytes[..]);

@@ -47,8 +47,8 @@ export function ownBits(here, there) {
   return here.length;
 }
 
-/// From opening to the first torque, ms, on the wall of a calm machine; of a busy one the processor
-/// time, of two cores.
+/// The time from opening to the first torque, ms: on a calm machine by the clock, on a busy one the
+/// processor time of all of the browser's processes, on two cores.
 export function prompt(wall, processor, held) {
   const [found, most] = held ? [wall, BARS.firstTorque] : [processor, 2 * BARS.firstTorque];
   miss(found <= most, `the first torque after ${found} ms${held ? "" : " of processor time"}, at most ${most}`);

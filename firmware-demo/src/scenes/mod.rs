@@ -1,6 +1,6 @@
 //! The data sheets of the scenes: robot, effects, trajectory and controller of each. The bin of the
-//! same name runs it, and tests run it on devices that can be bent. Those that no other board, core
-//! or page runs are compiled with that board's feature alone.
+//! same name runs it, and tests run it on devices that can be bent. Scenes that run on the
+//! emulated board alone need its feature.
 
 #[cfg(feature = "netduinoplus2")]
 pub mod delta_pick;

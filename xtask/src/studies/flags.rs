@@ -226,7 +226,7 @@ mod tests {
         }
     }
 
-    /// A full run has no time for the page, which is stale if what `costs` measures has changed.
+    /// No full run measures the page anew: it is out of date if the costs of the same calls differ.
     #[test]
     fn the_fast_line_is_that_of_the_page_of_costs() {
         let [flags, costs] = ["docs/flags.md", "docs/costs.md"].map(read);

@@ -23,7 +23,7 @@ use crate::kit::{docs, output};
 use crate::studies::budgets;
 use crate::studies::study::Bench;
 use boards::Board;
-pub use list::{CORES, Core, without_home};
+pub use list::{CORES, Core, short_paths};
 use page::{PAGE, rows_of};
 use placed::Placed;
 use run::{Row, Torques};

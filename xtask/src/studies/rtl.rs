@@ -18,7 +18,7 @@ use crate::kit::qemu::Qemu;
 use crate::kit::shell;
 use crate::kit::toolchain::{RELEASE, Toolchain};
 use crate::kit::workspace::Workspace;
-use crate::studies::cores::{CORES, Core, without_home};
+use crate::studies::cores::{CORES, Core, short_paths};
 use crate::studies::study::{Bench, Found};
 use row::{Row, Said, Worst};
 use simulator::{LATENCIES, Simulators};
@@ -148,7 +148,7 @@ impl Build {
         for script in [&*format!("machines/{}.x", core.machine), "link.x"] {
             flags.push(format!("-Clink-arg=-Tfirmware-demo/cores/{script}"));
         }
-        flags.extend(without_home());
+        flags.extend(short_paths(workspace));
         let target = workspace.target.join(format!("gates/{self:?}").to_lowercase());
         let mut command = workspace.cargo(verb);
         command

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::list::without_home;
+use super::list::short_paths;
 use super::walk;
 use crate::kit::bars::{self, Bars, IMAGE};
 use crate::kit::callgraph::placed;
@@ -99,14 +99,11 @@ fn read(workspace: &Workspace, bin: &Bin) -> Result<Board> {
         .arg(&target)
         .args(["--profile", bin.profile, "--package", bin.package])
         .args(["--bin", bin.name, "--target", bin.target]);
-    if let Some(flag) = without_home() {
-        // Beside those of `.cargo/config.toml`.
-        let flags = format!("target.{:?}.rustflags=['{flag}']", bin.target);
-        command.args(["--config", &flags]);
-    }
+    // Beside those of `.cargo/config.toml`.
+    let flags = format!("target.{:?}.rustflags={:?}", bin.target, short_paths(workspace));
+    command.args(["--config", &flags]);
     shell::capture(&mut command)?;
-    let elf = target.join(bin.target).join(bin.profile);
-    let image = Image::read(&elf.join(bin.name))?;
+    let image = Image::read(&target.join(bin.target).join(bin.profile).join(bin.name))?;
     let address = |name: &str| {
         let is_it = |own: &String| own == name || (bin.is_polled && own.contains(name));
         let mut functions = image.functions.iter();

@@ -1,7 +1,8 @@
 //! The cores: which machine of QEMU has one, and how its firmware is built.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
+use crate::kit::workspace::Workspace;
 use crate::kit::{shell, system, toolchain};
 
 #[derive(Debug)]
@@ -80,12 +81,14 @@ pub fn needed() -> (Vec<&'static str>, Vec<&'static str>) {
     (targets.map(|core| core.target).collect(), packages.map(|(_, package)| package).collect())
 }
 
-/// The flag of the compiler that shortens paths of the registry, which the messages of panics name:
-/// flash would depend on who builds.
-pub fn without_home() -> Option<String> {
+/// The flags of the compiler that shorten paths of this workspace and of the registry, which the
+/// messages of panics name: flash would depend on who builds, and where.
+pub fn short_paths(workspace: &Workspace) -> Vec<String> {
     let home = std::env::var_os("CARGO_HOME").map(PathBuf::from);
-    let home = home.or_else(|| Some(std::env::home_dir()?.join(".cargo")))?;
-    Some(format!("--remap-path-prefix={}=cargo", home.display()))
+    let home = home.or_else(|| Some(std::env::home_dir()?.join(".cargo")));
+    let shorter = |path: &Path, by| format!("--remap-path-prefix={}={by}", path.display());
+    let home = home.map(|home| shorter(&home, "cargo"));
+    [shorter(&workspace.root, "")].into_iter().chain(home).collect()
 }
 
 #[cfg(test)]

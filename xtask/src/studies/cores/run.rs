@@ -93,7 +93,7 @@ pub fn build(workspace: &Workspace, core: &Core) -> Result<PathBuf> {
     for script in [format!("machines/{}.x", core.machine), "link.x".into()] {
         flags.push(format!("-Clink-arg=-T../{PACKAGE}/{script}"));
     }
-    flags.extend(list::without_home());
+    flags.extend(list::short_paths(workspace));
     // Apart from other firmware of the same targets, whose flags differ.
     let target = workspace.target.join(PACKAGE);
     let mut command = workspace.cargo("build");

@@ -94,7 +94,7 @@ impl Trial {
             .args(arguments)
             .current_dir(&self.folder)
             .env("CARGO_TARGET_DIR", &self.built)
-            // Nobody debugs them, and the compiler takes a fifth less.
+            // Nobody debugs them.
             .env("CARGO_PROFILE_DEV_DEBUG", "false")
             .env_remove("RUSTFLAGS")
             .env_remove("CARGO_ENCODED_RUSTFLAGS");

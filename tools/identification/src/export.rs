@@ -1,33 +1,10 @@
-//! An excitation as a table and as source for firmware.
+//! An excitation as source for firmware.
 
-use std::fmt::{Display, Write as _};
+use std::fmt::Display;
 
 use crate::FourierMotion;
 
 impl<const V: usize> FourierMotion<V> {
-    /// The coefficients as CSV: joint, harmonic, sine, cosine; those of harmonic 0 are the centre,
-    /// as a cosine, and the period is in the first line.
-    ///
-    /// ```
-    /// use identification::FourierMotion;
-    /// let swing = FourierMotion { period: 2.0, centre: [0.5], sines: vec![[0.0]], cosines: vec![[-0.2]] };
-    /// assert_eq!(swing.csv(), "# period 2 s\njoint,harmonic,sine,cosine\n0,0,0,0.5\n0,1,0,-0.2\n");
-    /// ```
-    #[must_use]
-    pub fn csv(&self) -> String {
-        let mut csv = format!("# period {} s\njoint,harmonic,sine,cosine\n", self.period);
-        for joint in 0..V {
-            let mut line = |h: usize, a: f64, b: f64| {
-                let _ = writeln!(csv, "{joint},{h},{a},{b}");
-            };
-            line(0, 0.0, self.centre[joint]);
-            for (h, (a, b)) in self.sines.iter().zip(&self.cosines).enumerate() {
-                line(h + 1, a[joint], b[joint]);
-            }
-        }
-        csv
-    }
-
     /// A Rust file for firmware: a `Reference` in f32 with these coefficients as constants, without
     /// heap or table, for a tick of this length, s, and this many periods.
     ///

@@ -354,12 +354,14 @@ impl Fit {
     }
 }
 
+/// The sum of the products of residuals with later ones.
+pub(crate) fn lagged(residuals: &[f64], lag: usize) -> f64 {
+    residuals.iter().zip(residuals.iter().skip(lag)).map(|(a, b)| a * b).sum()
+}
+
 /// By how much correlation multiplies the variance of a mean of residuals, at least one.
 fn inflation(residuals: &[f64], lags: usize) -> f64 {
-    let product = |lag: usize| -> f64 {
-        let later = residuals.iter().skip(lag);
-        residuals.iter().zip(later).map(|(a, b)| a * b).sum()
-    };
+    let product = |lag| lagged(residuals, lag);
     let all = product(0).max(1e-300);
     let weight = |lag: usize| 1.0 - lag as f64 / (lags + 1) as f64;
     let sum: f64 = (1..=lags).map(|lag| weight(lag) * product(lag) / all).sum();
@@ -368,7 +370,7 @@ fn inflation(residuals: &[f64], lags: usize) -> f64 {
 
 /// The filtered rows of all joints, and those of the prior below them. Those of a joint, which have
 /// one weight, are reduced to the factor R of [rows, torques] = Q R: sums of squares remain.
-struct Equations {
+pub(crate) struct Equations {
     rows: DMatrix<f64>,
     right: DMatrix<f64>,
     /// Rows of a joint, and those before.
@@ -377,7 +379,7 @@ struct Equations {
 }
 
 impl Equations {
-    fn of<const V: usize>(reduced: &Reduced<V>, target: &[f64]) -> Self {
+    pub(crate) fn of<const V: usize>(reduced: &Reduced<V>, target: &[f64]) -> Self {
         let (count, p) = (reduced.times.len(), target.len());
         let each = count.min(p + 1);
         let mut rows = DMatrix::zeros(V * each + p, p);
@@ -395,7 +397,7 @@ impl Equations {
     }
 
     /// With the noise of each joint, and the deviation of each prior.
-    fn solve(&self, noise: &[f64], prior: &[f64]) -> Solved {
+    pub(crate) fn solve(&self, noise: &[f64], prior: &[f64]) -> Solved {
         let each = self.each;
         Solved::of(&self.rows, &self.right, |at| match noise.get(at / each) {
             Some(noise) => noise * noise,

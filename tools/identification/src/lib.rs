@@ -5,7 +5,7 @@
 //! |---|---|
 //! | which parameters the torques depend on | [`BaseModel`] |
 //! | a motion that shows all of them, chosen by condition number | [`Search`], [`Excitation`] |
-//! | into the firmware, or as a controller's reference | [`FourierMotion::rust_source`], [`FourierMotion::csv`], [`FourierMotion::reference`] |
+//! | into the firmware, or as a controller's reference | [`FourierMotion::rust_source`], [`FourierMotion::reference`] |
 //! | what was measured, in whole periods | [`Recording`] |
 //! | base parameters with standard deviations | [`Batch`], [`Identified`] |
 //! | the same from ticks of any motion | [`TickRecording`], [`Fit`], [`Fitted`] |

@@ -75,15 +75,11 @@ pub(crate) type Base<const V: usize> =
 
 /// The results from a recording and the time of its torques.
 pub(crate) struct Attempt<const V: usize> {
-    pub arm: Base<V>,
-    pub joints: [OfOneJoint; V],
-    pub nominal: Vec<f64>,
-    pub known: Vec<bool>,
-    pub fit: Fit,
-    pub found: Fitted<V>,
+    pub estimate: Estimate<V>,
     pub set: PhysicalSet<V, V>,
-    /// The mean squares of what the set leaves of the torques, relative to the joints' largest
-    /// torques, summed.
+    /// The torques of each row that the set leaves, N·m or N.
+    pub left: Vec<[f64; V]>,
+    /// Their mean squares relative to the joints' largest torques, summed.
     pub residual: f64,
     /// The speed of Stribeck's effect, rad/s or m/s.
     pub stribeck: Option<f64>,
@@ -188,16 +184,16 @@ impl Task<'_> {
             Some(like) => like.stribeck,
             None => self.stribeck([whole, part])?,
         };
-        let delay = like.map(|like| like.fit.delay);
+        let delay = like.map(|like| like.estimate.fit.delay);
         let estimate = self.estimate([whole, part], &options.effects, speed, delay)?;
-        let Estimate { arm, bodies, joints, nominal, known, fit, found } = estimate;
-        let largest = limits(self.robot, self.path, whole)?.torque;
-        let believed = believed(&arm, &found, &nominal, &joints, &options.effects);
+        let Estimate { arm, bodies, joints, nominal, known, fit, found } = &estimate;
+        let largest = arm.limits.torque;
+        let believed = believed(arm, found, nominal, joints, &options.effects);
         let mut set = found
-            .physical(&arm, &bodies, &believed, BELIEVED)
+            .physical(arm, bodies, &believed, BELIEVED)
             .map_err(|source| self.failed(source))?;
         for (j, joint) in set.joints.iter_mut().enumerate() {
-            let own = own(&arm, j, OfJoint::Offset).filter(|&base| !known[base]);
+            let own = own(arm, j, OfJoint::Offset).filter(|&base| !known[base]);
             let is_shown = own.is_some_and(|base| {
                 found.base[base].abs() > SHOWN * found.deviations[base]
                     && found.base[base].abs() > LEAST_OFFSET * largest[j]
@@ -208,16 +204,15 @@ impl Task<'_> {
         }
         let after = arm.of_all(&set.bodies, &set.joints);
         let compared = fit
-            .compare(&arm, part, &[(&after[..], possible(&found))])
+            .compare(arm, part, &[(&after[..], possible(found))])
             .map_err(|source| self.failed(source))?;
         let pairs = compared.measured.iter().zip(&compared.modelled[0]);
-        let square = |(measured, modelled): (&[f64; V], &[f64; V])| -> f64 {
-            let share = |j: usize| ((measured[j] - modelled[j]) / largest[j]).powi(2);
-            (0..V).map(share).sum()
-        };
-        let residual = pairs.map(square).sum::<f64>() / compared.measured.len() as f64;
-        let stribeck = speed;
-        Ok(Attempt { arm, joints, nominal, known, fit, found, set, residual, stribeck })
+        let left: Vec<[f64; V]> =
+            pairs.map(|(a, b)| std::array::from_fn(|j| a[j] - b[j])).collect();
+        let shares = left.iter().flat_map(|left| left.iter().zip(&largest));
+        let squares: f64 = shares.map(|(left, largest)| (left / largest).powi(2)).sum();
+        let residual = squares / left.len() as f64;
+        Ok(Attempt { estimate, set, left, residual, stribeck: speed })
     }
 }
 

@@ -5,7 +5,7 @@
 
 use crate::{OfJoint, Parameter, TickRecording};
 
-use super::attempt::{Attempt, Task, own};
+use super::attempt::{Attempt, Estimate, Task, own};
 pub use super::mistake::Mistake;
 
 /// A physical set at more than this distance from the estimate, in standard deviations, does not
@@ -22,35 +22,16 @@ const EXPLAINED_BY_ZERO: f64 = 0.85;
 const OTHER_UNIT: f64 = 5.0;
 /// A friction below zero by this number of standard deviations indicates a reversed sign.
 const REVERSED: f64 = 3.0;
-/// The distance of the three points of a parabola, rad or m.
-const SHIFT: f64 = 0.05;
+/// The longest step of a zero, rad or m, and the largest number of steps.
+const FARTHEST: f64 = 0.2;
+const STEPS: usize = 4;
 /// The smallest and the largest shift of a zero that is reported, rad or m.
 const SHIFTS: [f64; 2] = [0.01, 0.5];
-/// The largest number of parabolas for the zero of a joint.
-const PARABOLAS: usize = 4;
 /// The search for a zero ends if more than this share of the residuals remains.
 const MENDED: f64 = 0.8;
 
-/// The corrections of a recording, joint by joint.
-#[derive(Clone, Copy)]
-struct Correction<const V: usize> {
-    torque: [f64; V],
-    position: [f64; V],
-    shift: [f64; V],
-}
-
-impl<const V: usize> Correction<V> {
-    const NONE: Self = Self { torque: [1.0; V], position: [1.0; V], shift: [0.0; V] };
-
-    fn of(&self, recording: &TickRecording<V>) -> TickRecording<V> {
-        recording.map(|q, tau| {
-            (
-                std::array::from_fn(|j| self.position[j] * q[j] + self.shift[j]),
-                std::array::from_fn(|j| self.torque[j] * tau[j]),
-            )
-        })
-    }
-}
+/// What positions and torques of a tick become.
+type Changed<'a, const V: usize> = &'a dyn Fn([f64; V], [f64; V]) -> ([f64; V], [f64; V]);
 
 /// The mistake that explains an estimate which no robot has, or residuals that the model leaves, if
 /// one does.
@@ -61,19 +42,19 @@ pub(crate) fn explains<const V: usize>(
     attempt: &Attempt<V>,
     names: &[String],
 ) -> Option<Mistake> {
-    let after = |correction: Correction<V>| {
-        let [whole, part] = [whole, part].map(|recording| correction.of(recording));
-        let corrected = task.attempt(&whole, &part, Some(attempt));
+    let after = |to: Changed<'_, V>| {
+        let [whole, part] = [whole, part].map(|recording| recording.map(to));
         // Nothing is explained by a zero that leads beyond the joint's limits.
-        corrected.map_or(f64::INFINITY, |corrected| corrected.residual)
+        task.attempt(&whole, &part, Some(attempt)).ok().map(|corrected| (part, corrected))
     };
+    let left =
+        |to: Changed<'_, V>| after(to).map_or(f64::INFINITY, |(_, corrected)| corrected.residual);
     let before = attempt.residual;
     let factor = unit(attempt);
-    if !(OTHER_UNIT.recip()..=OTHER_UNIT).contains(&factor) {
-        let same = Correction { torque: [1.0 / factor; V], ..Correction::NONE };
-        if after(same) < 2.0 * before {
-            return Some(Mistake::Unit { factor });
-        }
+    if !(OTHER_UNIT.recip()..=OTHER_UNIT).contains(&factor)
+        && left(&|q, tau| (q, tau.map(|tau| tau / factor))) < 2.0 * before
+    {
+        return Some(Mistake::Unit { factor });
     }
     let reversed = reversed(attempt);
     let is_possible = attempt.set.misfit < IMPOSSIBLE && before < UNEXPLAINED.powi(2);
@@ -86,71 +67,63 @@ pub(crate) fn explains<const V: usize>(
     };
     let mut tried = Vec::new();
     for joints in each {
-        let signs = std::array::from_fn(|j| if joints.contains(&j) { -1.0 } else { 1.0 });
-        let joints: Vec<String> = joints.iter().map(|&j| names[j].clone()).collect();
-        let torque = Correction { torque: signs, ..Correction::NONE };
-        let position = Correction { position: signs, ..Correction::NONE };
-        let named = joints.clone();
-        tried.push((after(torque), Mistake::TorqueSign { joints }));
-        tried.push((after(position), Mistake::PositionSign { joints: named }));
+        let turned = |x: [f64; V]| -> [f64; V] {
+            std::array::from_fn(|j| if joints.contains(&j) { -x[j] } else { x[j] })
+        };
+        let named: Vec<String> = joints.iter().map(|&j| names[j].clone()).collect();
+        let torque = left(&|q, tau| (q, turned(tau)));
+        tried.push((torque, Mistake::TorqueSign { joints: named.clone() }));
+        let position = left(&|q, tau| (turned(q), tau));
+        tried.push((position, Mistake::PositionSign { joints: named }));
     }
-    tried.extend((0..V).filter_map(|joint| zero(joint, names, before, &after)));
+    for (joint, step) in attempt.shifts(part).into_iter().flatten().enumerate() {
+        let named = |shift| Mistake::Zero { joint: names[joint].clone(), shift };
+        tried.extend(zero(joint, step, before, &after).map(|(left, shift)| (left, named(shift))));
+    }
     let best = tried.into_iter().min_by(|(a, _), (b, _)| a.total_cmp(b));
-    let most = |mistake: &Mistake| match mistake {
-        Mistake::Zero { .. } => EXPLAINED_BY_ZERO,
-        _ => EXPLAINED,
-    };
-    best.filter(|(left, mistake)| *left < most(mistake) * before).map(|(_, mistake)| mistake)
+    let (left, mistake) = best?;
+    let is_zero = matches!(mistake, Mistake::Zero { .. });
+    (left < before * if is_zero { EXPLAINED_BY_ZERO } else { EXPLAINED }).then_some(mistake)
 }
 
-/// The shift of a joint's zero that leaves the least residuals: the minimum of the parabola through
-/// three of them.
+/// The shift of a joint's zero that leaves the least residuals, and these, by steps of Gauss and
+/// Newton of which this is the first.
 fn zero<const V: usize>(
     joint: usize,
-    names: &[String],
+    mut step: f64,
     before: f64,
-    after: &impl Fn(Correction<V>) -> f64,
-) -> Option<(f64, Mistake)> {
-    let at = |shift: f64| {
-        let mut correction = Correction::NONE;
-        correction.shift[joint] = shift;
-        after(correction)
-    };
+    after: &impl Fn(Changed<'_, V>) -> Option<(TickRecording<V>, Attempt<V>)>,
+) -> Option<(f64, f64)> {
     let (mut shift, mut left) = (0.0, before);
-    for _ in 0..PARABOLAS {
-        let [back, ahead] = [shift - SHIFT, shift + SHIFT].map(at);
-        let bend = back - 2.0 * left + ahead;
-        let change = 0.5 * SHIFT * (back - ahead) / bend;
-        // If the residuals are no parabola, or one side is beyond the limits, the better side is
-        // tried.
-        let change = match bend > 0.0 && change.is_finite() {
-            true => change.clamp(-2.0 * SHIFT, 2.0 * SHIFT),
-            false => SHIFT * if back < ahead { -1.0 } else { 1.0 },
-        };
-        let next = at(shift + change);
-        if next >= left {
+    for _ in 0..STEPS {
+        let to = shift + step.clamp(-FARTHEST, FARTHEST);
+        let corrected = after(&|mut q, tau| {
+            q[joint] += to;
+            (q, tau)
+        });
+        let Some((part, attempt)) = corrected.filter(|(_, found)| found.residual < left) else {
             break;
-        }
-        (shift, left) = (shift + change, next);
-        if change.abs() < 0.1 * SHIFT || left > MENDED * before {
+        };
+        (shift, left) = (to, attempt.residual);
+        step = attempt.shifts(&part).ok()?[joint];
+        if step.abs() < 0.1 * SHIFTS[0] || left > MENDED * before {
             break;
         }
     }
     let [least, most] = SHIFTS;
-    let joint = names[joint].clone();
-    (least..=most).contains(&shift.abs()).then_some((left, Mistake::Zero { joint, shift }))
+    (least..=most).contains(&shift.abs()).then_some((left, shift))
 }
 
 /// The ratio of the estimated first moments of mass to the description's, by least squares
 /// relative to their torques.
 fn unit<const V: usize>(attempt: &Attempt<V>) -> f64 {
     let (mut product, mut square) = (0.0, 0.0);
-    for (base, scale) in attempt.arm.scales().into_iter().enumerate() {
-        let (_, own) = attempt.arm.terms(base)[0];
+    let Estimate { arm, found, nominal, .. } = &attempt.estimate;
+    for (base, scale) in arm.scales().into_iter().enumerate() {
+        let (_, own) = arm.terms(base)[0];
         let is_moment = matches!(own, Parameter::Body { place: 1..=3, .. });
-        if is_moment && attempt.found.is_determined(base) {
-            let [found, nominal] =
-                [&attempt.found.base, &attempt.nominal].map(|all| scale * all[base]);
+        if is_moment && found.is_determined(base) {
+            let [found, nominal] = [&found.base, nominal].map(|all| scale * all[base]);
             product += found * nominal;
             square += nominal * nominal;
         }
@@ -164,15 +137,16 @@ fn unit<const V: usize>(attempt: &Attempt<V>) -> f64 {
 
 /// The joints whose friction would drive them.
 fn reversed<const V: usize>(attempt: &Attempt<V>) -> Vec<usize> {
-    let (found, scales) = (&attempt.found, attempt.arm.scales());
+    let Estimate { arm, found, .. } = &attempt.estimate;
+    let scales = arm.scales();
     let is_negative = |joint: usize, of: OfJoint| {
-        let base = own(&attempt.arm, joint, of);
+        let base = own(arm, joint, of);
         base.is_some_and(|base| found.base[base] < -REVERSED * found.deviations[base])
     };
     let drives = |joint: usize| {
         // One of the two is negative in a recording whose friction is of another kind.
         let kinds = [OfJoint::Viscous, OfJoint::Coulomb];
-        let torque = |of| own(&attempt.arm, joint, of).map(|base| found.base[base] * scales[base]);
+        let torque = |of| own(arm, joint, of).map(|base| found.base[base] * scales[base]);
         let sum: f64 = kinds.into_iter().filter_map(torque).sum();
         kinds.into_iter().any(|of| is_negative(joint, of)) && sum < 0.0
     };

@@ -37,6 +37,7 @@ pub mod robot;
 pub mod run;
 #[cfg(feature = "files")]
 mod table;
+mod zeros;
 
 /// The most joints that a robot may have: its size is known to the compiler, which takes seconds for
 /// each. Without files, as in a wheel, they are those of an arm with a gripper.

@@ -7,7 +7,9 @@ use dynamics_core::effects::smooth_sign;
 use dynamics_core::model::BodyInertia;
 use dynamics_core::spatial::SpatialInertia;
 
-use super::attempt::{Attempt, Task, bell, own, possible};
+use crate::fit::lagged;
+
+use super::attempt::{Attempt, Estimate, Task, bell, own, possible};
 pub use super::attempt::{JointEffect, Options};
 use super::error::{Error, Result};
 use super::kinds;
@@ -82,7 +84,8 @@ fn of_size<const V: usize>(
     let attempt = task.attempt(&whole, &fitted_part, None)?;
     let names = robot.joints();
     let mistake = mistakes::explains(&task, &whole, &fitted_part, &attempt, &names);
-    let Attempt { arm, joints, nominal, known, fit, found, set, .. } = &attempt;
+    let Attempt { estimate, set, .. } = &attempt;
+    let Estimate { arm, joints, nominal, known, fit, found, .. } = estimate;
     let pasted = set.joints;
     let after = arm.of_all(&set.bodies, &pasted);
     let gears = possible(found);
@@ -210,9 +213,7 @@ fn part<const V: usize>(compared: &Comparison<V>, joint: usize) -> Part {
 fn is_noise<const V: usize>(compared: &Comparison<V>, joint: usize) -> bool {
     let pairs = compared.measured.iter().zip(&compared.modelled[1]);
     let residuals: Vec<f64> = pairs.map(|(a, b)| a[joint] - b[joint]).collect();
-    let product = |lag: usize| -> f64 {
-        residuals.iter().zip(residuals.iter().skip(lag)).map(|(a, b)| a * b).sum()
-    };
+    let product = |lag| lagged(&residuals, lag);
     let (all, count) = (product(0).max(1e-300), residuals.len() as f64);
     LAGS.map(product).iter().all(|own| own.abs() < all * CORRELATED.max(4.0 / count.sqrt()))
 }

@@ -140,11 +140,3 @@ fn the_search_keeps_to_clear_configurations() {
     assert!(states(&found.motion, SEARCH.samples as u32).iter().all(|state| clear(&state.q)));
     assert!(brief.run(&*ARM, |_| false, |_| ()).is_none());
 }
-
-#[test]
-fn the_coefficients_of_the_table_are_those_of_the_motion() {
-    let csv = CHOSEN.csv();
-    assert_eq!(csv.lines().count(), 2 + 6 * (1 + SEARCH.harmonics));
-    let third = format!("3,2,{},{}", CHOSEN.sines[1][3], CHOSEN.cosines[1][3]);
-    assert!(csv.lines().any(|line| line == third), "{csv}");
-}

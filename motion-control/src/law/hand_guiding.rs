@@ -160,6 +160,38 @@ impl<R: Real, const V: usize, const CIRCLES: u128> HandGuiding<R, V, CIRCLES> {
         Ok(())
     }
 
+    /// Replaces the configuration between two ticks, such as by one of
+    /// [`HandGuidingConfig::from_limits`] with the limits that the supervisor takes from
+    /// [`MotionController::set_limits`](crate::MotionController::set_limits): walls, speed limit
+    /// and damping then hold at once. Locked joints stay where they are held. Returns whether it
+    /// is another one than before, whose torque goes on from the present one by
+    /// [`HandOver::begin`](crate::HandOver::begin).
+    ///
+    /// # Errors
+    /// [`ConfigError`], as [`Self::try_new`] and [`Self::on_circles`]; nothing is changed then.
+    ///
+    /// ```
+    /// # use motion_control::{HandGuiding, HandGuidingConfig, HandOver, SafetyLimits};
+    /// # let limits = SafetyLimits { torque: [60.0], rate: [60.0], speed: [3.0], lower: [-2.0], upper: [2.0] };
+    /// let config = |limits| HandGuidingConfig::from_limits(limits, &[2.0_f64], 30.0);
+    /// let mut guiding = HandGuiding::try_new(config(limits)?)?;
+    /// let mut hand_over = HandOver::<f64, 1>::try_new(50)?;
+    /// // The door is open: controller.set_limits(&slow, 2.0)? in each tick, and
+    /// let slow = limits.with_speed_share(0.2);
+    /// if guiding.set_config(config(slow)?)? {
+    ///     hand_over.begin();
+    /// }
+    /// assert_eq!(guiding.set_config(config(slow)?), Ok(false)); // in the next tick
+    /// # Ok::<(), motion_control::ConfigError>(())
+    /// ```
+    pub fn set_config(&mut self, config: HandGuidingConfig<R, V>) -> Result<bool, ConfigError> {
+        let HandGuiding { config, rest_inv, .. } = HandGuiding::try_new(config)?;
+        Circles::from_bits(CIRCLES).check_ranges(&config.lower, &config.upper)?;
+        let changed = self.config != config;
+        (self.config, self.rest_inv) = (config, rest_inv);
+        Ok(changed)
+    }
+
     /// The torques to add to the compensation of gravity, N·m or N: finite whatever the arguments
     /// are.
     ///

@@ -449,8 +449,9 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
     /// In each call a limit of speed falls by `deceleration` (rad/s² or m/s², which may be infinite)
     /// times a tick, and rises at once; an infinite one begins at twice the estimated speed. An arm
     /// that decelerates as fast has no fault, one that does not has [`Fault::Speed`]: lead the
-    /// motion down at no less than this deceleration. A [`BackOff`](crate::BackOff) that has begun
-    /// keeps its bounds.
+    /// motion down at no less than this deceleration, and a hand by
+    /// [`HandGuiding::set_config`](crate::HandGuiding::set_config). A [`BackOff`](crate::BackOff)
+    /// that has begun keeps its bounds.
     ///
     /// # Errors
     /// [`ConfigError`]: limits or a deceleration that allow nothing, and a range that a joint is

@@ -76,6 +76,17 @@ fn each_joint_has_its_own_walls_and_its_own_lock() {
     // At a wall a locked joint has both. There is nothing to lock of the other one.
     guiding.lock(&[true, false], &[0.5, f64::NAN]).expect("finite");
     near(at(&guiding, [1.51, 0.0], none), [-5.0 - 1.0, 0.0]);
+    // Other walls, at which it stays locked.
+    let nearer = HandGuidingConfig { upper: [1.4, 2.5], ..two() };
+    let same = [nearer, nearer].map(|config| guiding.set_config(config));
+    assert_eq!(same, [Ok(true), Ok(false)]);
+    near(at(&guiding, [1.51, 0.0], none), [-5.0 - 5.0, 0.0]);
+    let before = guiding;
+    assert!(guiding.set_config(HandGuidingConfig { share: 1.0, ..two() }).is_err());
+    let mut circles = guiding.on_circles::<0b10>().expect("within a turn");
+    let turns = HandGuidingConfig { upper: [1.5, 7.0], ..two() };
+    assert!(circles.set_config(turns).is_err());
+    assert_eq!((guiding, circles), (before, before.on_circles().expect("as before")));
 }
 
 #[test]

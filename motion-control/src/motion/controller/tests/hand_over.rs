@@ -5,6 +5,7 @@ use crate::tests::{motion_limits, stop};
 
 const INERTIA: f64 = 2.0;
 const FRICTION: f64 = 1.5;
+const BANDWIDTH: f64 = 250.0;
 const WAY: [MotionLimits<f64>; 1] = [motion_limits(1.0, 4.0)];
 const LIMITS: SafetyLimits<f64, 1> = safety_limits([60.0], [60.0], [3.0], [-2.0], [2.0]);
 type Controller = MotionController<f64, 1, CurrentTick>;
@@ -15,6 +16,10 @@ fn gravity(q: f64) -> f64 {
 
 fn friction(qd: f64) -> f64 {
     FRICTION * (qd / 0.02).clamp(-1.0, 1.0)
+}
+
+fn guided(limits: SafetyLimits<f64, 1>) -> HandGuidingConfig<f64, 1> {
+    HandGuidingConfig::from_limits(limits, &[INERTIA], BANDWIDTH).expect("good limits")
 }
 
 /// A joint with its loop.
@@ -31,15 +36,14 @@ struct Bench {
 
 impl Bench {
     fn new(ticks: u32) -> Self {
-        let limits = HandGuidingConfig::from_limits(LIMITS, &[INERTIA], 250.0);
         Self {
             controller: Controller::new(controlled(
                 LIMITS,
                 TICK,
                 [RIDE, 200, 300],
-                [250.0, 25.0, 0.1],
+                [BANDWIDTH, 25.0, 0.1],
             )),
-            guiding: HandGuiding::try_new(limits.expect("good limits")).expect("a good one"),
+            guiding: HandGuiding::try_new(guided(LIMITS)).expect("a good one"),
             hand_over: HandOver::try_new(ticks).expect("ticks"),
             q: 0.2,
             qd: 0.0,
@@ -59,7 +63,7 @@ impl Bench {
     }
 
     /// A tick in which a hand pushes.
-    fn guide(&mut self, hand: f64) {
+    fn guide(&mut self, hand: f64) -> Option<Fault> {
         let Self { guiding, hand_over, q, .. } = self;
         let command = self.controller.tick(Ok(&[*q]), &State::at([*q]), |_, estimate| {
             let (at, qd) = (estimate.q[0], estimate.qd[0]);
@@ -67,6 +71,7 @@ impl Bench {
             hand_over.torque(&[gravity(at) + guide])
         });
         self.advance(command, hand);
+        command.status.fault
     }
 
     /// A tick of a motion, or of a hold.
@@ -132,4 +137,40 @@ fn guiding_holding_and_two_motions_follow_each_other_without_a_step_of_the_torqu
     let [with, without] = [50, 1].map(greatest_step);
     println!("steps of {with} and {without} N·m");
     assert!(with < 3.0 && without > 30.0, "{with} {without} N·m");
+}
+
+/// A hand pushes a joint to its speed, and then both the supervisor and the guiding have a fifth of
+/// the speed and less range. The greatest change of the torque in a tick, the speed after 0.6 s in
+/// which the hand pushes on with half of its force, the way to the new end of travel, and the fault.
+fn slowed(ticks: u32, guiding: bool) -> ([f64; 3], Option<Fault>) {
+    let mut bench = Bench::new(ticks);
+    (bench.q, bench.torque) = (-1.8, gravity(-1.8));
+    for _ in 0..800 {
+        bench.guide(8.0);
+    }
+    assert!(bench.qd > 1.5, "{}", bench.qd);
+    bench.step = 0.0;
+    let slow = SafetyLimits { upper: [bench.q + 0.5], ..LIMITS }.with_speed_share(0.2);
+    let mut pushed = 0.0;
+    let fault = (0..3000).find_map(|k| {
+        bench.controller.set_limits(&slow, 5.0).expect("good ones");
+        if guiding && bench.guiding.set_config(guided(slow)) == Ok(true) {
+            bench.hand_over.begin();
+        }
+        pushed = if k < 600 { bench.qd } else { pushed };
+        bench.guide(if k < 600 { 4.0 } else { 0.0 })
+    });
+    ([bench.step, pushed, slow.upper[0] - bench.q], fault)
+}
+
+#[test]
+fn limits_that_fall_while_a_hand_pushes_reach_the_guiding_without_a_step() {
+    let ([with, speed, left], fault) = slowed(50, true);
+    let ([without, ..], _) = slowed(1, true);
+    println!("steps of {with} and {without} N·m, {speed} rad/s, {left} rad");
+    assert_eq!(fault, None);
+    assert!(with < 0.5 && without > 7.0, "{with} {without} N·m");
+    // At the new wall.
+    assert!(speed < 0.6 && (left - 0.05).abs() < 1e-3, "{speed} rad/s {left} rad");
+    assert_eq!(slowed(50, false).1, Some(Fault::Speed { joint: 0 }));
 }

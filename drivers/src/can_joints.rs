@@ -2,6 +2,7 @@
 //! and drives at once.
 
 use core::cell::RefCell;
+use core::mem;
 
 use embedded_can::nb::Can;
 use embedded_can::{Error as _, ErrorKind};
@@ -95,7 +96,16 @@ impl CanJoint for odrive::ODrive {
 ///
 /// In each tick it takes the frames that have come since the last one, and then sends a torque to
 /// each joint: a position is that of the tick before. A joint without a position since then has no
-/// angle in this tick.
+/// angle in this tick, and its error is that of the last wrong frame that it sent meanwhile, such
+/// as [`CanError::Range`], [`CanError::Remote`], [`CanError::Length`] or [`CanError::Short`];
+/// [`CanError::Identifier`] if only frames of no joint came, [`CanError::NoReply`] if none did.
+///
+/// # Stale replies
+/// A position counts in one tick alone. A reply that comes too late for its tick leaves that one
+/// with [`CanError::NoReply`], and counts in the next one if no other follows it. No reply of these
+/// protocols has a number: replies that are all late by a tick are noticed in the first tick alone,
+/// and a drive that repeats an old position by
+/// [`FrozenEncoder`](motion_control::FrozenEncoder).
 ///
 /// ```
 /// use embedded_can::{ExtendedId, Frame, nb::Can};
@@ -126,7 +136,8 @@ pub struct CanJoints<Bus, Joint, const V: usize>(RefCell<State<Bus, Joint, V>>);
 struct State<Bus, Joint, const V: usize> {
     bus: Bus,
     joints: [Joint; V],
-    positions: [Option<f32>; V],
+    /// Why there is none: nothing has come since the last tick, or what has.
+    positions: [Result<f32, CanError>; V],
     delivers: [Result<(), CanError>; V],
     /// The joint behind the one that took the last frame: replies mostly come in order.
     next: usize,
@@ -135,7 +146,7 @@ struct State<Bus, Joint, const V: usize> {
 impl<Bus: Can, Joint: CanJoint, const V: usize> CanJoints<Bus, Joint, V> {
     /// The joints, of which none has reported yet.
     pub const fn new(bus: Bus, joints: [Joint; V]) -> Self {
-        let (positions, delivers) = ([None; V], [Ok(()); V]);
+        let (positions, delivers) = ([Err(CanError::NoReply); V], [Ok(()); V]);
         Self(RefCell::new(State { bus, joints, positions, delivers, next: 0 }))
     }
 
@@ -179,7 +190,7 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> State<Bus, Joint, V> {
         Ok(())
     }
 
-    /// A frame that is wrong says nothing: its joint has then no position.
+    /// Of a frame that is wrong the joint keeps the error, unless it has a position.
     fn take(&mut self, frame: &Bus::Frame) {
         for _ in 0..V {
             let at = self.next;
@@ -190,11 +201,20 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> State<Bus, Joint, V> {
                 report => report,
             };
             let kept = self.positions.get_mut(at).zip(self.delivers.get_mut(at));
-            if let (Ok(report), Some((position, delivers))) = (report, kept) {
-                *position = report.position.or(*position);
-                *delivers = report.delivers.unwrap_or(*delivers);
+            let Some((position, delivers)) = kept else { return };
+            match report {
+                Ok(report) => {
+                    *position = report.position.map_or(*position, Ok);
+                    *delivers = report.delivers.unwrap_or(*delivers);
+                }
+                Err(error) => *position = position.or(Err(error)),
             }
             return;
+        }
+        for position in &mut self.positions {
+            if *position == Err(CanError::NoReply) {
+                *position = Err(CanError::Identifier);
+            }
         }
     }
 
@@ -256,15 +276,12 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> JointEncoders<V> for &CanJoints<
         };
         state.receive().map_err(first)?;
         let mut positions = [0.0; V];
-        let reported = state.positions.iter_mut().map(Option::take);
         let mut failed = Ok(());
-        for (joint, (position, reported)) in positions.iter_mut().zip(reported).enumerate() {
-            match reported {
-                Some(reported) => *position = reported,
-                None => {
-                    let error = CanError::NoReply;
-                    failed = failed.and(Err(JointError { joint, error }));
-                }
+        let reported = positions.iter_mut().zip(&mut state.positions);
+        for (joint, (position, reported)) in reported.enumerate() {
+            match mem::replace(reported, Err(CanError::NoReply)) {
+                Ok(reported) => *position = reported,
+                Err(error) => failed = failed.and(Err(JointError { joint, error })),
             }
         }
         failed.map(|()| positions)
@@ -379,7 +396,7 @@ impl<F, Joint: CanJoint, const V: usize> CanJoints<Outbox<F, V>, Joint, V>
 where
     F: embedded_can::Frame + Clone,
 {
-    /// Takes a frame that has come; one that is wrong says nothing.
+    /// Takes a frame that has come; the error of a wrong one is that of the next reading.
     pub fn receive(&self, frame: &F) {
         // Nobody else holds it: each of these functions returns it before it ends.
         if let Ok(mut state) = self.0.try_borrow_mut() {

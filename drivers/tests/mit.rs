@@ -99,7 +99,31 @@ fn a_bus_takes_replies_in_any_order() {
         }
         let q = (&joints).read().unwrap();
         assert!(q[0] > 0.0 && q.is_sorted(), "{q:?}");
-        assert!((&joints).read().is_err());
+        let none = JointError { joint: 0, error: CanError::NoReply };
+        assert_eq!((&joints).read(), Err(none));
+    }
+}
+
+#[test]
+fn a_bus_says_what_came_in_place_of_a_position() {
+    let joints = CanJoints::new(Outbox::<FdFrame, 1>::new(), [damiao()]);
+    let data = [0x11, 0x80, 0, 0x80, 8, 0, 0, 0, 0, 0, 0, 0];
+    let good = standard(0x11, &data[..8]);
+    let at_the_end = standard(0x11, &[0x11, FF, FF, 0x80, 8, 0, 0, 0]);
+    for (frame, error) in [
+        (standard(0x12, &data[..8]), CanError::Identifier),
+        (FdFrame::new_remote(good.id(), 8).unwrap(), CanError::Remote),
+        (standard(0x11, &data[..7]), CanError::Short),
+        (standard(0x11, &data), CanError::Length(12)),
+        (at_the_end, CanError::Range),
+    ] {
+        joints.receive(&frame);
+        assert_eq!((&joints).read(), Err(JointError { joint: 0, error }));
+        // A position is worth more, before and after it.
+        for frames in [[frame, good], [good, frame]] {
+            frames.iter().for_each(|frame| joints.receive(frame));
+            assert!((&joints).read().is_ok());
+        }
     }
 }
 

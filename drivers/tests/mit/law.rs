@@ -204,10 +204,13 @@ fn a_fault_makes_the_gains_zero_in_its_tick() {
         plant.tick();
     }
     assert!(gains(&plant) > 0.0);
-    // A reply that is lost: another frame takes its place.
+    // A reply at the end of its scale takes the place of another one.
     (&joints).read().unwrap();
+    joints.receive(&standard(0x11, &[0x11, FF, FF, 0x80, 8, 0, 30, 30]));
     let telemetry = tick(&mut arm, &joints, &mut plant);
     assert_eq!(telemetry.status.fault, Some(Fault::Encoder { joint: 0 }));
+    let range = JointError { joint: 0, error: &CanError::Range };
+    assert_eq!(arm.encoder_error(), Some(range));
     assert_eq!((telemetry.status.mode, gains(&plant)), (Mode::Full, 0.0));
     assert!((plant.sum(0.0, 0.0) - f64::from(telemetry.torque[0])).abs() < 2.45e-3);
     tick(&mut arm, &joints, &mut plant);

@@ -28,6 +28,13 @@ pub trait CanJoint {
     /// # Errors
     /// [`CanError::Identifier`] for a frame of another joint; else the frame is wrong.
     fn report<F: embedded_can::Frame>(&mut self, frame: &F) -> Result<Report, CanError>;
+
+    /// Takes a frame that is no joint's report, and returns whether it is one of this joint: the
+    /// value of a register.
+    fn learn<F: embedded_can::Frame>(&mut self, frame: &F) -> bool {
+        let _ = frame;
+        false
+    }
 }
 
 /// A motor controller on CAN with a spring and a damper of its own: [`crate::mit::Drive`].
@@ -159,11 +166,46 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> CanJoints<Bus, Joint, V> {
 impl<Bus: Can, P: Protocol, const V: usize> CanJoints<Bus, Drive<P>, V> {
     /// Lets the drives deliver torque: that of their last command, send one of zero before.
     ///
+    /// Drives that have registers of their scale are asked for them first, one register in each
+    /// call, which is to be made in tick after tick until it succeeds: seven drives of Damiao take
+    /// 21 calls. A drive whose scale is not the one of this program delivers no torque, and neither
+    /// do the others.
+    ///
     /// # Errors
-    /// The first joint whose frame was not sent.
+    /// [`CanError::Missing`] is the register that was asked for, [`CanError::Scale`] the one that
+    /// has another scale, for which the drive is asked anew. Else the first joint whose frame was
+    /// not sent.
+    ///
+    /// ```
+    /// # use embedded_can::{Frame, StandardId};
+    /// # use joint_drivers::can::{CanError, ClassicFrame};
+    /// # use joint_drivers::mit::damiao::{DM4310, Damiao, PMAX};
+    /// # use joint_drivers::{CanJoints, JointError, JointMapping, JointRange, Outbox};
+    /// # let mapping = JointMapping::IDENTITY.with_range(JointRange::Near(0.0), 5e-3)?;
+    /// let joints = CanJoints::new(Outbox::<ClassicFrame, 1>::new(), [Damiao::new(1, 0x11, DM4310, 7.0, mapping)?]);
+    /// assert_eq!(joints.enable(), Err(JointError { joint: 0, error: CanError::Missing(PMAX.into()) }));
+    /// let query = joints.commands();
+    /// # let [Some(query)] = query else { panic!("no query") };
+    /// // The drive answers that its counts are of ±15 rad.
+    /// let [b0, b1, b2, b3] = 15.0_f32.to_le_bytes();
+    /// # assert_eq!(query.data(), [1, 0, 0x33, PMAX, 0, 0, 0, 0]);
+    /// joints.receive(&ClassicFrame::new(StandardId::new(0x11).unwrap(), &[1, 0, 0x33, PMAX, b0, b1, b2, b3]).unwrap());
+    /// assert_eq!(joints.enable(), Err(JointError { joint: 0, error: CanError::Scale(PMAX) }));
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    #[cold]
     pub fn enable(&self) -> Result<(), JointError<CanError>> {
-        let error = JointError { joint: 0, error: CanError::Full };
-        self.0.try_borrow_mut().map_err(|_| error)?.send(&[(); V], |drive, ()| drive.enable())
+        let full = JointError { joint: 0, error: CanError::Full };
+        let mut state = self.0.try_borrow_mut().map_err(|_| full)?;
+        let mut scales = state.joints.iter().map(Drive::scale).enumerate();
+        let unknown = scales.find_map(|(joint, scale)| Some((joint, scale.err()?)));
+        let Some((joint, (register, error))) = unknown else {
+            return state.send(&[(); V], |drive, ()| drive.enable());
+        };
+        let error = JointError { joint, error };
+        let query = state.joints.get(joint).ok_or(error)?.query(register);
+        let sent = query.and_then(|query| transmit(&mut state.bus, &query));
+        Err(sent.map_or_else(|error| JointError { joint, error }, |()| error))
     }
 
     /// Takes the torque from the drives.
@@ -211,6 +253,9 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> State<Bus, Joint, V> {
             }
             return;
         }
+        if self.joints.iter_mut().any(|joint| joint.learn(frame)) {
+            return;
+        }
         for position in &mut self.positions {
             if *position == Err(CanError::NoReply) {
                 *position = Err(CanError::Identifier);
@@ -226,14 +271,7 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> State<Bus, Joint, V> {
     ) -> Result<(), JointError<CanError>> {
         let mut failed = Ok(());
         for (joint, (of, each)) in self.joints.iter().zip(all).enumerate() {
-            let sent = frame(of, each).and_then(|frame| {
-                match self.bus.transmit(&frame) {
-                    Ok(None) => Ok(()),
-                    // Another frame, of a lower priority, was taken out of the queue for it.
-                    Ok(Some(_)) | Err(WouldBlock) => Err(CanError::Full),
-                    Err(Other(error)) => Err(CanError::Bus(error.kind())),
-                }
-            });
+            let sent = frame(of, each).and_then(|frame| transmit(&mut self.bus, &frame));
             if let (Err(error), Ok(())) = (sent, failed) {
                 failed = Err(JointError { joint, error });
             }
@@ -254,6 +292,15 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> State<Bus, Joint, V> {
             Some(JointError { joint, error })
         });
         failed.map_or(waiting, Err)
+    }
+}
+
+fn transmit<Bus: Can>(bus: &mut Bus, frame: &Bus::Frame) -> Result<(), CanError> {
+    match bus.transmit(frame) {
+        Ok(None) => Ok(()),
+        // Another frame, of a lower priority, was taken out of the queue for it.
+        Ok(Some(_)) | Err(WouldBlock) => Err(CanError::Full),
+        Err(Other(error)) => Err(CanError::Bus(error.kind())),
     }
 }
 

@@ -207,6 +207,9 @@ pub struct Drive<P> {
     scales: f32,
     period: f32,
     last: Option<Last>,
+    /// How many registers of the scale are right, and whether the next one is not.
+    right: u8,
+    wrong: bool,
 }
 
 /// The place of the joint in the last reply.
@@ -244,7 +247,8 @@ impl<P: Protocol> Drive<P> {
             return Err(CanError::Torque);
         }
         let period = P::PERIOD.unwrap_or(2.0 * scale.position);
-        Ok(Self { protocol, axes, most, mapping, whole: None, scales: 0.0, period, last: None })
+        let (whole, scales, last, right, wrong) = (None, 0.0, None, 0, false);
+        Ok(Self { protocol, axes, most, mapping, whole, scales, period, last, right, wrong })
     }
 
     /// Takes the joint to be at `position` rad or m: the next reply is within half a turn of the
@@ -359,6 +363,29 @@ impl<P: Protocol> Drive<P> {
         Ok(Reply::State(state))
     }
 
+    /// The register of this driver's scale in a reply, if its value is the same.
+    fn checked<F: Frame>(&self, frame: &F) -> Result<u8, CanError> {
+        let (register, value) = self.protocol.register(frame)?;
+        let Axes { position, velocity, torque, .. } = &self.axes;
+        let mut scales = P::SCALES.into_iter().flatten().zip([position, velocity, torque]);
+        let scale = scales.find(|(own, _)| *own == register);
+        let (_, Axis { most, .. }) = scale.ok_or(CanError::Missing(register.into()))?;
+        // As a register says that was written as a decimal number.
+        let off = (f32::from_le_bytes(value) - most).abs();
+        if off <= 1e-6 * most { Ok(register) } else { Err(CanError::Scale(register)) }
+    }
+
+    /// The next register of the scale to be asked for, with the reason.
+    pub(crate) fn scale(&self) -> Result<(), (u8, CanError)> {
+        let registers = P::SCALES.as_ref().map_or(&[][..], |registers| registers);
+        let Some(&next) = registers.get(usize::from(self.right)) else { return Ok(()) };
+        Err((next, if self.wrong { CanError::Scale(next) } else { CanError::Missing(next.into()) }))
+    }
+
+    pub(crate) fn query<F: Frame>(&self, register: u8) -> Result<F, CanError> {
+        self.protocol.read_register(register)
+    }
+
     /// The joint's position at a count, rad: with the scales and turns that the count lacks.
     #[inline]
     fn position(&mut self, count: u16) -> Result<f32, CanError> {
@@ -464,6 +491,19 @@ impl<P: Protocol> CanJoint for Drive<P> {
             }
             Feedback::Status(status) => Report { position: None, delivers: Some(status) },
         })
+    }
+
+    #[cold]
+    fn learn<F: Frame>(&mut self, frame: &F) -> bool {
+        let checked = self.checked(frame);
+        if let (Err((next, _)), Ok(register) | Err(CanError::Scale(register))) =
+            (self.scale(), checked)
+            && next == register
+        {
+            self.wrong = checked.is_err();
+            self.right += u8::from(!self.wrong);
+        }
+        matches!(checked, Ok(_) | Err(CanError::Scale(_) | CanError::Missing(_)))
     }
 }
 

@@ -127,11 +127,47 @@ fn a_bus_says_what_came_in_place_of_a_position() {
     }
 }
 
+/// A drive's answer to a query: the registers of a DM4310, but for one.
+fn answer(query: &FdFrame, other: Option<(u8, f32)>) -> FdFrame {
+    let &[id, 0, 0x33, register, 0, 0, 0, 0] = query.data() else { panic!("{query:?}") };
+    let own = [12.5, 30.0, 10.0][usize::from(register - damiao::PMAX)];
+    let other = other.filter(|(of, _)| *of == register);
+    let [b0, b1, b2, b3] = other.map_or(own, |(_, value)| value).to_le_bytes();
+    standard(0x10, &[id, 0, 0x33, register, b0, b1, b2, b3])
+}
+
 #[test]
-fn the_drives_of_a_bus_are_enabled_and_disabled_together() {
+fn no_drive_of_a_bus_is_enabled_before_the_scales_of_all_are_right() {
+    use damiao::{PMAX, TMAX, VMAX};
     let numbered = |id: u8| Damiao::new(id, 0x10, damiao::DM4310, 5.0, identity()).unwrap();
     let joints = CanJoints::new(Outbox::<FdFrame, 2>::new(), [numbered(1), numbered(2)]);
+    let at = |joint, error| Err(JointError { joint, error });
+    let missing = |register: u8| CanError::Missing(register.into());
+    let queried = || match joints.commands() {
+        [Some(query), None] => query,
+        frames => panic!("{frames:?}"),
+    };
+    // Without an answer the same one again; one of another register does not count.
+    for _ in 0..2 {
+        assert_eq!(joints.enable(), at(0, missing(PMAX)));
+        assert_eq!(queried(), numbered(1).read_register(PMAX).unwrap());
+    }
+    joints.receive(&standard(0x10, &[1, 0, 0x33, VMAX, 0, 0, 0xf0, 0x41]));
+    for (joint, register) in
+        [(0, PMAX), (0, VMAX), (0, TMAX), (1, PMAX), (1, VMAX), (1, TMAX), (1, TMAX)]
+    {
+        let asked = joints.enable();
+        // The last one was wrong: it is asked for anew, and may have been set meanwhile.
+        let again = asked == at(1, CanError::Scale(TMAX));
+        assert!(again || asked == at(joint, missing(register)), "{asked:?}");
+        let other = ((joint, register, again) == (1, TMAX, false)).then_some((TMAX, 12.0));
+        let answer = answer(&queried(), other);
+        // Twice, as no drive does: it counts once.
+        [answer; 2].iter().for_each(|answer| joints.receive(answer));
+    }
+    // An answer is no position, and no stranger's frame.
     let first = |error| JointError { joint: 0, error };
+    assert_eq!((&joints).read(), Err(first(CanError::NoReply)));
     for (sent, last) in [(CanJoints::enable as fn(&_) -> _, 0xfc), (CanJoints::disable, 0xfd)] {
         sent(&joints).unwrap();
         // A second time there is no room.

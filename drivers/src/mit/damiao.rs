@@ -26,8 +26,8 @@
 //! | DM8006 | TMAX 40: the same | 20: `u2canfd` |
 //!
 //! A TMAX that is too large here gives less torque than commanded, never more. Let the firmware
-//! read the three before it enables a drive: [`Damiao::read_register`],
-//! [`Damiao::check_register`].
+//! read the three before it enables a drive: [`CanJoints::enable`](crate::CanJoints::enable) does,
+//! elsewhere [`Damiao::read_register`] and [`Damiao::check_register`].
 
 use embedded_can::Frame;
 
@@ -92,26 +92,13 @@ pub struct Identity {
     host: u16,
 }
 
-impl Identity {
-    /// A register in a reply, with its four bytes.
-    fn register<F: Frame>(&self, frame: &F) -> Result<(u8, [u8; 4]), CanError> {
-        let is_own = protocol::is_standard(frame.id(), self.host);
-        match protocol::data(frame, is_own)? {
-            [id, 0, READ, register, b0, b1, b2, b3] if id == self.id => {
-                Ok((register, [b0, b1, b2, b3]))
-            }
-            _ => Err(CanError::Identifier),
-        }
-    }
-}
-
 impl Damiao {
     /// The frame that reads a register: [`PMAX`], [`VMAX`], [`TMAX`], [`TIMEOUT`] or another one.
     ///
     /// # Errors
     /// [`CanError::Length`].
     pub fn read_register<F: Frame>(&self, register: u8) -> Result<F, CanError> {
-        protocol::standard(REGISTERS, &[self.protocol.id, 0, READ, register, 0, 0, 0, 0])
+        self.protocol.read_register(register)
     }
 
     /// The register in a reply, and its value.
@@ -141,20 +128,13 @@ impl Damiao {
     /// As [`Self::register`]. [`CanError::Scale`]: the drive has another scale.
     /// [`CanError::Missing`]: neither of [`PMAX`], [`VMAX`] and [`TMAX`].
     pub fn check_register<F: Frame>(&self, frame: &F) -> Result<u8, CanError> {
-        let (register, value) = self.register(frame)?;
-        let expected = match register {
-            PMAX => self.axes.position.most,
-            VMAX => self.axes.velocity.most,
-            TMAX => self.axes.torque.most,
-            _ => return Err(CanError::Missing(register.into())),
-        };
-        // As a register says that was written as a decimal number.
-        let off = (f32::from_le_bytes(value) - expected).abs();
-        if off <= 1e-6 * expected { Ok(register) } else { Err(CanError::Scale(register)) }
+        self.checked(frame)
     }
 }
 
 impl Protocol for Identity {
+    const SCALES: Option<[u8; 3]> = Some([PMAX, VMAX, TMAX]);
+
     fn new(id: u8, host: u16) -> Result<Self, CanError> {
         let is_one = (1..=15).contains(&id) && host <= 0x7ff;
         is_one.then_some(Self { id, host }).ok_or(CanError::Node)
@@ -190,5 +170,19 @@ impl Protocol for Identity {
             drive: Some(drive.into()),
             status: Some(status),
         })
+    }
+
+    fn read_register<F: Frame>(&self, register: u8) -> Result<F, CanError> {
+        protocol::standard(REGISTERS, &[self.id, 0, READ, register, 0, 0, 0, 0])
+    }
+
+    fn register<F: Frame>(&self, frame: &F) -> Result<(u8, [u8; 4]), CanError> {
+        let is_own = protocol::is_standard(frame.id(), self.host);
+        match protocol::data(frame, is_own)? {
+            [id, 0, READ, register, b0, b1, b2, b3] if id == self.id => {
+                Ok((register, [b0, b1, b2, b3]))
+            }
+            _ => Err(CanError::Identifier),
+        }
     }
 }

@@ -49,6 +49,26 @@ pub trait Protocol: Sized {
     /// # Errors
     /// [`CanError`].
     fn decode<F: Frame>(&self, frame: &F) -> Result<Feedback, CanError>;
+
+    /// The registers of the greatest position, velocity and torque, if the drive has them.
+    const SCALES: Option<[u8; 3]> = None;
+
+    /// The frame that reads a register.
+    ///
+    /// # Errors
+    /// [`CanError::Length`]. [`CanError::Unknown`]: the protocol has no registers.
+    fn read_register<F: Frame>(&self, register: u8) -> Result<F, CanError> {
+        Err(CanError::Unknown(register))
+    }
+
+    /// A register in a reply, with its four bytes.
+    ///
+    /// # Errors
+    /// [`CanError`].
+    fn register<F: Frame>(&self, frame: &F) -> Result<(u8, [u8; 4]), CanError> {
+        let _ = frame;
+        Err(CanError::Identifier)
+    }
 }
 
 /// The request of a frame without quantities.

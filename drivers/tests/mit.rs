@@ -10,8 +10,8 @@ use joint_drivers::mit::damiao::{self, Damiao};
 use joint_drivers::mit::robstride::{self, RobStride, RobStrideMit};
 use joint_drivers::mit::{Reply, Scale, Setpoint, SetpointAt, State};
 use joint_drivers::{
-    CanJoints, Direction, DriveFault, DriveFaultKind, EncoderMapping, JointEncoders, JointError,
-    JointMapping, JointRange, Outbox,
+    CanJoints, Direction, DriveFault, DriveFaultKind, EncoderMapping, JointDrives, JointEncoders,
+    JointError, JointMapping, JointRange, Outbox,
 };
 
 mod law;
@@ -313,6 +313,19 @@ fn every_fault_of_a_drive_is_typed_and_sorted() {
             let reply = robstride_mit().reply(&standard(0xfd, &[0x7f, b0, b1, 0, 0, 0, 0, 0]));
             assert_eq!(reply, Ok(Reply::Status(status)), "{word:#x}");
         }
+    }
+}
+
+#[test]
+fn faults_that_a_drive_is_asked_for_stay_until_it_has_none() {
+    let joints = CanJoints::new(Outbox::<FdFrame, 1>::new(), [robstride_mit()]);
+    let over_voltage = Err(JointError { joint: 0, error: CanError::OverVoltage });
+    for (faults, expected) in [(1 << 3, over_voltage), (0, Ok(()))] {
+        joints.receive(&standard(0xfd, &[0x7f, faults, 0, 0, 0, 0, 0, 0]));
+        // A feedback says nothing of them.
+        joints.receive(&standard(0xfd, &[0x7f, 0x90, 0, 0x80, 0x08, 0, 1, 44]));
+        assert_eq!((&joints).set_torques(&[0.0]), expected);
+        assert!(joints.commands()[0].is_some());
     }
 }
 

@@ -5,8 +5,7 @@ use std::cell::Cell;
 
 use dynamics_core::state::State as Motion;
 use embedded_hal::digital::{self, OutputPin};
-use joint_drivers::{CanJoints, ControlLoop, JointDrives, JointEncoders, JointError, Law, NoBrake};
-use joint_drivers::{Outbox, PdDrives, PdOnDrives, Telemetry};
+use joint_drivers::{ControlLoop, Law, NoBrake, PdDrives, PdOnDrives, Telemetry};
 use motion_control::{
     Command, Detect, Estimate, Fault, Gains, Mode, MotionController, MotionControllerConfig,
     SafetyLimits, StopCategory, SupervisorConfig,

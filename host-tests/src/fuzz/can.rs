@@ -2,6 +2,7 @@
 //! of any numbers.
 
 use super::bytes::Bytes;
+use core::f64::consts::{PI, TAU};
 use embedded_can::{ExtendedId, Frame, Id, StandardId};
 use joint_drivers::can::{CanError, FdFrame};
 use joint_drivers::mit::cubemars::{AK60_6, CubeMars};
@@ -20,25 +21,31 @@ struct Case {
     most: f32,
     /// The last count of all quantities but the position.
     last: f64,
+    /// The angle after which the count of positions begins again, rad.
+    period: f64,
 }
 
 const CASES: [Case; 4] = [
-    Case { seed: (2, [17, 128, 18, 129, 40, 10, 40, 35]), scale: DM4310, most: 7.0, last: 4095.0 },
-    Case {
-        seed: (0x0280_0102, [128, 18, 128, 18, 128, 18, 1, 32]),
-        scale: RS03,
-        most: 40.0,
-        last: 65535.0,
-    },
-    Case { seed: (2, [1, 128, 18, 129, 40, 10, 1, 32]), scale: RS03, most: 40.0, last: 4095.0 },
-    Case { seed: (2, [1, 128, 18, 129, 40, 10, 70, 0]), scale: AK60_6, most: 9.0, last: 4095.0 },
+    case(2, [17, 128, 18, 129, 40, 10, 40, 35], DM4310, [7.0, 4095.0, 25.0]),
+    case(0x0280_0102, [128, 18, 128, 18, 128, 18, 1, 32], RS03, [40.0, 65535.0, 4.0 * TAU]),
+    case(2, [1, 128, 18, 129, 40, 10, 1, 32], RS03, [40.0, 4095.0, 4.0 * TAU]),
+    case(2, [1, 128, 18, 129, 40, 10, 70, 0], AK60_6, [9.0, 4095.0, 25.0]),
 ];
+
+const fn case(id: u32, data: [u8; 8], scale: Scale, [most, last, period]: [f64; 3]) -> Case {
+    Case { seed: (id, data), scale, most: most as f32, last, period }
+}
+
+/// The lengths of CAN FD.
+const LENGTHS: [usize; 16] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 12, 16, 20, 24, 32, 48, 64];
 
 /// Replies and commands of [`BYTES_PER_FRAME`] bytes each.
 ///
 /// # Panics
-/// If a reply of another sender is accepted, if a quantity of a reply is not finite or beyond its
-/// scale, if a command is another frame for its drive, or if its sum is beyond the greatest torque.
+/// If a reply of another sender is accepted, if one of another length or a remote frame has another
+/// error, if a quantity of a reply is not finite or beyond its scale, if a position is not one of
+/// its count, if a register is accepted that is none or has another scale, if a command is another
+/// frame for its drive, or if its sum is beyond the greatest torque.
 pub fn can_frames(bytes: &[u8]) {
     let mapping = JointMapping::IDENTITY.with_range(JointRange::Near(0.0), 3e-3);
     let mapping = mapping.expect("slower than its encoder");
@@ -54,7 +61,12 @@ pub fn can_frames(bytes: &[u8]) {
         let (case, frame) = (&CASES[which], reply(&CASES[which], from));
         let setpoint = setpoint(&mut Bytes(chunk.get(1..).unwrap_or_default()));
         let (answer, command) = match which {
-            0 => (damiao.reply(&frame), damiao.pd_command(&setpoint)),
+            0 => {
+                let (answer, register) = (damiao.reply(&frame), damiao.register(&frame));
+                assert!(answer.is_err() || register.is_err(), "{frame:?}");
+                check_register(&frame, register, damiao.check_register(&frame));
+                (answer, damiao.pd_command(&setpoint))
+            }
             1 => (own.reply(&frame), own.pd_command(&setpoint)),
             2 => (mit.reply(&frame), mit.pd_command(&setpoint)),
             _ => (cubemars.reply(&frame), cubemars.pd_command(&setpoint)),
@@ -66,14 +78,23 @@ pub fn can_frames(bytes: &[u8]) {
     }
 }
 
-/// A reply of which some bits or bytes were replaced, or one of random bytes.
+/// A reply of which some bits or bytes were replaced, of another length, one of random bytes, a
+/// register or a remote frame.
 fn reply(case: &Case, from: &mut Bytes<'_>) -> FdFrame {
-    let (mut raw, mut data) = case.seed;
-    let mut length = 8;
-    match from.below(4) {
-        0 => data = core::array::from_fn(|_| from.byte()),
-        1 => raw ^= 1 << from.below(29),
-        2 => length = from.below(9),
+    let (mut raw, seed) = case.seed;
+    let (mut length, mut is_remote) = (8, false);
+    let mut data = [0; 64];
+    data[..8].copy_from_slice(&seed);
+    match from.below(8) {
+        0 | 1 => data[..8].fill_with(|| from.byte()),
+        2 => raw ^= 1 << from.below(29),
+        3 => length = LENGTHS[from.below(16)],
+        4 => (length, is_remote) = (from.below(9), true),
+        5 => {
+            let register = 20 + from.byte() % 5;
+            let [a, b, c, d] = f32::to_le_bytes([12.5, 30.0, 10.0][from.below(3)]);
+            data[..8].copy_from_slice(&[1, 0, 0x33, register, a, b, c, d]);
+        }
         _ => {}
     }
     for _ in 0..from.below(4) {
@@ -85,7 +106,27 @@ fn reply(case: &Case, from: &mut Bytes<'_>) -> FdFrame {
     } else {
         StandardId::new(raw as u16).expect("11 bits").into()
     };
-    FdFrame::new(id, &data[..length]).expect("up to 8 bytes")
+    let frame =
+        if is_remote { FdFrame::new_remote(id, length) } else { FdFrame::new(id, &data[..length]) };
+    frame.expect("one of the lengths")
+}
+
+fn check_register(
+    frame: &FdFrame,
+    register: Result<(u8, [u8; 4]), CanError>,
+    checked: Result<u8, CanError>,
+) {
+    let data = frame.data();
+    let is_one = matches!(data, [1, 0, 0x33, ..]) && data.len() == 8 && is_addressed(0, frame.id());
+    let Ok((register, value)) = register else {
+        assert!(!is_one && checked == register.map(|(register, _)| register), "{frame:?}");
+        return;
+    };
+    assert!(is_one && register == data[3] && value == data[4..], "{frame:?}");
+    let scale = [(21, DM4310.position), (22, DM4310.velocity), (23, DM4310.torque)];
+    let scale = scale.into_iter().find(|(of, _)| *of == register);
+    let off = scale.map(|(_, most)| (f32::from_le_bytes(value) - most).abs() / most);
+    assert_eq!(checked.is_ok(), off.is_some_and(|off| off <= 1e-6), "{frame:?}");
 }
 
 fn setpoint(from: &mut Bytes<'_>) -> SetpointAt {
@@ -117,7 +158,17 @@ fn check_reply(
         Err(CanError::Bus(_) | CanError::Full | CanError::NoReply | CanError::NotReady) => {
             panic!("{answer:?} is not an error of a frame")
         }
-        Err(_) => return before,
+        Err(error) => {
+            let wrong = match (frame.is_remote_frame(), frame.data().len()) {
+                (true, _) => Some(CanError::Remote),
+                (false, 0..8) => Some(CanError::Short),
+                (false, 8) => None,
+                (false, length) => Some(CanError::Length(length)),
+            };
+            let of_us = is_addressed(which, frame.id());
+            assert!(!of_us || wrong.is_none_or(|wrong| wrong == error), "{frame:?} {error}");
+            return before;
+        }
         Ok(reply) => {
             assert!(is_sender(which, frame), "{frame:?}");
             let Reply::State(state) = reply else { return before };
@@ -130,11 +181,19 @@ fn check_reply(
     assert!(within(state.torque, scale.torque), "{state:?}");
     let temperatures = [state.motor_temperature, state.drive_temperature];
     assert!(temperatures.into_iter().flatten().all(f32::is_finite));
-    // The count goes on by less than half of its scale.
-    let first = Place { joint: state.position, turns: turns(which, frame, state.position) };
-    let Place { joint, turns } = before.unwrap_or(first);
-    assert!((state.position - joint).abs() <= scale.position + 0.01, "{state:?} {joint}");
-    Some(Place { joint: state.position, turns })
+    // At first it is within half a turn of zero, whole turns from its count; later it goes on by
+    // less than half of its scale, and is whole scales from there. All but the rounding in f32.
+    let (joint, turns) = (state.position, turns(which, frame, state.position));
+    let free = 1e-5 + 1e-6 * f64::from(joint.abs());
+    let off = |angle: f64, whole: f64| (angle - whole * (angle / whole).round()).abs();
+    let Some(before) = before else {
+        assert!(f64::from(joint.abs()) <= PI + free && off(turns, TAU) <= free, "{state:?}");
+        return Some(Place { joint, turns });
+    };
+    assert!((joint - before.joint).abs() <= scale.position + 0.01, "{state:?} {before:?}");
+    let off = off(turns - before.turns, CASES[which].period);
+    assert!(off <= free, "{off} {state:?} {before:?}");
+    Some(Place { joint, ..before })
 }
 
 /// The whole turns between a joint and the count of its drive.
@@ -149,19 +208,26 @@ fn signed(count: f64, most: f32, last: f64) -> f64 {
     (2.0 * count / last - 1.0) * f64::from(most)
 }
 
+/// Whether an identifier is that of a reply to host 2, and by its own protocol of drive 1.
+fn is_addressed(which: usize, id: Id) -> bool {
+    match (which, id) {
+        (1, Id::Extended(id)) => {
+            id.as_raw() & 0xffff == 0x0102 && [2, 21, 24].contains(&(id.as_raw() >> 24))
+        }
+        (0 | 2 | 3, Id::Standard(id)) => id.as_raw() == 2,
+        _ => false,
+    }
+}
+
 /// Whether drive 1 sent the frame to host 2.
 fn is_sender(which: usize, frame: &FdFrame) -> bool {
-    let first = frame.data()[0];
-    let is_whole = frame.data().len() == 8;
-    is_whole
-        && match (which, frame.id()) {
-            (0, Id::Standard(id)) => id.as_raw() == 2 && first & 0x0f == 1,
-            (1, Id::Extended(id)) => {
-                id.as_raw() & 0xffff == 0x0102 && [2, 21, 24].contains(&(id.as_raw() >> 24))
-            }
-            (2 | 3, Id::Standard(id)) => id.as_raw() == 2 && first == 1,
-            _ => false,
-        }
+    let data = frame.data();
+    let names_it = match which {
+        0 => data.first().is_some_and(|first| first & 0x0f == 1),
+        1 => true,
+        _ => data.first() == Some(&1),
+    };
+    data.len() == 8 && names_it && is_addressed(which, frame.id())
 }
 
 fn check_command(case: &Case, frame: &FdFrame, setpoint: &SetpointAt, place: Option<Place>) {

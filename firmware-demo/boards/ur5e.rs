@@ -32,7 +32,9 @@ pub fn detectors(_: &Motion) -> Found {
 }
 
 #[allow(dead_code, reason = "the Pico 2 enables no drive")]
-pub fn enable<Encoders>(_: &mut Encoders) {}
+pub fn enable<Encoders>(_: &mut Encoders) -> Result<bool, SetupError> {
+    Ok(true)
+}
 
 /// # Errors
 /// As [`Scene::control_loop`].

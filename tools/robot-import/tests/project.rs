@@ -22,6 +22,10 @@ use robot_import::project::{
 mod chain;
 // Formatted as users' files are.
 #[rustfmt::skip]
+#[allow(dead_code, reason = "a robot's file has more than the test compares")]
+mod openarm;
+// Formatted as users' files are.
+#[rustfmt::skip]
 #[path = "../template/rust/src/robot.rs"]
 #[allow(dead_code, reason = "a robot's file has more than the test compares")]
 mod pendulum;
@@ -123,8 +127,18 @@ impl Trial {
         self.run("cargo", &["build", "--release"]);
         self.run("cargo", &["fmt", "--check"]);
         let built = self.built.join(board.target).join("release").join(name);
-        let size = fs::metadata(&built).map(|file| file.len());
-        assert!(size.is_ok_and(|bytes| bytes > 10_000), "{}", built.display());
+        let [image, elf] =
+            [built.with_extension("bin"), built].map(|path| path.display().to_string());
+        self.run("arm-none-eabi-objcopy", &["-O", "binary", &elf, &image]);
+        let bytes = fs::metadata(&image).map_or(0, |file| file.len());
+        eprintln!("{bytes} B of flash for {name}");
+        assert!((10_000..128 * 1024).contains(&bytes), "{name} takes {bytes} B");
+        // No board but this one has the code of drives on CAN.
+        let symbols = self.run("arm-none-eabi-nm", &["--demangle", &elf]);
+        for of_can in ["joint_drivers::can_joints", "joint_drivers::mit", "::can::CHIP"] {
+            let has_it = symbols.contains(of_can);
+            assert_eq!(has_it, board.name == "nucleo-g474re-can", "{of_can} in {name}");
+        }
         // Cargo has removed what the project does not use, and added nothing but the project.
         let known: Vec<&str> = before.split("\n[[package]]\n").collect();
         let after = lock(&self.folder);
@@ -268,8 +282,8 @@ fn an_arm() {
     c_project("an-arm-for-c", robot, &expected);
 }
 
-/// Firmware for each board; the first stands alone, and a robot with fewer joints than it runs on
-/// this computer as well.
+/// Firmware for each board, an OpenArm where there are seven drives; the first stands alone, and a
+/// robot with fewer joints than it runs on this computer as well.
 #[test]
 #[ignore = "builds firmware"]
 fn the_boards() {
@@ -281,12 +295,17 @@ fn the_boards() {
             FileEffects::default(),
         )
     };
+    let open_arm = || {
+        let text = include_str!("project/openarm.rs");
+        robot("OpenArm", text, [&openarm::JOINTS, &openarm::JOINTS], ALL)
+    };
     let [first, others @ ..] = &BOARDS;
     let trial = Trial::with("on-first", so101(), Kind::Board(first), Library::Copy);
     trial.firmware("on-first", first);
     for board in others {
         let name = format!("on-{}", board.name);
-        Trial::new(&name, so101(), Kind::Board(board)).firmware(&name, board);
+        let robot = if board.most_joints == 7 { open_arm() } else { so101() };
+        Trial::new(&name, robot, Kind::Board(board)).firmware(&name, board);
     }
     let rod = robot(
         "Pendulum",

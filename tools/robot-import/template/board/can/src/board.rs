@@ -24,9 +24,6 @@ pub type Drive = Damiao;
 /// The motor of each joint: the greatest position, velocity and torque of its counts, which are the
 /// registers PMAX, VMAX and TMAX of the drive.
 pub const SCALES: [Scale; N] = [DM4310; N];
-/// The number of each drive on the bus, its register ESC_ID; it replies as `0x10` and this, its
-/// register MST_ID.
-pub const NUMBERS: [u8; N] = numbers();
 /// The angle that the drive of each joint reads at the joint's zero, rad. Its range is in
 /// `scene.rs`.
 pub const ZERO: [f32; N] = [0.0; N];
@@ -36,15 +33,10 @@ pub const DRIVES: [Direction; N] = [Direction::Forward; N];
 /// A count of the position, rad.
 pub const RESOLUTION: f32 = 2.0 * 12.5 / 65_535.0;
 
-/// 1, 2, 3 and so on, from the base to the tip.
-const fn numbers() -> [u8; N] {
-    let mut numbers = [1; N];
-    let mut joint = 1;
-    while joint < N {
-        numbers[joint] = numbers[joint - 1] + 1;
-        joint += 1;
-    }
-    numbers
+/// The number of a joint's drive on the bus, its register ESC_ID: 1, 2, 3 and so on, from the base
+/// to the tip. It replies as `0x10` and this, its register MST_ID.
+pub const fn number(joint: usize) -> u8 {
+    joint as u8 + 1
 }
 
 /// The drives on their bus.
@@ -68,21 +60,15 @@ pub struct Devices<Bus: 'static, Brake> {
 /// # Errors
 /// [`SetupError::Motion`], of way-points of your own.
 pub fn plan(place: &mut Motion) -> Result<(), SetupError> {
-    *place = scene::motion().map_err(SetupError::Motion)?;
-    Ok(())
+    let planned = scene::motion().map_err(SetupError::Motion);
+    planned.map(|motion| *place = motion)
 }
 
 /// The drive of a joint that can have the joint's greatest torque, or that of its motor.
 fn drive(joint: usize, most: f32, mapping: EncoderMapping) -> Result<Drive, JointError<CanError>> {
-    let number = NUMBERS[joint];
-    let most = most.min(SCALES[joint].torque);
-    let drive = Drive::new(
-        number,
-        0x10 + u16::from(number),
-        SCALES[joint],
-        most,
-        mapping,
-    );
+    let (number, scale) = (number(joint), SCALES[joint]);
+    let (host, most) = (0x10 + u16::from(number), most.min(scale.torque));
+    let drive = Drive::new(number, host, scale, most, mapping);
     drive.map_err(|error| JointError { joint, error })
 }
 
@@ -105,19 +91,20 @@ pub fn on_brake<Bus: Can, Brake: OutputPin, D: Detect<f32, N>>(
     for (joint, place) in drives.iter_mut().enumerate() {
         *place = drive(joint, torques[joint], mappings[joint]).map_err(SetupError::Can)?;
     }
-    let joints: &Joints<Bus> = devices.joints.insert(CanJoints::new(devices.bus, drives));
-    Ok(ControlLoop::on_circles(
-        joints,
-        joints,
-        devices.brake,
-        gains,
-        controller,
-        detectors,
-    ))
+    let Devices { bus, joints, brake } = devices;
+    let on: &Joints<Bus> = joints.insert(CanJoints::new(bus, drives));
+    let control = ControlLoop::on_circles(on, on, brake, gains, controller, detectors);
+    Ok(control)
 }
 
-/// Lets the drives deliver torque: that of the last command, which is zero on the brake.
-pub fn enable<Bus: Can>(drives: &mut &'static Joints<Bus>) {
-    // A drive that is not enabled says so in its next reply.
-    let _ = drives.enable();
+/// Lets the drives deliver torque: that of the last command, which is zero on the brake. Returns
+/// whether they do: the first calls, one in each tick, ask them for their scales.
+///
+/// # Errors
+/// [`SetupError::Can`]: a drive has another scale than [`SCALES`], or has no frame.
+pub fn enable<Bus: Can>(drives: &mut &'static Joints<Bus>) -> Result<bool, SetupError> {
+    match drives.enable() {
+        Err(error) if matches!(error.error, CanError::Missing(_)) => Ok(false),
+        enabled => enabled.map(|()| true).map_err(SetupError::Can),
+    }
 }

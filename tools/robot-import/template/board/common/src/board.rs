@@ -56,12 +56,17 @@ pub struct Devices<Spi, Pwm, Brake> {
 /// # Errors
 /// [`SetupError::Motion`], of way-points of your own.
 pub fn plan(place: &mut Motion) -> Result<(), SetupError> {
-    *place = scene::motion().map_err(SetupError::Motion)?;
-    Ok(())
+    let planned = scene::motion().map_err(SetupError::Motion);
+    planned.map(|motion| *place = motion)
 }
 
 /// The drives have an input of their own that enables them, which belongs to the emergency stop.
-pub fn enable<Encoders>(_: &mut Encoders) {}
+///
+/// # Errors
+/// None.
+pub fn enable<Encoders>(_: &mut Encoders) -> Result<bool, SetupError> {
+    Ok(true)
+}
 
 /// The loop of a robot that stands on its brake until `reset`.
 ///

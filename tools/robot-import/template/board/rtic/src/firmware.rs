@@ -105,7 +105,10 @@ mod app {
 
     #[task(
         binds = TIM2,
-        local = [control, motion, period, watchdog, button, light, log, count: u32 = 0],
+        local = [
+            control, motion, period, watchdog, button, light, log,
+            count: u32 = 0, warned: bool = false,
+        ],
         priority = 2
     )]
     fn tick(cx: tick::Context) {
@@ -122,10 +125,17 @@ mod app {
         }
         let mode = telemetry.status.mode;
         if matches!(mode, Mode::Stopped) && is_pressed(local.button) {
-            // Too far from the motion's start, or without a measurement: the arm stays on its
-            // brake.
-            board::enable(control.encoders());
-            if let Err(reason) = control.reset(motion) {
+            // The arm stays on its brake without drives, too far from the motion's start, or
+            // without a measurement.
+            let enabled = board::enable(control.encoders());
+            if let Err(error) = &enabled
+                && !core::mem::replace(local.warned, true)
+            {
+                impossible(error);
+            }
+            if matches!(enabled, Ok(true))
+                && let Err(reason) = control.reset(motion)
+            {
                 local.log.refused(reason);
             }
         }

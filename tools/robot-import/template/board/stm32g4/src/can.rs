@@ -158,12 +158,15 @@ fn write(places: u8, at: u8, words: [u32; 4]) {
 
 /// A frame of at most eight bytes.
 fn decode([id, length, d0, d1]: [u32; 4]) -> Option<FdFrame> {
-    let length = (length >> 16 & 0xf) as usize;
+    let (length, is_remote) = ((length >> 16 & 0xf) as usize, id & REMOTE != 0);
     let id: Id = if id & EXTENDED != 0 {
         ExtendedId::new(id & 0x1fff_ffff)?.into()
     } else {
         StandardId::new((id >> 18 & 0x7ff) as u16)?.into()
     };
+    if is_remote {
+        return FdFrame::new_remote(id, length);
+    }
     let [a, b] = [d0, d1].map(u32::to_le_bytes);
     let mut data = [0; 8];
     for (to, from) in data.iter_mut().zip(a.into_iter().chain(b)) {

@@ -4,7 +4,7 @@ use dynamics_core::algorithms::{rnea, rnea_derivatives};
 use dynamics_core::effects::{Armature, Effect, MovingBase, Payload, RIGID_BODY, Spring, Viscous};
 use dynamics_core::model::{BodyInertia, Robot, Static};
 use dynamics_core::robots::{
-    A1, A1Free, Gen3, Iiwa14, OpenArm, Panda, Puma560, So101, Ur5e, XArm7, Z1,
+    A1, A1Free, Gen3, Iiwa14, OpenArm, Panda, Puma560, So101, Ur5e, XArm7, Yam, Z1,
 };
 use dynamics_core::scalar::Real;
 use dynamics_core::spatial::Motion;
@@ -73,6 +73,7 @@ fn the_engines_derivatives_are_pinocchios() {
     check::<XArm7, 7, 7, 7>();
     check::<Puma560, 6, 6, 6>();
     check::<OpenArm, 7, 7, 7>();
+    check::<Yam, 6, 6, 6>();
     check::<Z1, 7, 7, 7>();
     check::<So101, 6, 6, 6>();
     check::<A1, 16, 12, 12>();

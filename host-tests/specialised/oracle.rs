@@ -4,7 +4,9 @@
 use dynamics_core::algorithms::{aba, crba, inverse, ltdl, rnea};
 use dynamics_core::effects::{Armature, Coriolis, Effect, Gravity, RIGID_BODY, hook};
 use dynamics_core::model::{JointKind, Robot, model};
-use dynamics_core::robots::{A1, Gen3, Iiwa14, OpenArm, Panda, Puma560, So101, Ur5e, XArm7, Z1};
+use dynamics_core::robots::{
+    A1, Gen3, Iiwa14, OpenArm, Panda, Puma560, So101, Ur5e, XArm7, Yam, Z1,
+};
 use dynamics_core::scalar::{Real, Vector};
 use dynamics_core::spatial::{Force, Motion};
 use dynamics_core::state::State;
@@ -280,6 +282,7 @@ fn the_core_agrees_with_pinocchio_within_the_table() {
     core_of::<XArm7, 7, 7, 7>(&mut verdict);
     core_of::<Puma560, 6, 6, 6>(&mut verdict);
     core_of::<OpenArm, 7, 7, 7>(&mut verdict);
+    core_of::<Yam, 6, 6, 6>(&mut verdict);
     core_of::<Z1, 7, 7, 7>(&mut verdict);
     core_of::<So101, 6, 6, 6>(&mut verdict);
     assert!(verdict.0.is_empty(), "\n{}", verdict.0.join("\n"));

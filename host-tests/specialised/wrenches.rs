@@ -6,7 +6,9 @@ use dynamics_core::effects::{
     Coriolis, Effect, Gravity, GyroscopicRotors, Inertia, MovingBase, Payload, hook,
 };
 use dynamics_core::model::{Bodies, BodyInertia, JointKind, Robot};
-use dynamics_core::robots::{A1, Gen3, Iiwa14, OpenArm, Panda, Puma560, So101, Ur5e, XArm7, Z1};
+use dynamics_core::robots::{
+    A1, Gen3, Iiwa14, OpenArm, Panda, Puma560, So101, Ur5e, XArm7, Yam, Z1,
+};
 use dynamics_core::scalar::{Real, Vector};
 use dynamics_core::spatial::{Force, Motion};
 use dynamics_core::state::State;
@@ -110,6 +112,7 @@ fn the_wrenches_in_joints_are_pinocchios() {
     check::<XArm7, 7, 7, 7>();
     check::<Puma560, 6, 6, 6>();
     check::<OpenArm, 7, 7, 7>();
+    check::<Yam, 6, 6, 6>();
     check::<Z1, 7, 7, 7>();
     check::<So101, 6, 6, 6>();
     check::<A1, 16, 12, 12>();

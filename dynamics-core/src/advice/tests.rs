@@ -12,7 +12,8 @@ use crate::robots::*;
 use crate::scalar::Real;
 
 /// The robots whose inertias about the joints can be told from those about the centres of mass.
-const ABOUT_JOINTS: [&str; 7] = ["g1", "g1_free", "gen3", "iiwa14", "openarm", "so101", "xarm7"];
+const ABOUT_JOINTS: [&str; 8] =
+    ["g1", "g1_free", "gen3", "iiwa14", "openarm", "so101", "xarm7", "yam"];
 const DEGREES: f64 = 180.0 / core::f64::consts::PI;
 
 /// The questions to a robot of the library.
@@ -33,6 +34,7 @@ fn each_robot(ask: &mut impl Ask) {
     ask.ask(&So101::MODEL);
     ask.ask(&Ur5e::MODEL);
     ask.ask(&XArm7::MODEL);
+    ask.ask(&Yam::MODEL);
     ask.ask(&Z1::MODEL);
 }
 
@@ -274,7 +276,7 @@ fn one_wrong_body_is_named_with_its_number() {
     let mut ask = OneWrong { about_joint: 0, of: 0 };
     each_robot(&mut ask);
     // The others' inertias about their joints are such as bodies of their length may have.
-    assert_eq!((ask.about_joint, ask.of), (50, 150));
+    assert_eq!((ask.about_joint, ask.of), (53, 156));
 }
 
 #[test]

@@ -9,6 +9,7 @@
 //! - [`A1Free`]: the same with its trunk free, 18 degrees of freedom.
 //! - [`OpenArm`]: Enactic OpenArm 2.0 with its gripper held, 7 revolute joints moved by
 //!   quasi-direct drives.
+//! - [`Yam`]: I2RT YAM with its gripper held, 6 revolute joints moved by quasi-direct drives.
 //! - [`Gen3`]: Kinova Gen3 with vision module, 7 joints, four of which are continuous.
 //! - [`So101`]: The Robot Studio's SO-101 with its gripper's jaw, 6 revolute joints moved by hobby
 //!   servos.
@@ -33,6 +34,7 @@ mod so101;
 mod ur5e;
 mod welded_part;
 mod xarm7;
+mod yam;
 mod z1;
 
 pub use a1::{A1, A1Free, A1Leg};
@@ -45,4 +47,5 @@ pub use puma560::Puma560;
 pub use so101::So101;
 pub use ur5e::Ur5e;
 pub use xarm7::XArm7;
+pub use yam::Yam;
 pub use z1::Z1;

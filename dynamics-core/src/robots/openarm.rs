@@ -88,7 +88,7 @@ const fn micro(mut inertia: [f64; 6]) -> [f64; 6] {
 }
 
 /// Degrees, N·m, rad/s.
-const fn limits(lower: f64, upper: f64, torque: f64, velocity: f64) -> JointLimits<f64> {
+pub(super) const fn limits(lower: f64, upper: f64, torque: f64, velocity: f64) -> JointLimits<f64> {
     let [lower, upper] = [lower.to_radians(), upper.to_radians()];
     JointLimits { lower, upper, velocity, torque }
 }

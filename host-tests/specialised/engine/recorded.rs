@@ -5,7 +5,7 @@ use dynamics_core::effects::{Coriolis, Effect, Gravity, Inertia, RIGID_BODY};
 use dynamics_core::model::Robot;
 use dynamics_core::robots::Ur5e;
 #[cfg(feature = "full")]
-use dynamics_core::robots::{A1, Iiwa14, OpenArm, Panda, Puma560};
+use dynamics_core::robots::{A1, Iiwa14, OpenArm, Panda, Puma560, Yam};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 use host_tests::recordings::{Recording, load, row, symmetric};
@@ -114,6 +114,7 @@ fn inverse_dynamics_agree_with_pinocchio_within_the_table() {
         robot::<Iiwa14, 7, 7>();
         robot::<Puma560, 6, 6>();
         robot::<OpenArm, 7, 7>();
+        robot::<Yam, 6, 6>();
         robot::<A1, 16, 12>();
     }
     let recording = load("ur5e");

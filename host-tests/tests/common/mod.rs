@@ -255,6 +255,7 @@ macro_rules! of_recorded_robots {
         $function::<arms::XArm7, 7, 7, 7>($argument);
         $function::<arms::Puma560, 6, 6, 6>($argument);
         $function::<arms::OpenArm, 7, 7, 7>($argument);
+        $function::<arms::Yam, 6, 6, 6>($argument);
         $function::<arms::Z1, 7, 7, 7>($argument);
         $function::<arms::So101, 6, 6, 6>($argument);
         $function::<arms::A1, 16, 12, 12>($argument);

@@ -112,6 +112,7 @@ fn the_error_of_f32_is_at_most_its_estimate() {
         hold(&So101::MODEL, 2.0),
         hold(&Puma560::MODEL, 3.0),
         hold(&OpenArm::MODEL, 3.0),
+        hold(&Yam::MODEL, 3.0),
         hold(&A1Leg::MODEL, 3.0),
         hold(&A1::MODEL, 3.0),
         hold(&A1Free::MODEL, 3.0),

@@ -2,7 +2,7 @@
 
 use dynamics_core::model::Robot;
 use dynamics_core::robots::{
-    A1, A1Free, G1, G1Free, Gen3, Iiwa14, OpenArm, Panda, Puma560, So101, Ur5e, XArm7, Z1,
+    A1, A1Free, G1, G1Free, Gen3, Iiwa14, OpenArm, Panda, Puma560, So101, Ur5e, XArm7, Yam, Z1,
 };
 use host_tests::export::robot;
 use host_tests::trees::{TreeA, TreeB};
@@ -20,6 +20,7 @@ fn main() -> serde_json::Result<()> {
         robot(&XArm7::MODEL),
         robot(&Puma560::MODEL),
         robot(&OpenArm::MODEL),
+        robot(&Yam::MODEL),
         robot(&Z1::MODEL),
         robot(&So101::MODEL),
         robot(&TreeA::MODEL),

@@ -1,7 +1,8 @@
 //! A goal that may change at any tick.
 //!
 //! Each joint has the fastest motion within its limits (`course.rs`); those of the joints that
-//! would arrive before the last one are slower, so that all arrive together.
+//! would arrive before the last one are slower, so that all arrive together. The crate `rsruckig`
+//! does the same in f64 with a heap, which targets lack: `docs/decisions/0010-robots-from-files.md`.
 
 use core::fmt;
 

@@ -123,9 +123,10 @@ fn the_wrenches_in_joints_are_pinocchios() {
 #[cfg(feature = "full")]
 #[test]
 fn the_wrenches_in_the_joints_of_floating_robots_are_pinocchios() {
-    use dynamics_core::robots::{A1Free, G1};
+    use dynamics_core::robots::{A1Free, G1, G1Free};
     check::<A1Free, 17, 19, 18>();
     check::<G1, 29, 29, 29>();
+    check::<G1Free, 30, 36, 35>();
 }
 
 /// Bodies that are fixed in mid-tree, at a tip and to the base; under payloads on some of them,

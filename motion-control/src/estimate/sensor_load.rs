@@ -97,7 +97,8 @@ impl core::error::Error for SensorLoadError {}
 
 /// The sums over poses at rest from which a [`SensorLoad`] follows, on the target or on the host.
 ///
-/// Twelve poses whose gravity points in all directions of the sensor are enough for a per cent.
+/// Twelve poses whose gravity points in all directions of the sensor, each the mean of 64 readings,
+/// give mass and centre of a load of 1.2 kg within a per cent with the noise of a Robotiq FT 300.
 ///
 /// ```
 /// use motion_control::{SensorLoad, SensorLoadFit};

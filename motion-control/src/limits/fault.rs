@@ -98,6 +98,13 @@ pub enum Fault {
     #[doc(alias = "e-stop")]
     #[doc(alias = "emergency stop")]
     External,
+    /// The winding of its motor is above its greatest temperature: see
+    /// [`ThermalStatus::Hot`](crate::ThermalStatus::Hot), or the drive says so.
+    #[doc(alias = "over-temperature")]
+    Hot {
+        /// The joint.
+        joint: usize,
+    },
     /// The encoder can have turned by half a turn since its last reading: its count does not say
     /// where the joint is. No ride-through ends it: the driver has to be told where the joint is.
     LostTurn {
@@ -141,6 +148,7 @@ impl fmt::Display for Named<'_> {
             Fault::Brake => return write!(out, "the brake did not respond"),
             Fault::External => return write!(out, "a stop from outside"),
             Fault::Encoder { joint } => (joint, "its encoder reports an error"),
+            Fault::Hot { joint } => (joint, "its motor is too hot"),
             Fault::LostTurn { joint } => (joint, "its encoder can have lost a turn"),
             Fault::NotFinite { joint } => (joint, "its measured position is not finite"),
             Fault::Position { joint } => (joint, "its position is outside its bounds"),

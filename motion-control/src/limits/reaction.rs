@@ -53,7 +53,7 @@ impl Fault {
             | Self::NotReady { .. }
             | Self::Missed
             | Self::Overrun => Reaction::RideThrough,
-            Self::LostTurn { .. } | Self::Reference { .. } | Self::External => {
+            Self::LostTurn { .. } | Self::Reference { .. } | Self::External | Self::Hot { .. } => {
                 Reaction::ControlledStop
             }
             Self::Saturated { .. }

@@ -509,6 +509,38 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
     /// [`Self::set_limits`], which would lift them for up to 32 ticks, has to get limits of
     /// [`ThermalLimit::within`].
     ///
+    /// ```
+    /// # use motion_control::{MotionController, MotionControllerConfig, Reaction, SafetyLimits, SupervisorConfig};
+    /// use motion_control::{Fault, Mode, ThermalConfig, ThermalLimit, ThermalStatus};
+    /// # use dynamics_core::state::State;
+    /// # let limits = SafetyLimits { torque: [9.0], rate: [8.0], speed: [3.0], lower: [-1.0], upper: [1.0] };
+    /// # let mut controller = MotionController::<f32, 1>::try_new(MotionControllerConfig {
+    /// #     supervisor: SupervisorConfig {
+    /// #         limits, tick: 1e-3, resolution: 0.0, ride_through_ticks: 1, hold_ticks: 2, reentry_ticks: 4,
+    /// #     },
+    /// #     observer_bandwidth: 250.0, decay_rate: 25.0, restart_distance: 0.1,
+    /// # })?;
+    /// # let motor = ThermalConfig {
+    /// #     tick: 1e-3, continuous: [3.0], peak: [9.0], winding_time: [12.0], housing_time: [600.0],
+    /// #     share: [0.4], hottest: [120.0], ambient: 30.0,
+    /// # };
+    /// # let (reference, law, celsius) = (State::at([0.5]), |_: &_, _: &_| [2.0], Some(140.0));
+    /// let mut thermal = ThermalLimit::try_new(motor, &limits)?;
+    /// for _ in 0..40 {
+    ///     controller.limit_torques(&thermal);
+    ///     let command = controller.tick(Ok(&[0.5]), &reference, law);
+    ///     thermal.update(&command.torque);
+    ///     if let Some(celsius) = celsius {
+    ///         thermal.measured(0, celsius); // of joint 0, by its drive
+    ///     }
+    ///     if let ThermalStatus::Hot { joint } = thermal.status() {
+    ///         controller.react(Fault::Hot { joint });
+    ///     }
+    /// }
+    /// assert_eq!(controller.tick(Ok(&[0.5]), &reference, law).status.fault, Some(Fault::Hot { joint: 0 }));
+    /// # Ok::<(), motion_control::ConfigError>(())
+    /// ```
+    ///
     /// # Cost
     /// A copy of a number a joint in V + 1 of 32 ticks, and a comparison.
     #[inline]

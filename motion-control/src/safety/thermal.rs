@@ -164,8 +164,8 @@ pub enum ThermalStatus {
         joint: usize,
     },
     /// The winding is above its greatest temperature: the drive measured more than the model
-    /// says, or its torque was not that of the gate. Stop the arm, by
-    /// [`stop_by`](crate::MotionController::stop_by), before the limit falls to zero.
+    /// says, or its torque was not that of the gate. Stop the arm before the limit falls to zero:
+    /// [`react`](crate::MotionController::react) to [`Fault::Hot`](crate::Fault::Hot).
     Hot {
         /// The joint.
         joint: usize,

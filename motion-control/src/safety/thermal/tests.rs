@@ -4,6 +4,7 @@ use super::*;
 use crate::tests::Random;
 use crate::tests::{controlled, refused, safety_limits};
 use crate::{MotionController, PreviousTick};
+use core::ops::Range;
 use dynamics_core::state::State;
 
 const AMBIENT: f64 = 25.0;
@@ -26,7 +27,8 @@ impl Motor {
         let losses = 1.0 + self.copper * (winding - self.hottest);
         let heat = self.watts * losses * (torque / self.continuous).powi(2);
         let inner = (winding - housing) / self.resistance[0];
-        let outer = (housing - AMBIENT) / self.resistance[1];
+        // I²t alone has no second resistance, and a housing that does not warm.
+        let outer = (housing - AMBIENT) / self.resistance[1].max(f64::MIN_POSITIVE);
         [(heat - inner) / self.capacity[0], (inner - outer) / self.capacity[1]]
     }
 
@@ -52,7 +54,7 @@ fn arm<R: Real, const V: usize>(random: &mut Random) -> ([Motor; V], ThermalConf
     let mut config = motors([1.0; V]);
     config.tick = R::from_f64(tick);
     let arm = core::array::from_fn(|i| {
-        let (rho, continuous) = (random.within(0.1, 0.9), random.log(0.05, 50.0));
+        let (rho, continuous) = (random.within(0.1, 1.1).min(1.0), random.log(0.05, 50.0));
         let (ratio, hottest) = (random.within(1.0, 5.0), random.within(80.0, 155.0));
         let block = tick * ticks::<f64, V>();
         // From the shortest times that are accepted.
@@ -107,11 +109,11 @@ fn wanted(random: &mut Random, kind: u32, tick: u32, held: &mut f64) -> f64 {
     }
 }
 
-/// The greatest rise of each of `arms` times 5 windings, as shares of what they may have, with
+/// The greatest rise of each of 5 windings of `arms`, which are seeds, as shares of what they may have, with
 /// torques that the model limits or that are limited to the peak alone.
-fn hottest<R: Real>(arms: u64, limited: bool) -> Vec<f64> {
+fn hottest<R: Real>(arms: Range<u64>, limited: bool) -> Vec<f64> {
     let mut hottest = Vec::new();
-    for seed in 0..arms {
+    for seed in arms {
         let mut random = Random(seed);
         let (mut arm, config) = arm::<R, 5>(&mut random);
         let limits = limits::<R, 5>(1e4);
@@ -151,14 +153,14 @@ fn hottest<R: Real>(arms: u64, limited: bool) -> Vec<f64> {
 
 #[test]
 fn no_winding_of_ten_thousand_random_loads_is_hotter_than_its_limit() {
-    for rises in [hottest::<f32>(1000, true), hottest::<f64>(1000, true)] {
+    for rises in [hottest::<f32>(0..1000, true), hottest::<f64>(1000..2000, true)] {
         let most = rises.iter().fold(0.0_f64, |most, &rise| most.max(rise));
         assert!(most <= 1.0, "{most}");
         // Not by giving away the motor.
         let near = rises.iter().filter(|&&rise| rise > 0.9).count();
         assert!(most > 0.995 && near > 1500, "{most}, {near} of {}", rises.len());
     }
-    let free = hottest::<f64>(20, false);
+    let free = hottest::<f64>(0..20, false);
     assert!(free.iter().filter(|&&rise| rise > 1.0).count() > 50, "the loads are too light");
 }
 
@@ -179,6 +181,35 @@ fn a_torque_that_may_last_is_the_continuous_one_and_no_limit_steps() {
         }
     }
     assert!((last, thermal.status()) == (6.0, ThermalStatus::Cool) && step < 0.04 * 6.0, "{step}");
+}
+
+/// In no tick does a limit change by more than the slowest rate of a gate that is accepted.
+#[test]
+fn no_limit_of_many_motors_steps() {
+    let (mut random, mut most) = (Random(5), 0.0_f64);
+    for load in 0..400 {
+        let (_, config) = arm::<f64, 1>(&mut random);
+        let [peak] = config.peak;
+        let (ratio, block) = (peak / config.continuous[0], config.tick * ticks::<f64, 1>());
+        let slowest = 8.0 * peak * config.share[0] * ratio * ratio * block / config.winding_time[0];
+        let with =
+            |rate| ThermalLimit::try_new(config, &SafetyLimits { rate: [rate], ..limits(1e4) });
+        assert!(with(0.999 * slowest).is_err());
+        let cold = ThermalState { winding: [0.0], housing: [0.0] };
+        let mut thermal = with(1.001 * slowest).expect("motors").resumed(&cold, 0.0);
+        let mut held = 0.0;
+        for tick in 0..4000 {
+            let [limit] = *thermal.torque();
+            let torque = wanted(&mut random, load % 6, tick, &mut held) * peak;
+            // Half of the drives say for half of the time that their windings are too hot.
+            if load % 4 < 2 && tick % 1024 < 512 {
+                thermal.measured(0, config.hottest[0] + 20.0);
+            }
+            thermal.update(&[torque.clamped(-limit, limit)]);
+            most = most.max((thermal.torque()[0] - limit).abs() / slowest);
+        }
+    }
+    assert!((0.5..=1.0).contains(&most), "{most}");
 }
 
 #[test]

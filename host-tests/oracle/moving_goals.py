@@ -6,7 +6,7 @@
 
 Writes host-tests/recordings/moving_goals.json.gz: of each problem the joints' limits of velocity, acceleration and jerk, their
 velocity and acceleration, and their way to the goal, with the duration. With a FILE, which the test of a hundred thousand
-goals writes (`GOALS=FILE`), it prints the durations there as shares of Ruckig's. Needs requirements.txt.
+goals writes (`GOALS=FILE`), it prints the durations there as shares of Ruckig's, which are 1.0 to 1.05. Needs requirements.txt.
 """
 import json
 import sys
@@ -58,6 +58,7 @@ def compare(path):
     pairs = [(goal[36], seconds(goal[:36].reshape(6, 6))) for goal in goals]
     shares = np.array([ours / theirs for ours, theirs in pairs if theirs > 1e-6])
     print(f"{len(shares)} goals, duration / Ruckig's: {shares.min():.6f} to {shares.max():.6f}, mean {shares.mean():.6f}")
+    assert len(shares) > 90_000 and shares.min() >= 1.0 and shares.max() <= 1.05
 
 
 compare(sys.argv[1]) if len(sys.argv) > 1 else record()

@@ -98,16 +98,16 @@ pub enum Fault {
     #[doc(alias = "e-stop")]
     #[doc(alias = "emergency stop")]
     External,
+    /// The encoder can have turned by half a turn since its last reading: its count does not say
+    /// where the joint is. No ride-through ends it: the driver has to be told where the joint is.
+    LostTurn {
+        /// The joint.
+        joint: usize,
+    },
     /// The winding of its motor is above its greatest temperature: see
     /// [`ThermalStatus::Hot`](crate::ThermalStatus::Hot), or the drive says so.
     #[doc(alias = "over-temperature")]
     Hot {
-        /// The joint.
-        joint: usize,
-    },
-    /// The encoder can have turned by half a turn since its last reading: its count does not say
-    /// where the joint is. No ride-through ends it: the driver has to be told where the joint is.
-    LostTurn {
         /// The joint.
         joint: usize,
     },

@@ -125,6 +125,37 @@ impl<T, K> Core<T, K> {
         algorithms::rnea_derivatives(&Static::<T, K>::NEW, state, effects)
     }
 
+    /// (∂τ/∂q) δq + (∂τ/∂q̇) δq̇ without the matrices, see [`algorithms::rnea_along`].
+    #[inline(never)]
+    #[must_use]
+    pub fn rnea_along<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        dq: &[R; V],
+        dqd: &[R; V],
+        effects: &E,
+    ) -> [R; V]
+    where
+        Static<T, K>: RobotModel<R, B, Q, V>,
+        E: Effect<R, B, V>,
+    {
+        algorithms::rnea_along(&Static::<T, K>::NEW, state, dq, dqd, effects)
+    }
+
+    /// xᵀ ∂τ/∂q and xᵀ ∂τ/∂q̇ without the matrices, see [`algorithms::rnea_transposed`].
+    #[inline(never)]
+    #[must_use]
+    pub fn rnea_transposed<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        x: &[R; V],
+        effects: &E,
+    ) -> [[R; V]; 2]
+    where
+        Static<T, K>: RobotModel<R, B, Q, V>,
+        E: Effect<R, B, V>,
+    {
+        algorithms::rnea_transposed(&Static::<T, K>::NEW, state, x, effects)
+    }
+
     /// ∂q̈/∂q and ∂q̈/∂q̇ of forward dynamics, and the factors of M, see
     /// [`algorithms::forward_dynamics_derivatives`].
     ///

@@ -45,10 +45,10 @@ pub fn random_body(rng: &mut TestRng, body: Body) -> Body {
 /// Bodies, position and velocity coordinates of [`mixed_tree`].
 pub const MIXED: (usize, usize, usize) = (20, 44, 40);
 /// The robot of [`mixed_tree`].
-pub type LocalWorldAligned = Model<f64, { MIXED.0 }, { MIXED.1 }, { MIXED.2 }>;
+pub type MixedTree = Model<f64, { MIXED.0 }, { MIXED.1 }, { MIXED.2 }>;
 
 /// A tree with every kind of joint twice, in random order, on random axes and placements.
-pub fn mixed_tree(rng: &mut TestRng) -> LocalWorldAligned {
+pub fn mixed_tree(rng: &mut TestRng) -> MixedTree {
     const NAMES: [&str; MIXED.0] = [
         "a", "b", "c", "d", "e", "f", "g", "h", "i", "j", "k", "l", "m", "n", "o", "p", "q", "r",
         "s", "t",
@@ -67,6 +67,15 @@ pub fn mixed_tree(rng: &mut TestRng) -> LocalWorldAligned {
         random_body(rng, Body::new(NAMES[i], parent, joint))
     });
     Model::new("tree", bodies)
+}
+
+/// The twenty trees of `recordings/trees.json.gz`, each with its state.
+pub fn recorded_trees() -> impl Iterator<Item = (MixedTree, State<f64, { MIXED.1 }, { MIXED.2 }>)> {
+    let mut rng = random_numbers();
+    (0..20).map(move |_| {
+        let tree = mixed_tree(&mut rng);
+        (tree, state_of(&tree, &mut rng))
+    })
 }
 
 /// The joint of one of the ten kinds.

@@ -124,6 +124,19 @@ impl Recording {
     pub fn first_states(&self) -> usize {
         self.tip_pose.len()
     }
+
+    /// ∂FD/∂q and ∂FD/∂q̇ at a state of which ∂ID is recorded, and the torque that gives its q̈:
+    /// −M⁻¹ ∂ID.
+    pub fn forward_derivatives<const V: usize>(&self, state: usize) -> [[[f64; V]; V]; 2] {
+        let inverse = symmetric::<V>(&self.inverse_mass_matrix, state);
+        [&self.rnea_by_q, &self.rnea_by_qd].map(|rows| {
+            let rows = rows[state].as_chunks::<V>().0;
+            let entry = |i: usize, j: usize| -> f64 {
+                inverse[i].iter().zip(rows).map(|(x, row)| -x * row[j]).sum()
+            };
+            std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)))
+        })
+    }
 }
 
 /// Full scale of each recorded quantity (DESIGN, "Tests").
@@ -173,6 +186,16 @@ impl Precise {
             _ => panic!("no torques of `{name}` in 50 digits"),
         }
     }
+}
+
+/// Derivatives of one of the [`random::recorded_trees`](crate::random::recorded_trees) by
+/// Pinocchio.
+#[derive(Debug, Deserialize)]
+pub struct TreeDerivatives {
+    /// The state's positions: the tree is still the one that was recorded.
+    pub q: Vec<f64>,
+    /// ∂ID/∂q and ∂ID/∂q̇ by rows.
+    pub by: [Vec<f64>; 2],
 }
 
 /// Reads the recording of a script under this name.

@@ -2,25 +2,29 @@
 //! against the matrices, on trees with joints of every kind.
 
 use crate::common::*;
+use dynamics_core::Core;
 use dynamics_core::algorithms::{
     aba, forward_dynamics_derivatives, rnea, rnea_along, rnea_derivatives, rnea_transposed, solve,
 };
 use dynamics_core::effects::{
-    Armature, AsymmetricCoulomb, Cogging, ConstantTorque, Coulomb, Effect, EndStops, Frozen,
-    JointState, MovingBase, Payload, RIGID_BODY, Spring, Stribeck, TorqueDerivatives, Viscous,
-    Width,
+    Armature, AsymmetricCoulomb, Cogging, ConstantTorque, Coriolis, Coulomb, Effect, EndStops,
+    Frozen, GravityVector, Inertia, JointState, MovingBase, Payload, RIGID_BODY, Spring, Stribeck,
+    TorqueDerivatives, Viscous, Width,
 };
-use dynamics_core::model::BodyInertia;
+use dynamics_core::model::{BodyInertia, Robot};
+use dynamics_core::robots::Ur5e;
 use dynamics_core::scalar::Real;
 use dynamics_core::spatial::Motion;
 use dynamics_core::state::State;
 use glam::DVec3;
 use host_tests::dual::{Dual, gradient, seeded, vector};
 use host_tests::measured::largest;
+use host_tests::random::recorded_trees;
+use host_tests::recordings::{TreeDerivatives, read};
 
 type Matrix = [[f64; V]; V];
 
-/// All that has derivatives: a payload, a base that moves, armatures, friction and springs.
+/// All that has derivatives: gravity aslant, a payload, a base that moves, armatures, friction and springs.
 fn scene<R: Real>() -> impl Effect<R, B, V> + Copy {
     let of = R::from_f64;
     let load = Payload::<R, { B - 1 }>::from_inertia(BodyInertia {
@@ -37,7 +41,9 @@ fn scene<R: Real>() -> impl Effect<R, B, V> + Copy {
     };
 
     let springs = Spring { stiffness: [of(7.0); V], rest: [of(0.2); V] };
-    (RIGID_BODY, Armature([of(0.3); V]), load, ship, Viscous([of(0.7); V]), springs)
+    let tilted = GravityVector(vector::<R>(DVec3::new(2.0, -3.0, -9.0)));
+    let rigid = (Inertia, Coriolis, tilted);
+    (rigid, Armature([of(0.3); V]), load, ship, Viscous([of(0.7); V]), springs)
 }
 
 fn unit(k: usize) -> [f64; V] {
@@ -49,7 +55,7 @@ fn column(rows: &Matrix, k: usize) -> [f64; V] {
 }
 
 /// The largest error of an entry relative to the matrix's largest entry.
-fn relative<R: Real>(got: &[[R; V]; V], want: &Matrix) -> f64 {
+fn relative<R: Real, const V: usize>(got: &[[R; V]; V], want: &[[f64; V]; V]) -> f64 {
     let mut worst = Worst::default();
     got.iter().zip(want).for_each(|(got, want)| worst.see(got.map(R::to_f64), *want));
     worst.error / worst.full_scale
@@ -111,6 +117,22 @@ fn the_derivatives_of_forward_dynamics_are_those_of_dual_numbers() {
     }
     let names = ["∂FD/∂q by dual", "∂FD/∂qd by dual", "∂FD/∂tau by dual"];
     speak(names.map(|name| format!("{name} numbers")).each_ref().map(|name| &**name), "f64", worst);
+}
+
+#[test]
+fn the_derivatives_of_random_trees_are_pinocchios() {
+    let recorded: Vec<TreeDerivatives> = read("trees");
+    assert_eq!(recorded.len(), 20);
+    let mut worst = [0.0; 2];
+    for ((tree, state), TreeDerivatives { q, by }) in recorded_trees().zip(&recorded) {
+        assert_eq!(state.q[..], q[..], "the trees have changed: record them again");
+        let got = rnea_derivatives(&tree, &state, &RIGID_BODY);
+        for ((worst, got), by) in worst.iter_mut().zip([got.dq, got.dqd]).zip(by) {
+            let want = by.as_chunks().0.try_into().expect("rows of the tree's coordinates");
+            *worst = largest([*worst, relative(&got, want)]);
+        }
+    }
+    speak(["∂ID/∂q by Pinocchio", "∂ID/∂qd by Pinocchio"], "f64", worst);
 }
 
 /// The largest error of an effect's derivatives by `slopes`, relative to the largest one.
@@ -218,8 +240,8 @@ fn what_is_frozen_acts_and_has_no_derivative() {
     assert_ne!(by, rnea_derivatives(&tree, &state, &free));
 }
 
-#[test]
-fn products_with_the_derivatives_are_those_of_the_matrices() {
+/// The errors of ∂ID x and xᵀ ∂ID of any of a hundred trees.
+fn products<R: Real>() -> [Worst; 2] {
     let mut worst = <[Worst; 2]>::default();
     let (scene, mut rng) = (scene::<f64>(), Rng::new(31));
     for (tree, state) in trees(false) {
@@ -227,15 +249,30 @@ fn products_with_the_derivatives_are_those_of_the_matrices() {
         let [x, y] = [rng.vector::<V>(3.0), rng.vector::<V>(3.0)];
         let row = |a: &[f64; V], b: &[f64; V]| -> f64 { a.iter().zip(b).map(|(a, b)| a * b).sum() };
         let want = core::array::from_fn::<_, V, _>(|i| row(&by.dq[i], &x) + row(&by.dqd[i], &y));
-        worst[0].see(rnea_along(&tree, &state, &x, &y, &scene), want);
-        let transposed = rnea_transposed(&tree, &state, &x, &scene);
+        let (tree, state, [to, by_rate]) = (R::cast(&tree), cast(&state), [x, y].map(reals));
+        let along = rnea_along(&tree, &state, &to, &by_rate, &self::scene::<R>());
+        worst[0].see(along.map(R::to_f64), want);
+        let transposed = rnea_transposed(&tree, &state, &to, &self::scene::<R>());
         for (got, rows) in transposed.into_iter().zip([by.dq, by.dqd]) {
-            worst[1].see::<V>(got, core::array::from_fn(|k| row(&column(&rows, k), &x)));
+            let want = core::array::from_fn(|k| row(&column(&rows, k), &x));
+            worst[1].see::<V>(got.map(R::to_f64), want);
         }
     }
-    let mut verdict = Verdict::default();
-    for (name, worst) in ["∂ID x", "xᵀ ∂ID"].iter().zip(worst) {
-        verdict.see("mixed tree", name, "f64", &worst);
-    }
-    verdict.speak();
+    worst
+}
+
+fn reals<R: Real>(x: [f64; V]) -> [R; V] {
+    x.map(R::from_f64)
+}
+
+#[test]
+fn products_with_the_derivatives_are_those_of_the_matrices() {
+    let errors = |worst: Worst| worst.error / worst.full_scale;
+    speak(["∂ID x", "xᵀ ∂ID"], "f64", products::<f64>().map(errors));
+    speak(["∂ID x", "xᵀ ∂ID"], "f32", products::<f32>().map(errors));
+    let (state, x) = (State { qd: [1.0; 6], ..State::at([0.3; 6]) }, [0.1; 6]);
+    let along = rnea_along(&Ur5e::MODEL, &state, &x, &x, &RIGID_BODY);
+    assert_eq!(Core::<Ur5e>::rnea_along(&state, &x, &x, &RIGID_BODY), along);
+    let transposed = rnea_transposed(&Ur5e::MODEL, &state, &x, &RIGID_BODY);
+    assert_eq!(Core::<Ur5e>::rnea_transposed(&state, &x, &RIGID_BODY), transposed);
 }

@@ -6,7 +6,7 @@ use dynamics_core::model::{BASE, Body, Joint, JointKind, Model};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 use dynamics_core::state::manifold::{difference, integrate, neutral, normalise};
-use host_tests::random::{LocalWorldAligned, MIXED, mixed_tree, random_numbers, state_of, within};
+use host_tests::random::{MIXED, MixedTree, mixed_tree, random_numbers, state_of, within};
 use host_tests::{measured, tolerances};
 
 const TREES: usize = 200;
@@ -22,7 +22,7 @@ fn largest(errors: impl IntoIterator<Item = f64>) -> f64 {
 }
 
 /// Whether the coordinates at `k` belong to a joint of this kind.
-fn kind_at(tree: &LocalWorldAligned, k: usize) -> JointKind {
+fn kind_at(tree: &MixedTree, k: usize) -> JointKind {
     let link = tree.links.iter().find(|link| {
         let (count, _) = link.joint.kind.coordinates();
         count > 0 && (link.idx_q..link.idx_q + count).contains(&k)
@@ -52,7 +52,7 @@ fn the_difference_of_a_step_is_the_step() {
 }
 
 /// The model in the scalar R.
-fn cast<R: Real>(tree: &LocalWorldAligned) -> Model<R, { MIXED.0 }, { MIXED.1 }, { MIXED.2 }> {
+fn cast<R: Real>(tree: &MixedTree) -> Model<R, { MIXED.0 }, { MIXED.1 }, { MIXED.2 }> {
     R::cast(tree)
 }
 

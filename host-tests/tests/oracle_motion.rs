@@ -61,6 +61,7 @@ fn motions<R: Real, T, const B: usize, const Q: usize, const V: usize>(
         ("∂ID/∂qd", &r.rnea_by_qd),
     ];
     let mut errors = quantities.map(|(_, rows)| worst(rows));
+    let mut forward = <[Worst; 2]>::default();
     let tip = B - 1;
     for i in 0..r.first_states() {
         let velocity = |rows| row::<V>(rows, i).map(R::from_f64);
@@ -129,9 +130,20 @@ fn motions<R: Real, T, const B: usize, const Q: usize, const V: usize>(
                     errors[17 + k].compare(got.map(R::to_f64), *want);
                 }
             }
+            let tau = row::<V>(&r.rnea, i).map(R::from_f64);
+            let by = Core::<T>::forward_dynamics_derivatives(&state, &tau, &RIGID_BODY);
+            let by = by.expect("M is positive");
+            for (k, want) in r.forward_derivatives::<V>(i).iter().enumerate() {
+                for (got, want) in [&by.dq, &by.dqd][k].iter().zip(want) {
+                    forward[k].see(got.map(R::to_f64), *want);
+                }
+            }
         }
     }
     for ((name, _), worst) in quantities.iter().zip(&errors) {
+        most.see::<R>(name, worst);
+    }
+    for (name, worst) in ["∂FD/∂q", "∂FD/∂qd"].into_iter().zip(&forward) {
         most.see::<R>(name, worst);
     }
 }

@@ -42,14 +42,15 @@ pub(crate) const fn named_derivatives<R: Real, E, const B: usize, const V: usize
 where
     E: Effect<R, B, V>,
 {
-    assert!(
-        E::DIFFERENTIABLE,
-        "an effect of the scene has no derivatives: `Frozen(effect)` counts it as constant, and an \
-         effect of one's own whose `slopes` are all it has sets `DIFFERENTIABLE`"
-    );
+    // First: `Frozen` does not help against it.
     assert!(
         !(E::GYROSCOPIC_ROTORS | E::LOAD_DEPENDENT | E::ELASTICITY),
         "the derivatives of rotors that spin as bodies, of friction that depends on the load, and \
          of links that bend are not computed: use `Armature`, `Viscous` and `Coulomb`"
+    );
+    assert!(
+        E::DIFFERENTIABLE,
+        "an effect of the scene has no derivatives: `Frozen(effect)` counts it as constant, and an \
+         effect of one's own whose `slopes` are all it has sets `DIFFERENTIABLE`"
     );
 }

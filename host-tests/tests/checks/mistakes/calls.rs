@@ -69,3 +69,14 @@ pub fn forgotten(at: &State<f32, 6, 6>) {
     Effect::<f32, 6, 6>::torque(&Drag, 0, JointState::new(0.0, 0.0), &mut 0.0); //~ this effect has neither a hook among the constants of `Effect` nor the function `torque`
     let _ = Core::<Ur5e>::rnea(at, &Drag);
 }
+
+type Gears = LoadFriction<f64, 6>;
+type Rotors = GyroscopicRotors<f64, 6>;
+pub fn derivatives(at: &State<f64, 6, 6>, gears: Gears, rotors: Rotors) {
+    let _ = algorithms::rnea_derivatives(&Ur5e::MODEL, at, &(RIGID_BODY, Drag)); //~ an effect of the scene has no derivatives
+    let _ = algorithms::rnea_derivatives(&Ur5e::MODEL, at, &(RIGID_BODY, gears)); //~ the derivatives of rotors that spin as bodies
+    let _ = algorithms::rnea_derivatives(&Ur5e::MODEL, at, &(RIGID_BODY, Frozen(rotors))); //~ the derivatives of rotors that spin as bodies
+    let _ = Engine::<Ur5e>::rnea_derivatives(at, &(RIGID_BODY, Frozen(gears))); //~ the derivatives of rotors that spin as bodies
+    let _ = algorithms::rnea_along(&Ur5e::MODEL, at, &[0.0; 6], &[0.0; 6], &(RIGID_BODY, Elasticity)); //~ the derivatives of rotors that spin as bodies
+    let _ = algorithms::rnea_transposed(&Ur5e::MODEL, at, &[0.0; 6], &(RIGID_BODY, Frozen(Elasticity))); //~ the derivatives of rotors that spin as bodies
+}

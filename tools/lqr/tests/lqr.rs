@@ -23,34 +23,67 @@ fn arm() -> (State<f64, 6, 6>, [f64; 6], Linearisation<f64, 6>) {
     (state, tau, Linearisation::new(&Ur5e::MODEL, &by))
 }
 
-/// The end of a short tick under more torque from a state that is off, by simulation.
-fn simulated(off: [[f64; 6]; 2], more: [f64; 6], h: f64) -> [[f64; 6]; 2] {
-    let (mut at, tau, _) = arm();
-    let add = |x: [f64; 6], y: [f64; 6]| core::array::from_fn(|i| x[i] + y[i]);
-    (at.q, at.qd) = (add(at.q, off[0]), add(at.qd, off[1]));
-    for _ in 0..4 {
-        runge_kutta(&Ur5e::MODEL, &mut at, &add(tau, more), &SCENE, h / 4.0)
-            .expect("forward dynamics");
+/// Gains of positions and velocities, and how often in a tick they act.
+type Feedback = ([[[f64; 6]; 6]; 2], u32);
+
+/// How far the arm is off after a tick, by simulation beside one that is not, under more torque and
+/// feedback.
+fn simulated([q, qd, more]: [[f64; 6]; 3], (gains, steps): &Feedback) -> [[f64; 6]; 2] {
+    let (mut nominal, tau, _) = arm();
+    let sum = |x: [f64; 6], y: [f64; 6], sign| core::array::from_fn(|i| x[i] + sign * y[i]);
+    let mut moved = State { q: sum(nominal.q, q, 1.0), qd: sum(nominal.qd, qd, 1.0), ..nominal };
+    let step = |at: &mut State<f64, 6, 6>, tau: [f64; 6]| {
+        let h = TICK / f64::from(*steps);
+        runge_kutta(&Ur5e::MODEL, at, &tau, &SCENE, h).expect("forward dynamics");
+    };
+    for _ in 0..*steps {
+        let off = [sum(moved.q, nominal.q, -1.0), sum(moved.qd, nominal.qd, -1.0)];
+        let mut by_feedback = sum(tau, more, 1.0);
+        for (rows, x) in gains.iter().zip(&off) {
+            let product = rows.map(|row| row.iter().zip(x).map(|(k, x)| k * x).sum());
+            by_feedback = sum(by_feedback, product, -1.0);
+        }
+        step(&mut nominal, tau);
+        step(&mut moved, by_feedback);
     }
-    [at.q, at.qd]
+    [sum(moved.q, nominal.q, -1.0), sum(moved.qd, nominal.qd, -1.0)]
+}
+
+/// The largest error of a column of a tick of the linear system, of what a simulation has.
+fn of_tick(feedback: &Feedback, plant: &Linearisation<f64, 6>) -> f64 {
+    let [phi, gamma] = held(plant, TICK);
+    let error = |k: usize| {
+        let mut off = [[0.0; 6]; 3];
+        off[k / 6][k % 6] = 1e-4;
+        let moved = simulated(off, feedback).concat();
+        let column = if k < 12 { phi.column(k) } else { gamma.column(k - 12) };
+        // The velocity changes the linear system within the tick: in proportion to it.
+        let off = moved.iter().zip(&column).map(|(moved, entry)| (moved / 1e-4 - entry).abs());
+        off.max_by(f64::total_cmp).expect("entries") / column.amax()
+    };
+    (0..18).map(error).max_by(f64::total_cmp).expect("columns")
 }
 
 #[test]
-fn a_tick_of_the_linearisation_is_that_of_the_arm() {
+fn a_tick_of_the_linearisation_is_that_of_the_arm_alone_and_under_feedback() {
     let (_, _, plant) = arm();
-    let [phi, gamma] = held(&plant, TICK);
-    let still = simulated([[0.0; 6]; 2], [0.0; 6], TICK).concat();
-    for k in 0..18 {
-        let mut off = [[0.0; 6]; 3];
-        off[k / 6][k % 6] = 1e-4;
-        let moved = simulated([off[0], off[1]], off[2], TICK).concat();
-        let column = if k < 12 { phi.column(k) } else { gamma.column(k - 12) };
-        // The velocity changes the linear system within the tick: in proportion to it.
-        let scale = column.amax();
-        for (i, (a, b)) in std::iter::zip(&moved, &still).enumerate() {
-            let error = ((a - b) / 1e-4 - column[i]).abs();
-            assert!(error < 5e-3 * scale, "entry {i}, {k}: {error:.1e} of {scale:.1e}");
-        }
+    let alone = ([[[0.0; 6]; 6]; 2], 4);
+    let entry = |pd, other, i: usize, j: usize| if i == j { pd } else { other * (2 * i) as f64 };
+    let rows =
+        |pd, other| core::array::from_fn(|i| core::array::from_fn(|j| entry(pd, other, i, j)));
+    let held = ([rows(800.0, 20.0), rows(30.0, -0.5)], 50);
+    let [by_q, by_qd] = &held.0;
+    let controlled = plant.controlled(by_q, by_qd);
+    for (feedback, system) in [(&alone, &plant), (&held, &controlled)] {
+        let error = of_tick(feedback, system);
+        assert!(error < 5e-3, "{error:.1e}");
+    }
+    assert!(of_tick(&held, &plant) > 0.02, "the feedback is too weak to be seen");
+
+    let driven = controlled.driven_at([3, 1, 6]);
+    assert_eq!((driven.dq, driven.dqd), (controlled.dq, controlled.dqd));
+    for (few, all) in driven.du.iter().zip(&controlled.du) {
+        assert_eq!(*few, [all[3], all[1], 0.0]);
     }
 }
 

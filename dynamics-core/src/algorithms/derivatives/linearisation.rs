@@ -6,12 +6,15 @@ use super::AccelerationGradient;
 use crate::algorithms::solve;
 use crate::model::RobotModel;
 use crate::scalar::Real;
+use crate::state::entry;
 
 /// The linear system of small deviations δq, δq̇ of V coordinates from a state, under U inputs δu.
 ///
 /// ```text
 /// d/dt [δq; δq̇] = [0 1; ∂q̈/∂q ∂q̈/∂q̇] [δq; δq̇] + [0; ∂q̈/∂u] δu
 /// ```
+///
+/// A spherical, planar or free joint is at rest in this state: δq̇ is the rate of δq only then.
 ///
 /// That of a robot with a motor at each coordinate is made from the derivatives of forward
 /// dynamics, here of an arm that hangs still under the torques that carry it:
@@ -40,7 +43,8 @@ pub struct Linearisation<R, const V: usize, const U: usize = V> {
 }
 
 impl<R: Real, const V: usize> Linearisation<R, V> {
-    /// That of a robot with a motor at each coordinate: ∂q̈/∂u = M⁻¹.
+    /// That of a robot with a motor at each coordinate: ∂q̈/∂u = M⁻¹. With fewer motors, such as on
+    /// a free base, [`driven_at`](Self::driven_at) keeps their columns.
     pub fn new<D, const B: usize, const Q: usize>(
         robot: &D,
         by: &AccelerationGradient<R, V>,
@@ -53,9 +57,52 @@ impl<R: Real, const V: usize> Linearisation<R, V> {
         let du = core::array::from_fn(|k| solve(robot, &by.factors, &unit(k)));
         Self { dq: by.dq, dqd: by.dqd, du }
     }
+
+    /// That of motors at these coordinates alone; a number that is none of the robot moves nothing.
+    pub fn driven_at<const U: usize>(&self, motors: [usize; U]) -> Linearisation<R, V, U> {
+        let Self { dq, dqd, du } = *self;
+        Linearisation { dq, dqd, du: du.map(|row| motors.map(|motor| entry(&row, motor))) }
+    }
 }
 
 impl<R: Real, const V: usize, const U: usize> Linearisation<R, V, U> {
+    /// That under the feedback δu = δw − K_q δq − K_q̇ δq̇, with δw as its input: A − B K.
+    ///
+    /// The gains are rows of δu, N·m/rad and N·m·s/rad of torques between revolute joints; those of
+    /// PD at each joint are diagonal. The feedback is continuous: over a tick in which the torque is
+    /// held, [`after`](Self::after) of the robot alone takes δu.
+    ///
+    /// ```
+    /// use dynamics_core::algorithms::{Linearisation, forward_dynamics_derivatives, rnea};
+    /// use dynamics_core::{effects::RIGID_BODY, model::Robot, robots::Ur5e, state::State};
+    /// let state = State::at([0.0_f64, -1.2, 1.5, 0.3, 0.7, 0.0]);
+    /// let holding = rnea(&Ur5e::MODEL, &state, &RIGID_BODY);
+    /// let by = forward_dynamics_derivatives(&Ur5e::MODEL, &state, &holding, &RIGID_BODY)?;
+    /// let arm = Linearisation::new(&Ur5e::MODEL, &by);
+    /// // PD of the shoulder alone, which is off by 1 mrad: it comes back.
+    /// let [mut kp, mut kd] = [[[0.0; 6]; 6]; 2];
+    /// (kp[1][1], kd[1][1]) = (500.0, 20.0); // N·m/rad and N·m·s/rad
+    /// let held = arm.controlled(&kp, &kd);
+    /// let off = [[0.0, 1e-3, 0.0, 0.0, 0.0, 0.0], [0.0; 6]];
+    /// let [alone, back] = [arm, held].map(|system| system.after(&off, &[0.0; 6], 2e-3)[1][1]);
+    /// assert!(back < alone && back < 0.0);
+    /// # Ok::<(), dynamics_core::algorithms::NotPositiveDefinite>(())
+    /// ```
+    #[doc(alias = "closed loop")]
+    pub fn controlled(&self, by_q: &[[R; V]; U], by_qd: &[[R; V]; U]) -> Self {
+        let Self { mut dq, mut dqd, du } = *self;
+        for (rows, gains) in [(&mut dq, by_q), (&mut dqd, by_qd)] {
+            for (row, of_inputs) in rows.iter_mut().zip(&du) {
+                for (gains, &of_input) in gains.iter().zip(of_inputs) {
+                    for (entry, &gain) in row.iter_mut().zip(gains) {
+                        *entry -= of_input * gain;
+                    }
+                }
+            }
+        }
+        Self { dq, dqd, du }
+    }
+
     /// [δq̇; δq̈] of [δq; δq̇] under δu.
     pub fn rates(&self, [q, qd]: &[[R; V]; 2], u: &[R; U]) -> [[R; V]; 2] {
         let qdd = core::array::from_fn(|i| {

@@ -14,9 +14,10 @@ pub mod random;
 pub mod recordings;
 pub mod stress_robot;
 pub mod tolerances;
-pub mod trees;
 pub mod true_motion;
 pub mod widen;
+
+pub use fixtures::trees;
 
 /// Numbers of states, runs or ticks, or bounds of them: those of an everyday run, or with the
 /// feature `full` the second ones.

@@ -4,17 +4,17 @@
 
 mod costs;
 
+use costs::inverse::RigidBody;
 use costs::row::Row;
 use costs::{STATES, asks};
+use dynamics_core::Engine;
 use dynamics_core::algorithms::TorquesAndWrenches;
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::model::{OnBody, Robot};
 use dynamics_core::state::State;
-use dynamics_core::{Engine, effects};
 use robots::Ur5e;
 
 const WRIST: usize = Ur5e::MODEL.body("wrist_3");
-type RigidBody = (effects::Gravity, effects::Inertia, effects::Coriolis);
 type WithWrench<'a> =
     fn(&'a State<f32, 6, 6>, &RigidBody, OnBody<WRIST>) -> TorquesAndWrenches<f32, 6, 1>;
 

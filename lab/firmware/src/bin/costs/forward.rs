@@ -1,18 +1,19 @@
 //! M, what solves with it, and the tip's Jacobian, form by form.
 
-use dynamics_core::algorithms::{NotPositiveDefinite, frame::LocalWorldAligned};
-use dynamics_core::effects::{Coriolis, Gravity, Inertia, RIGID_BODY};
-
+use dynamics_core::algorithms::frame::LocalWorldAligned;
+use dynamics_core::algorithms::{AccelerationGradient, NotPositiveDefinite};
+use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::model::{OnBody, Robot};
 use dynamics_core::spatial::Motion;
 use dynamics_core::state::{JointTrig, State, StateWithTrig};
 use dynamics_core::{Core, Engine, MassMatrix};
 
+use super::inverse::RigidBody as Scene;
 use super::row::Row;
 use super::{Ask, STATES, asks, done, estimators, loaded, momentum};
 
-type Scene = (Gravity, Inertia, Coriolis);
 type Solution<const N: usize> = Result<[f32; N], NotPositiveDefinite>;
+type Gradient<const N: usize> = Result<AccelerationGradient<f32, N>, NotPositiveDefinite>;
 type Forward<'a, const N: usize> = fn(&'a State<f32, N, N>, &[f32; N], &Scene) -> Solution<N>;
 type Precomputed<'a, const N: usize> =
     fn(StateWithTrig<'a, f32, N, N>, &[f32; N], &Scene) -> Solution<N>;
@@ -27,6 +28,7 @@ pub struct Forms<'a, const N: usize, const TIP: usize> {
     forward_before: Precomputed<'a, N>,
     aba: Forward<'a, N>,
     aba_before: Precomputed<'a, N>,
+    derivatives: fn(&'a State<f32, N, N>, &[f32; N], &Scene) -> Gradient<N>,
     jacobian: fn(&[f32; N], OnBody<TIP>, LocalWorldAligned) -> [Motion<f32>; N],
     jacobian_before: fn(&JointTrig<f32, N>, OnBody<TIP>, LocalWorldAligned) -> [Motion<f32>; N],
 }
@@ -44,6 +46,7 @@ macro_rules! forms {
                 forward_before: $Form::<T>::forward_dynamics,
                 aba: $Form::<T>::aba,
                 aba_before: $Form::<T>::aba,
+                derivatives: $Form::<T>::forward_dynamics_derivatives,
                 jacobian: $Form::<T>::jacobian,
                 jacobian_before: $Form::<T>::jacobian,
             }
@@ -109,6 +112,9 @@ pub fn run<'a, T: Robot<B, N, N>, const B: usize, const N: usize, const TIP: usi
         });
     }
     for form in forms {
+        let run = form.derivatives;
+        row(form, "forward_dynamics_derivatives", true)
+            .measure(run as usize, asks, |ask| run(&ask.state, &ask.state.qdd, scene));
         let (inside, precomputed) = (form.jacobian, form.jacobian_before);
         row(form, "jacobian", true)
             .measure(inside as usize, asks, |ask| inside(&ask.state.q, OnBody, LocalWorldAligned));

@@ -12,6 +12,19 @@ use super::{Ask, STATES, asks, done};
 pub type Inside<'a, E, const N: usize> = fn(&'a State<f32, N, N>, &E) -> [f32; N];
 pub type Precomputed<'a, E, const N: usize> = fn(StateWithTrig<'a, f32, N, N>, &E) -> [f32; N];
 
+/// [`both`] of the function of this name.
+macro_rules! rows {
+    ($function:ident, $names:expr, $asks:expr, $effects:expr) => {
+        $crate::costs::inverse::both::<T, _, _, B, N>(
+            $names,
+            ($asks, $effects),
+            [Core::<T>::$function, Engine::<T>::$function],
+            [Core::<T>::$function, Engine::<T>::$function],
+        )
+    };
+}
+pub(super) use rows;
+
 /// Measures every row of the robot T and leaves the emulator.
 pub fn run<T: Robot<B, N, N>, const B: usize, const N: usize>() -> ! {
     let asks = asks::<T, B, N, STATES>();
@@ -19,11 +32,12 @@ pub fn run<T: Robot<B, N, N>, const B: usize, const N: usize>() -> ! {
     inverse::<T, _, B, N>("bias", &asks, &(Gravity::EARTH, Coriolis));
     inverse::<T, _, B, N>("gravity", &asks, &(Gravity::EARTH,));
     inverse::<T, _, B, N>("no_coriolis", &asks, &(Gravity::EARTH, Inertia));
-    derivatives::<T, B, N>(&asks);
+    rows!(rnea_derivatives, ["rnea_derivatives", "full"], &asks, &RIGID_BODY);
     done()
 }
 
-/// Inverse dynamics and its derivatives of a robot with a free base, by the engine.
+/// Inverse dynamics and its derivatives of a robot with joints of several coordinates, by the
+/// engine.
 pub fn free<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>() {
     let mut number = numbers();
     let asks: [(State<f32, Q, V>, JointTrig<f32, Q>); STATES] = [(); STATES].map(|()| {
@@ -42,34 +56,29 @@ pub fn free<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>()
     row.measure(run as usize, &asks, |(at, trig)| run(trig.with(at), &RIGID_BODY));
 }
 
-/// Inverse dynamics in both forms, with sines and cosines computed inside and before.
+/// Inverse dynamics in both forms.
 pub fn inverse<T: Robot<B, N, N>, E: Effect<f32, B, N>, const B: usize, const N: usize>(
     inputs: &'static str,
     asks: &[Ask<N>; STATES],
     effects: &E,
 ) {
-    let forms: [(&str, Inside<'_, E, N>, Precomputed<'_, E, N>); 2] = [
-        ("core", Core::<T>::rnea, Core::<T>::rnea),
-        ("engine", Engine::<T>::rnea, Engine::<T>::rnea),
-    ];
-    for (form, inside, precomputed) in forms {
-        let row = |trig| Row::of::<T, B, N>("rnea", form, inputs, trig);
-        row(true).measure(inside as usize, asks, |ask| inside(&ask.state, effects));
-        row(false).measure(precomputed as usize, asks, |ask| {
-            precomputed(ask.trig.with(&ask.state), effects)
-        });
-    }
+    rows!(rnea, ["rnea", inputs], asks, effects);
 }
 
-type Gradient<S, const N: usize> = fn(S, &RigidBody) -> TorqueGradient<f32, N>;
-type RigidBody = (Gravity, Inertia, Coriolis);
+pub type RigidBody = (Gravity, Inertia, Coriolis);
 
-/// Derivatives of inverse dynamics by the engine, with sines and cosines computed inside and
-/// before.
-fn derivatives<T: Robot<B, N, N>, const B: usize, const N: usize>(asks: &[Ask<N>; STATES]) {
-    let row = |trig| Row::of::<T, B, N>("rnea_derivatives", "engine", "full", trig);
-    let run: Gradient<&State<f32, N, N>, N> = Engine::<T>::rnea_derivatives;
-    row(true).measure(run as usize, asks, |ask| run(&ask.state, &RIGID_BODY));
-    let run: Gradient<StateWithTrig<'_, f32, N, N>, N> = Engine::<T>::rnea_derivatives;
-    row(false).measure(run as usize, asks, |ask| run(ask.trig.with(&ask.state), &RIGID_BODY));
+/// A function of core and engine, with sines and cosines computed inside and before.
+pub fn both<'a, T: Robot<B, N, N>, E, Out, const B: usize, const N: usize>(
+    [algorithm, inputs]: [&'static str; 2],
+    (asks, effects): (&'a [Ask<N>; STATES], &E),
+    inside: [fn(&'a State<f32, N, N>, &E) -> Out; 2],
+    before: [fn(StateWithTrig<'a, f32, N, N>, &E) -> Out; 2],
+) {
+    for (form, (inside, before)) in
+        ["core", "engine"].into_iter().zip(inside.into_iter().zip(before))
+    {
+        let row = |trig| Row::of::<T, B, N>(algorithm, form, inputs, trig);
+        row(true).measure(inside as usize, asks, |ask| inside(&ask.state, effects));
+        row(false).measure(before as usize, asks, |ask| before(ask.trig.with(&ask.state), effects));
+    }
 }

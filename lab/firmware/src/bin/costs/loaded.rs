@@ -2,7 +2,7 @@
 
 use dynamics_core::Engine;
 use dynamics_core::algorithms::{MassMatrix, NotPositiveDefinite};
-use dynamics_core::effects::{BaseParameters, RIGID_BODY};
+use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::model::{Calibrated, Robot};
 use dynamics_core::state::State;
 
@@ -20,13 +20,6 @@ pub fn engine<T: Robot<B, N, N>, const B: usize, const N: usize>(asks: &[Ask<N>;
     let Ok(set) = Engine::<T>::base_parameters(&arm, &()) else {
         return;
     };
-    rows::<T, B, N>(asks, set);
-}
-
-fn rows<T: Robot<B, N, N>, const B: usize, const N: usize>(
-    asks: &[Ask<N>; STATES],
-    set: BaseParameters<T, f32, B, N, N>,
-) {
     let scene = &(RIGID_BODY, set);
     let row = |algorithm, trig| Row::of::<T, B, N>(algorithm, "engine", "loaded", trig);
     let run: Inside<'_, _, N> = Engine::<T>::rnea;

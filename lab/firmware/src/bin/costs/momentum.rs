@@ -1,36 +1,24 @@
 //! p and Cᵀ q̇, and what an observer of external torques costs with them.
 
-use dynamics_core::algorithms::{MomentumAndCoriolis, MomentumAndDrift, frame};
+use dynamics_core::algorithms::{MomentumAndDrift, frame};
 use dynamics_core::effects::{
     Coriolis, Coulomb, Gravity, Inertia, LoadFriction, RIGID_BODY, Viscous, Width,
 };
 use dynamics_core::model::Robot;
 use dynamics_core::spatial::{Force, Motion};
-use dynamics_core::state::{State, StateWithTrig};
+use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
 use motion_control::{Fault, MomentumObserver, ObserverConfig, TipWrench, TipWrenchConfig};
 
 use super::row::Row;
 use super::{Ask, STATES, inverse};
 
-type Inside<'a, const N: usize> = fn(&'a State<f32, N, N>, &()) -> MomentumAndCoriolis<f32, N>;
-type Precomputed<'a, const N: usize> =
-    fn(StateWithTrig<'a, f32, N, N>, &()) -> MomentumAndCoriolis<f32, N>;
 /// Inverse dynamics and the observer have the same scene.
 type Scene<const N: usize> =
     ((Gravity, Inertia, Coriolis), (Viscous<f32, N>, Coulomb<f32, N>), LoadFriction<f32, N>);
 
 pub fn both<T: Robot<B, N, N>, const B: usize, const N: usize>(asks: &[Ask<N>; STATES]) {
-    let forms: [(&str, Inside<'_, N>, Precomputed<'_, N>); 2] = [
-        ("core", Core::<T>::momentum_and_coriolis, Core::<T>::momentum_and_coriolis),
-        ("engine", Engine::<T>::momentum_and_coriolis, Engine::<T>::momentum_and_coriolis),
-    ];
-    for (form, inside, precomputed) in forms {
-        let row = |trig| Row::of::<T, B, N>("momentum", form, "full", trig);
-        row(true).measure(inside as usize, asks, |ask| inside(&ask.state, &()));
-        row(false)
-            .measure(precomputed as usize, asks, |ask| precomputed(ask.trig.with(&ask.state), &()));
-    }
+    inverse::rows!(momentum_and_coriolis, ["momentum", "full"], asks, &());
     observer::<T, B, N>(asks);
 }
 

@@ -2,7 +2,7 @@
 //! the supervisor lowers it.
 
 use firmware_demo::scene::PlantModel;
-use firmware_demo::scenes::wheel_leg_balance::trial::{Outcome, Trial};
+use firmware_demo::scenes::wheel_leg_balance::trial::{Outcome, Push, Trial};
 use firmware_demo::scenes::wheel_leg_balance::{Balance, Less, Order, Pitch};
 use host_tests::everyday_or_full;
 use motion_control::{Fault, Mode, TablePlace};
@@ -77,6 +77,25 @@ fn the_scene_is_driven_to_its_end_and_its_parts_are_worth_it() {
     let [all, gravity, traction] = [Less::Nothing, Less::Gravity, Less::Traction].map(run);
     assert!(all.stands() && all.way > 1.5, "{all:?}");
     assert!(gravity.rms > 1.01 * all.rms && !traction.stands(), "{gravity:?} {traction:?}");
+}
+
+/// Whether each of six robots stands after a push forward in N, on legs of this length in m.
+fn stand(less: Less, length: f32, push: f32) -> bool {
+    let all = outcomes(6, |seed| {
+        let mut trial =
+            Trial { kerb: [100.0, 0.0], heading: 0.0, ticks: 1200, ..Trial::drawn(seed, less) };
+        trial.course = [(0, Order { length, ..Order::STAND }); 8];
+        trial.pushes = [[push, 0.0], [0.0; 2]].map(|force| Push { tick: 500, force });
+        trial
+    });
+    fallen(&all).is_empty()
+}
+
+/// The gains of standing hold the shortest legs against harder pushes than their own do.
+#[test]
+fn the_schedule_is_worth_it_on_long_legs_and_not_on_short_ones() {
+    assert!(stand(Less::Nothing, 0.34, 105.0) && !stand(Less::Schedule, 0.34, 105.0));
+    assert!(!stand(Less::Nothing, 0.14, 105.0) && stand(Less::Schedule, 0.14, 105.0));
 }
 
 #[test]

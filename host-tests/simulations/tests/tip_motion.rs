@@ -8,7 +8,9 @@ use dynamics_core::model::{OnBody, Robot};
 use dynamics_core::robots::{Panda, Ur5e};
 use dynamics_core::spatial::Motion;
 use dynamics_core::state::ArmState;
-use glam::Vec3;
+use glam::{DVec3, Vec3};
+use host_tests::measured::largest;
+use host_tests::recordings::{columns, load, row};
 use motion_control::{MotionLimits, TipGoal, TipMotion, TipMotionConfig, TipStatus};
 
 const TICK: f32 = 1e-3;
@@ -167,6 +169,44 @@ fn through(q: [f32; 6], twist: &Motion<f32>, ticks: u32) -> (f32, f32) {
     }
     assert_eq!(seen.beyond, 0);
     (share, fastest)
+}
+
+/// The largest part of Jᵀ (v − J q̇) − λ² q̇ over the recorded states, with the Jacobian of Pinocchio
+/// in which lengths are multiples of ℓ, and the speeds of a tick from rest.
+fn off<T: Robot<N, N, N>, const N: usize, const TIP: usize>() -> f64 {
+    let (recording, length) = (load(T::MODEL.name), 0.3);
+    let scaled = |v: [f64; 6]| core::array::from_fn(|k| if k < 3 { v[k] } else { v[k] / length });
+    let dot = |a: &[f64; 6], b: &[f64; 6]| (0..6).map(|k| a[k] * b[k]).sum::<f64>();
+    let (ang, lin) = (DVec3::new(0.3, -0.2, 0.5), DVec3::new(0.1, -0.2, 0.15));
+    let v = scaled([ang.x, ang.y, ang.z, lin.x, lin.y, lin.z]);
+    largest((0..recording.first_states()).map(|i| {
+        let q = row::<N>(&recording.q, i);
+        let config = TipMotionConfig {
+            tick: 1e-3,
+            lower: [f64::NEG_INFINITY; N],
+            upper: [f64::INFINITY; N],
+            limits: [MotionLimits { velocity: f64::INFINITY, acceleration: 1e9 }; N],
+            damping: 0.01,
+            length,
+            posture: q,
+            posture_gain: 0.0,
+        };
+        let mut motion = TipMotion::try_new(config, &q).unwrap();
+        let jacobian = Engine::<T>::jacobian(&q, OnBody::<TIP>, LocalWorldAligned);
+        assert_eq!(motion.step(&jacobian, &Motion::new(ang, lin)), TipStatus::Follows);
+        let qd = motion.state().qd;
+        let j = columns::<N>(&recording.jacobian_mixed, i).map(scaled);
+        let rest = core::array::from_fn(|k| v[k] - (0..N).map(|n| j[n][k] * qd[n]).sum::<f64>());
+        let square = 0.01 * dot(&v, &v).sqrt() + 1e-3;
+        largest((0..N).map(|n| (dot(&j[n], &rest) - square * qd[n]).abs()))
+    }))
+}
+
+#[test]
+fn the_speeds_of_a_tick_are_the_damped_least_squares_of_pinocchios_jacobian() {
+    let off = [off::<Ur5e, 6, 5>(), off::<Panda, 7, 6>()];
+    println!("{off:?}");
+    assert!(off.iter().all(|&off| off < 1e-13), "{off:?}");
 }
 
 #[test]

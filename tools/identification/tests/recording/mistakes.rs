@@ -97,7 +97,7 @@ fn a_shifted_zero_is_named() {
     match &found.mistake {
         Some(Mistake::Zero { joint, shift }) => {
             assert_eq!(joint, "shoulder");
-            assert!((shift - 0.15).abs() < 0.05, "{shift}");
+            assert!((shift - 0.15).abs() < 0.01, "{shift}");
         }
         other => panic!("{other:?}\n{}", found.text()),
     }

@@ -66,8 +66,9 @@ fn why([peers, readme, scenes, rtl, costs]: [&str; 5]) -> Result<String> {
         ["ur5e rnea engine outside", "ur5e"].map(|row| Ok(cell(rtl, row, 7)?[2].to_owned()));
     let (counted, counted_tick): (String, String) = (counted?, counted_tick?);
     Ok(format!(
-        "- Gravity compensation of an SO-101 takes {by_hand} cycles if it is written by hand with \
-         `libm`'s sines, and **{engine} by this library** ([costs]({COSTS})).\n\
+        "- Gravity compensation of an SO-101 takes {by_hand} cycles of a modelled Cortex-M4F if it \
+         is written by hand with `libm`'s sines, and\n  \
+         **{engine} by this library** ([costs]({COSTS})).\n\
          - Inverse dynamics takes **{inverse} of the cycles of the best C** that CasADi generates \
          for the same robot (UR5e, Panda, iiwa 14, A1; f32,\n  \
          modelled Cortex-M4F), and {free} for the humanoid G1 with its base free. Forward dynamics \
@@ -75,7 +76,7 @@ fn why([peers, readme, scenes, rtl, costs]: [&str; 5]) -> Result<String> {
          - On the host, inverse dynamics of the same four robots takes **{host} of the time of \
          Pinocchio's C++**.\n\
          - A whole tick of a UR5e, from six encoders to six drives, takes {longest:.1} µs at \
-         {CLOCK_MHZ} MHz: **{share:.1} % of a millisecond**. The arm\n  \
+         {CLOCK_MHZ} MHz, modelled: **{share:.1} % of a millisecond**. The arm\n  \
          then follows its reference with {ratio} of the error of PD control alone.\n\
          - Counted on a RISC-V core's gates ([CV32E40P]({RTL}), FPU of one stage): a UR5e's tick \
          takes {counted_tick} cycles, inverse dynamics {counted}; fused, {gates} of the best C's.\n\n\
@@ -108,7 +109,7 @@ fn wishes(readme: &str) -> Result<String> {
     Ok(format!(
         "Three questions, with a picture each below:\n\n\
          1. [What does accuracy cost?](#what-accuracy-costs) Torques of a UR5e within {} N·m take \
-         {} cycles, within {} N·m {}.\n\
+         {} cycles, modelled, within {} N·m {}.\n\
          2. [What is each effect worth?](#what-each-effect-is-worth-and-what-it-costs) The \
          tracking error of a UR5e is {},\n   \
          and {}.\n\

@@ -232,7 +232,7 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> State<Bus, Joint, V> {
         Ok(())
     }
 
-    /// Of a frame that is wrong the joint keeps the error, unless it has a position.
+    /// The joint keeps the error of a frame that is wrong, unless it has a position.
     fn take(&mut self, frame: &Bus::Frame) {
         for _ in 0..V {
             let at = self.next;

@@ -94,7 +94,7 @@ impl Most {
         }
     }
 
-    /// What the table does not allow.
+    /// The errors that the table does not allow.
     fn check(&self, robots: &str, quantities: [&str; 2]) -> Vec<String> {
         let mut complaints = Vec::new();
         for (scalar, errors) in ["f64", "f32"].iter().zip(self.0) {

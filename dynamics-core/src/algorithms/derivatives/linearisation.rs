@@ -43,8 +43,8 @@ pub struct Linearisation<R, const V: usize, const U: usize = V> {
 }
 
 impl<R: Real, const V: usize> Linearisation<R, V> {
-    /// That of a robot with a motor at each coordinate: ∂q̈/∂u = M⁻¹. With fewer motors, such as on
-    /// a free base, [`driven_at`](Self::driven_at) keeps their columns.
+    /// The system of a robot with a motor at each coordinate: ∂q̈/∂u = M⁻¹. With fewer motors, such
+    /// as on a free base, [`driven_at`](Self::driven_at) keeps their columns.
     pub fn new<D, const B: usize, const Q: usize>(
         robot: &D,
         by: &AccelerationGradient<R, V>,
@@ -58,7 +58,8 @@ impl<R: Real, const V: usize> Linearisation<R, V> {
         Self { dq: by.dq, dqd: by.dqd, du }
     }
 
-    /// That of motors at these coordinates alone; a number that is none of the robot moves nothing.
+    /// The system with motors at these coordinates alone; a number that is none of the robot moves
+    /// nothing.
     pub fn driven_at<const U: usize>(&self, motors: [usize; U]) -> Linearisation<R, V, U> {
         let Self { dq, dqd, du } = *self;
         Linearisation { dq, dqd, du: du.map(|row| motors.map(|motor| entry(&row, motor))) }
@@ -66,7 +67,7 @@ impl<R: Real, const V: usize> Linearisation<R, V> {
 }
 
 impl<R: Real, const V: usize, const U: usize> Linearisation<R, V, U> {
-    /// That under the feedback δu = δw − K_q δq − K_q̇ δq̇, with δw as its input: A − B K.
+    /// The system under the feedback δu = δw − K_q δq − K_q̇ δq̇, with δw as its input: A − B K.
     ///
     /// The gains are rows of δu, N·m/rad and N·m·s/rad of torques between revolute joints; those of
     /// PD at each joint are diagonal. The feedback is continuous: over a tick in which the torque is

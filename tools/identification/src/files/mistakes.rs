@@ -30,7 +30,7 @@ const SHIFTS: [f64; 2] = [0.01, 0.5];
 /// The search for a zero ends if more than this share of the residuals remains.
 const MENDED: f64 = 0.8;
 
-/// What positions and torques of a tick become.
+/// A change of the positions and torques of a tick.
 type Changed<'a, const V: usize> = &'a dyn Fn([f64; V], [f64; V]) -> ([f64; V], [f64; V]);
 
 /// The mistake that explains an estimate which no robot has, or residuals that the model leaves, if

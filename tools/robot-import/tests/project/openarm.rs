@@ -13,7 +13,7 @@ pub const VISCOUS: Viscous<f32, N> = OpenArm::FRICTION.1;
 pub const COULOMB: Coulomb<f32, N> = OpenArm::FRICTION.0;
 pub const ARMATURE: Armature<f32, N> = OpenArm::ARMATURE;
 
-/// What acts on it.
+/// The effects that act on it.
 pub const SCENE: (
     Gravity,
     Inertia,

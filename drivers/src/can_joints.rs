@@ -2,7 +2,7 @@
 //! and drives at once.
 
 use core::cell::RefCell;
-use core::ops::Range;
+use core::mem;
 
 use embedded_can::nb::Can;
 use embedded_can::{Error as _, ErrorKind};
@@ -103,7 +103,7 @@ impl CanJoint for odrive::ODrive {
 ///
 /// In each tick it takes the frames that have come since the last one, and then sends a torque to
 /// each joint: a position is that of the tick before. A joint without a position since then has no
-/// angle in this tick, and its error is that of the first wrong frame that it sent meanwhile, such
+/// angle in this tick, and its error is that of the last wrong frame that it sent meanwhile, such
 /// as [`CanError::Range`], [`CanError::Remote`], [`CanError::Length`] or [`CanError::Short`];
 /// [`CanError::Identifier`] if only frames of no joint came, [`CanError::NoReply`] if none did.
 ///
@@ -143,9 +143,8 @@ pub struct CanJoints<Bus, Joint, const V: usize>(RefCell<State<Bus, Joint, V>>);
 struct State<Bus, Joint, const V: usize> {
     bus: Bus,
     joints: [Joint; V],
-    positions: [Option<f32>; V],
-    /// Errors since the last tick, if there are any: of the joints that have no position.
-    wrong: Option<[CanError; V]>,
+    /// Why there is none: nothing has come since the last tick, or what has.
+    positions: [Result<f32, CanError>; V],
     delivers: [Result<(), CanError>; V],
     /// The joint behind the one that took the last frame: replies mostly come in order.
     next: usize,
@@ -154,8 +153,8 @@ struct State<Bus, Joint, const V: usize> {
 impl<Bus: Can, Joint: CanJoint, const V: usize> CanJoints<Bus, Joint, V> {
     /// The joints, of which none has reported yet.
     pub const fn new(bus: Bus, joints: [Joint; V]) -> Self {
-        let (positions, delivers) = ([None; V], [Ok(()); V]);
-        Self(RefCell::new(State { bus, joints, positions, wrong: None, delivers, next: 0 }))
+        let (positions, delivers) = ([Err(CanError::NoReply); V], [Ok(()); V]);
+        Self(RefCell::new(State { bus, joints, positions, delivers, next: 0 }))
     }
 
     /// Returns the bus to its owner.
@@ -247,33 +246,19 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> State<Bus, Joint, V> {
             let Some((position, delivers)) = kept else { return };
             match report {
                 Ok(report) => {
-                    *position = report.position.or(*position);
+                    *position = report.position.map_or(*position, Ok);
                     *delivers = report.delivers.unwrap_or(*delivers);
                 }
-                Err(error) => self.keep(at..at + 1, error),
+                Err(error) => *position = position.or(Err(error)),
             }
             return;
         }
-        self.learn(frame);
-    }
-
-    /// Takes a frame that is no report.
-    #[cold]
-    #[inline(never)]
-    fn learn(&mut self, frame: &Bus::Frame) {
-        if !self.joints.iter_mut().any(|joint| joint.learn(frame)) {
-            self.keep(0..V, CanError::Identifier);
+        if self.joints.iter_mut().any(|joint| joint.learn(frame)) {
+            return;
         }
-    }
-
-    /// Keeps the error of these joints, of each the first one.
-    #[cold]
-    #[inline(never)]
-    fn keep(&mut self, joints: Range<usize>, error: CanError) {
-        let wrong = self.wrong.get_or_insert([CanError::NoReply; V]);
-        for own in wrong.iter_mut().take(joints.end).skip(joints.start) {
-            if matches!(own, CanError::NoReply | CanError::Identifier) {
-                *own = error;
+        for position in &mut self.positions {
+            if *position == Err(CanError::NoReply) {
+                *position = Err(CanError::Identifier);
             }
         }
     }
@@ -339,16 +324,11 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> JointEncoders<V> for &CanJoints<
         state.receive().map_err(first)?;
         let mut positions = [0.0; V];
         let mut failed = Ok(());
-        let wrong = state.wrong.take();
-        let reported = state.positions.iter_mut().map(Option::take);
-        for (joint, (position, reported)) in positions.iter_mut().zip(reported).enumerate() {
-            match reported {
-                Some(reported) => *position = reported,
-                None => {
-                    let own = wrong.as_ref().and_then(|wrong| wrong.get(joint));
-                    let error = *own.unwrap_or(&CanError::NoReply);
-                    failed = failed.and(Err(JointError { joint, error }));
-                }
+        let reported = positions.iter_mut().zip(&mut state.positions);
+        for (joint, (position, reported)) in reported.enumerate() {
+            match mem::replace(reported, Err(CanError::NoReply)) {
+                Ok(reported) => *position = reported,
+                Err(error) => failed = failed.and(Err(JointError { joint, error })),
             }
         }
         failed.map(|()| positions)

@@ -67,8 +67,8 @@ fn why([peers, readme, scenes, rtl, costs]: [&str; 5]) -> Result<String> {
     let (counted, counted_tick): (String, String) = (counted?, counted_tick?);
     Ok(format!(
         "- Gravity compensation of an SO-101 takes {by_hand} cycles of a modelled Cortex-M4F if it \
-         is written by hand with `libm`'s sines, and\n  \
-         **{engine} by this library** ([costs]({COSTS})).\n\
+         is written by hand with `libm`'s sines, and **{engine} by this \
+         library** ([costs]({COSTS})).\n\
          - Inverse dynamics takes **{inverse} of the cycles of the best C** that CasADi generates \
          for the same robot (UR5e, Panda, iiwa 14, A1; f32,\n  \
          modelled Cortex-M4F), and {free} for the humanoid G1 with its base free. Forward dynamics \

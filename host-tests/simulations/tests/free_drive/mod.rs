@@ -58,8 +58,10 @@ fn a_released_arm_stays() {
     assert!(pairs().count() >= 4 * *RUNS as usize / 5);
     // The bar is none. 13 of 971 miss it, by up to 14 mm: a row of decision 2.
     let share = far as f32 / pairs().count() as f32;
-    let worst = if *RUNS > 60 { 15.0 } else { 12.0 };
-    assert!(share <= 0.03 && most(of(0)) < worst, "{far} runs");
+    assert!(share <= 0.03, "{far} runs");
+    // The worst of a thousand runs, 14.0 mm, is a row of decision 2.
+    let farthest = of(0).filter(|drift| *drift >= 12.0).count();
+    assert!(farthest <= *RUNS as usize / 1000, "{farthest} runs");
     // An oscillation that ends is no limit cycle: one of a thousand runs has one.
     let swings = |seed: &u32| {
         let [all, alone] = &PAIRS[*seed as usize];

@@ -109,8 +109,8 @@ fn wanted(random: &mut Random, kind: u32, tick: u32, held: &mut f64) -> f64 {
     }
 }
 
-/// The greatest rise of each of 5 windings of `arms`, which are seeds, as shares of what they may have, with
-/// torques that the model limits or that are limited to the peak alone.
+/// The greatest rise of each of 5 windings of `arms`, which are seeds, as shares of what they may
+/// have, with torques that the model limits or that are limited to the peak alone.
 fn hottest<R: Real>(arms: Range<u64>, limited: bool) -> Vec<f64> {
     let mut hottest = Vec::new();
     for seed in arms {

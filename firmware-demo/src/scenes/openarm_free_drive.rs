@@ -1,5 +1,9 @@
 //! `openarm_free_drive`: a hand leads an OpenArm, whose Damiao drives are on CAN, lets it go, and
-//! it stays; with a tool, too.
+//! it stays. Its gripper then closes on a tool of 1 kg, and it is led back with it and stays again.
+//!
+//! While the gripper closes, the tool's weight goes over to the arm within 0.2 s, and the
+//! controller is told 20 ms later how far it has closed: it sets [`FreeDrive::tool`] between two
+//! ticks, so that no torque has a step. A controller that is not told drops the arm.
 //!
 //! The torque of a tick is that of gravity and the tool, [`HandGuiding`]'s on top of it, and
 //! [`Breakaway`]'s push and dither. It has no trajectory of its own: the reference of the loop is
@@ -72,6 +76,19 @@ pub const TOOL: Tool = Payload::f32(BodyInertia {
     com: [0.0, 0.0, -0.12],
     inertia: [1e-3, 0.0, 0.0, 1e-3, 0.0, 1e-3],
 });
+
+/// An inertia times a factor.
+fn times(inertia: &mut SpatialInertia<f32>, factor: f32) {
+    inertia.mass *= factor;
+    inertia.first_moment *= factor;
+    inertia.rotational *= factor;
+}
+
+/// This share of a tool.
+pub fn borne(mut tool: Tool, share: f32) -> Tool {
+    times(&mut tool.0, share);
+    tool
+}
 
 const fn with_wrist(x: f32) -> [f32; 7] {
     [x, x, x, x, WRIST * x, WRIST * x, WRIST * x]
@@ -191,7 +208,8 @@ pub type Friction = (Viscous<f32, 7>, Coulomb<f32, 7>, LoadFriction<f32, 7>);
 #[derive(Clone, Debug)]
 pub struct FreeDrive {
     pub gravity: Gravity,
-    pub tool: Tool,
+    /// What the hand bears, to be set between two ticks.
+    pub tool: Cell<Tool>,
     pub friction: Friction,
     pub guiding: HandGuiding<f32, 7>,
     pub breakaway: RefCell<Breakaway<f32, 7>>,
@@ -216,7 +234,7 @@ impl FreeDrive {
         let gears = LoadFriction { driving: GEARS, backdriving: GEARS, width };
         Ok(Self {
             gravity: Gravity::EARTH,
-            tool: NO_TOOL,
+            tool: Cell::new(NO_TOOL),
             friction: (OpenArm::FRICTION.1, Coulomb { torque: SLIDING, width }, gears),
             guiding: HandGuiding::try_new(guiding)?,
             breakaway: RefCell::new(Breakaway::try_new(breakaway)?),
@@ -234,7 +252,7 @@ impl Law<7, FreeDrive> for Free {
     const ACCELERATES: bool = false;
 
     fn feedforward(at: &State<f32, 7, 7>, drive: &FreeDrive) -> [f32; 7] {
-        Engine::<OpenArm>::rnea(at, &(drive.gravity, drive.tool))
+        Engine::<OpenArm>::rnea(at, &(drive.gravity, drive.tool.get()))
     }
 
     fn torque(

@@ -53,7 +53,7 @@ impl<const N: usize> Sender<N> {
 /// The arm that a hand leads.
 pub fn openarm_free_drive() -> ! {
     use openarm_free_drive::TICK;
-    use openarm_free_drive::trial::{Less, Trial};
+    use openarm_free_drive::trial::{Holds, Less, Trial};
 
     let limits = OpenArm::MODEL.to_f32().links.map(|link| link.limits);
     let mut sender = Sender::new("openarm_free_drive", TICK, limits);
@@ -62,7 +62,7 @@ pub fn openarm_free_drive() -> ! {
         sender.send();
     };
     loop {
-        let trial = Trial::of_scene(Less::Nothing, PlantModel::Exact, true);
+        let trial = Trial::of_scene(Less::Nothing, PlantModel::Exact, Holds::PickedUp);
         if trial.run(Seen::by(&mut tick)).is_none() {
             fail("the simulated arm has no forward dynamics any more");
         }

@@ -26,7 +26,7 @@ const SCENES: &[Scene] = &[
     scene("flexible_link", "A light arm whose links bend, with feed-forward that knows their modes and a shaper"),
     scene("so101_teach", "An SO-101 follows a taught path; its servos take duties over a bus at 500 Hz"),
     scene("jog", "A joystick moves a UR5e: the end of its reach, a straight wrist, a limit; inverse kinematics in the tick"),
-    scene("openarm_free_drive", "An OpenArm with a tool is led by hand over the frames of its CAN drives, let go, and stays"),
+    scene("openarm_free_drive", "An OpenArm is led by hand over the frames of its CAN drives, let go, picks a tool up, and stays"),
     scene("wheel_leg_balance", "A robot on two wheels with five-bar legs balances, drives over a kerb, squats, is pushed; LQR from its model"),
 ];
 

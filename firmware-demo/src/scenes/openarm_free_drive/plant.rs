@@ -9,14 +9,13 @@ use dynamics_core::effects::{
 use dynamics_core::model::Calibrated;
 use dynamics_core::robots::OpenArm;
 use dynamics_core::sim::linearly_implicit;
-use dynamics_core::spatial::SpatialInertia;
 use dynamics_core::state::State;
 use embedded_can::{Frame, StandardId};
 use glam::Vec3;
 
 use super::{
     GEARS, GRAVITY_ERROR, GRIP, HAND, MOTORS, NO_TOOL, RESOLUTION, SLIDING, STICTION, TICK, TOOL,
-    with_wrist,
+    Tool, borne, times, with_wrist,
 };
 
 use crate::scene::PlantModel;
@@ -107,6 +106,7 @@ pub struct Plant {
     pub at: State<f32, 7, 7>,
     pub scene: Scene,
     arm: Calibrated<OpenArm, f32, 7, 7, 7>,
+    tool: Tool,
     /// What rounding has lost of the positions: a slow creep is less than a bit of them in a step.
     lost: Q,
     /// The torques that the drives have taken from their last command, N·m.
@@ -124,17 +124,10 @@ pub struct Account {
     pub path: Q,
 }
 
-/// An inertia times a factor.
-fn times(inertia: &mut SpatialInertia<f32>, factor: f32) {
-    inertia.mass *= factor;
-    inertia.first_moment *= factor;
-    inertia.rotational *= factor;
-}
-
 impl Plant {
-    /// At rest, with an arm, friction and a tool that are drawn, or those of the model but for its
-    /// stiction.
-    pub fn new(q: Q, with_tool: bool, plant: PlantModel, mut random: Random) -> Self {
+    /// At rest and with an empty hand; an arm, friction and a tool that are drawn, or those of the
+    /// model but for its stiction.
+    pub fn new(q: Q, plant: PlantModel, mut random: Random) -> Self {
         let off = if plant == PlantModel::Exact { 0.0 } else { 1.0 };
         let mut arm = Calibrated::nominal();
         let (weight, most) = (off * GRAVITY_ERROR, 0.3 * off);
@@ -143,8 +136,7 @@ impl Plant {
         let stiction = STICTION.map(|least| least * random.within(1.0, MOST_STICTION));
         let gears = random.off(GEARS, most);
         let viscous = random.off(OpenArm::FRICTION.1.0, most);
-        let mut load = if with_tool { TOOL } else { NO_TOOL };
-        times(&mut load.0, random.factor(weight));
+        let tool = borne(TOOL, random.factor(weight));
         let bristles = Lugre {
             // They slide from 10⁻⁵ rad on: softer ones creep under a dither below their stiction,
             // which is an artefact of this model (Dupont, Armstrong & Hayward, 2000).
@@ -165,13 +157,19 @@ impl Plant {
         let (rotors, away) = (OpenArm::ARMATURE, Hand::default());
         Self {
             at: State::at(q),
-            scene: (Gravity::EARTH, Inertia, Coriolis, rotors, load, bristles, gears, away),
+            scene: (Gravity::EARTH, Inertia, Coriolis, rotors, NO_TOOL, bristles, gears, away),
             arm,
+            tool,
             lost: [0.0; 7],
             torque: [0.0; 7],
             random,
             account: Account::default(),
         }
+    }
+
+    /// The hand bears this share of the tool.
+    pub fn bear(&mut self, share: f32) {
+        self.scene.4 = borne(self.tool, share);
     }
 
     /// The place and the velocity of the grip, m and m/s.

@@ -1,4 +1,5 @@
-//! A trial: a hand leads the arm, over the frames of its bus, lets it go, and it rests.
+//! A trial: a hand leads the arm, over the frames of its bus, lets it go, and it rests. It may pick
+//! a tool up then, be led once more, and rest again.
 
 use core::marker::PhantomData;
 
@@ -11,7 +12,7 @@ use motion_control::{Breakaway, Gains, Mode, MotionController, Status};
 
 use super::plant::{Plant, Q, Random, Replies};
 use super::{
-    Free, FreeDrive, Friction, Joints, Kept, NO_TOOL, RESOLUTION, TICK, TOOL, Tool, breakaway,
+    Free, FreeDrive, Friction, Joints, Kept, RESOLUTION, TICK, TOOL, Tool, borne, breakaway,
     controller, guiding, joints, limits,
 };
 use crate::marker;
@@ -26,6 +27,19 @@ const WAY: f32 = 0.04;
 pub const BOUND: f32 = 2e-3;
 /// The distance of the grip from which on the arm moves, m.
 const MOVED: f32 = 2e-3;
+/// The ticks in which a gripper closes: the weight of the tool goes over to the hand evenly.
+pub const CLOSING: u32 = 100;
+/// The ticks after which the controller is told how far the gripper has closed.
+const LATE: u32 = 10;
+
+/// Whether the hand of the arm holds a tool.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Holds {
+    Nothing,
+    Tool,
+    /// A tool, which it picks up after a third of the first rest.
+    PickedUp,
+}
 
 /// The part that the law lacks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -65,15 +79,14 @@ pub struct Trial {
     pub ways: [Vec3; 2],
     /// The numbers that draw the plant and the frames that are lost.
     pub random: Random,
-    /// The hand of the arm holds a tool.
-    pub tool: bool,
+    pub holds: Holds,
     /// The plant has the stiction that is drawn, and is otherwise the law's model, or it is not.
     pub plant: PlantModel,
     pub less: Less,
     /// The seconds before the way of the hand, of it, after it, and of the release.
     pub seconds: [f32; 4],
-    /// Whether the hand leads the arm once more after it has rested.
-    pub again: bool,
+    /// The seconds of a second rest, before which the hand leads the arm once more.
+    pub again: Option<f32>,
 }
 
 /// The figures of a trial.
@@ -96,8 +109,8 @@ pub struct Outcome {
     pub spent: f32,
     /// The most that is missing in a tank, as a share of its energy.
     pub own: f32,
-    /// The last status before the end of the rest in which the controller was in full operation,
-    /// or the first in which it was not.
+    /// The last status in a rest in which the controller was in full operation, or the first before
+    /// in which it was not.
     pub status: Option<Status>,
 }
 
@@ -109,7 +122,7 @@ impl Outcome {
     }
 }
 
-fn law(less: Less, tool: bool) -> Option<FreeDrive> {
+fn law(less: Less) -> Option<FreeDrive> {
     let (mut guiding, mut breakaway) = (guiding().ok()?, breakaway());
     if matches!(less, Less::Friction | Less::AllButGravity) {
         guiding.share = 0.0;
@@ -124,7 +137,6 @@ fn law(less: Less, tool: bool) -> Option<FreeDrive> {
         breakaway.dither = 0.0;
     }
     let mut law = FreeDrive::new(guiding, breakaway).ok()?;
-    law.tool = if tool && less != Less::Tool { TOOL } else { NO_TOOL };
     if less == Less::Gravity {
         law.gravity = Gravity::new(0.0);
     }
@@ -245,17 +257,22 @@ struct Cell<'a, 's> {
     replies: Replies<ClassicFrame>,
     plant: Plant,
     seconds: [f32; 4],
+    /// The controller is told of the tool.
+    told: bool,
+    status: Option<Status>,
     out: Outcome,
     seen: Seen<'s>,
 }
 
 impl Cell<'_, '_> {
     fn tick(&mut self) -> Option<()> {
-        let Self { control, joints, law, reference, replies, plant, out, seen, .. } = self;
+        let Self {
+            control, joints, law, reference, replies, plant, status: last, out, seen, ..
+        } = self;
         let (commands, status) =
             marked_tick(control, joints, law, reference, replies, seen.again());
-        if !out.status.is_some_and(|status| status.mode != Mode::Full) {
-            out.status = Some(status);
+        if !last.is_some_and(|status| status.mode != Mode::Full) {
+            *last = Some(status);
         }
         *replies = plant.tick(&commands, &law.added.get())?;
         let (own, budget) = (law.breakaway.try_borrow().ok()?.energy(), breakaway());
@@ -294,12 +311,24 @@ impl Cell<'_, '_> {
         Some([start, drag])
     }
 
-    /// The time after the release.
-    fn rest(&mut self) -> Option<()> {
-        let ([from, _], all) = (self.plant.grip(), ticks(self.seconds[3]));
+    /// The gripper has begun to close before this many ticks.
+    fn close(&mut self, ticks: u32) {
+        let share = |ticks: u32| ticks.min(CLOSING) as f32 / CLOSING as f32;
+        self.plant.bear(share(ticks));
+        if self.told {
+            self.law.tool.set(borne(TOOL, share(ticks.saturating_sub(LATE))));
+        }
+    }
+
+    /// The time after the release, in which the hand may pick a tool up.
+    fn rest(&mut self, seconds: f32, picks_up: bool) -> Option<()> {
+        let ([from, _], all) = (self.plant.grip(), ticks(seconds));
         let mut ends = [self.plant.at.q; 2];
         let (mut swings, mut squares) = ([[0.0_f32; 7]; 2], 0.0);
         for k in 0..all {
+            if picks_up && k >= all / 3 {
+                self.close(k - all / 3);
+            }
             self.tick()?;
             let (grip, q) = (self.plant.grip()[0], self.plant.at.q);
             let far = (grip - from).length();
@@ -314,7 +343,10 @@ impl Cell<'_, '_> {
                 swings[1][i] = swings[1][i].max(ends[1][i] - q);
             }
         }
-        self.out.rms = libm::sqrtf(squares);
+        if all > 0 {
+            self.out.status = self.status;
+        }
+        self.out.rms = self.out.rms.max(libm::sqrtf(squares));
         for (up, down) in swings[0].iter().zip(swings[1]) {
             self.out.reversal = self.out.reversal.max(up.min(down) / RESOLUTION);
         }
@@ -329,16 +361,16 @@ fn ticks(seconds: f32) -> u32 {
 impl Trial {
     /// The trial of the scene under a law that lacks a part. Of the axes of space, this way is the
     /// one whose forces are nearest to the medians of [`Trial::drawn`].
-    pub fn of_scene(less: Less, plant: PlantModel, tool: bool) -> Self {
+    pub fn of_scene(less: Less, plant: PlantModel, holds: Holds) -> Self {
         Self {
             posture: [0.5, 0.6, 0.2, 1.0, 0.1, -0.2, 0.3],
             ways: [Vec3::Y, Vec3::NEG_Y],
             random: Random::seeded(0),
-            tool,
+            holds,
             plant,
             less,
             seconds: [0.5, 2.0, 0.5, 3.0],
-            again: false,
+            again: Some(3.0),
         }
     }
 
@@ -349,36 +381,55 @@ impl Trial {
         let posture = posture(&mut random);
         let ways = [direction(&mut random), direction(&mut random)];
         let (plant, seconds) = (PlantModel::Mismatched, [0.5, 2.0, 1.0, 10.0]);
-        Self { posture, ways, random, tool, plant, less, seconds, again: true }
+        let holds = if tool { Holds::Tool } else { Holds::Nothing };
+        Self { posture, ways, random, holds, plant, less, seconds, again: Some(0.0) }
     }
 
-    /// The ticks before and of the rest.
+    /// The ticks to the end of the last rest.
     pub fn ticks(&self) -> u32 {
-        self.seconds.into_iter().map(ticks).sum()
+        let [_, way, after, _] = self.seconds;
+        let again = self.again.map(|rest| [way, after, rest]);
+        self.seconds.into_iter().chain(again.into_iter().flatten()).map(ticks).sum()
     }
 
     /// Runs it; nothing if there were no such law, or if the arm had no forward dynamics.
     pub fn run(&self, seen: Seen<'_>) -> Option<Outcome> {
         let (near, [way, back]) = (self.posture, self.ways);
-        let plant = Plant::new(near, self.tool, self.plant, self.random);
-        let (law, joints) = (law(self.less, self.tool)?, joints(&near).ok()?);
+        let plant = Plant::new(near, self.plant, self.random);
+        let (law, joints) = (law(self.less)?, joints(&near).ok()?);
         let gains = Gains { kp: [0.0; 7], kd: [0.0; 7] };
         let gate = MotionController::try_new(controller()).ok()?;
         let control = ControlLoop::new(Kept(&joints, &law), &joints, NoBrake, gains, gate, ());
         let (joints, law, replies) = (&joints, &law, [const { None }; 7]);
         let (reference, seconds, out) = (State::at(near), self.seconds, Outcome::default());
-        let mut cell = Cell { control, joints, law, reference, replies, plant, seconds, out, seen };
+        let (told, status) = (self.less != Less::Tool, None);
+        let mut cell = Cell {
+            control,
+            joints,
+            law,
+            reference,
+            replies,
+            plant,
+            seconds,
+            told,
+            status,
+            out,
+            seen,
+        };
+        if self.holds == Holds::Tool {
+            cell.close(CLOSING + LATE);
+        }
         // The first replies, to zero torque: friction holds the arm for a tick.
         cell.replies = cell.plant.tick(&joints.commands(), &[0.0; 7])?;
         for _ in 0..ticks(seconds[0]) {
             cell.tick()?;
         }
         [cell.out.start, cell.out.drag] = cell.lead(way)?;
-        cell.rest()?;
-        let status = cell.out.status;
-        if self.again {
+        cell.rest(seconds[3], self.holds == Holds::PickedUp)?;
+        if let Some(again) = self.again {
             [cell.out.again, _] = cell.lead(back)?;
+            cell.rest(again, false)?;
         }
-        Some(Outcome { status, ..cell.out })
+        Some(cell.out)
     }
 }

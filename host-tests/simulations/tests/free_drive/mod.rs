@@ -1,10 +1,16 @@
 //! Claims about the scene `openarm_free_drive`: an OpenArm with gears that stick is led by a hand,
-//! over simulated frames, is let go, and stays.
+//! over simulated frames, is let go, and stays; with a tool, too, that it picks up.
 
 use std::sync::LazyLock;
 
-use firmware_demo::scenes::openarm_free_drive::trial::{Less, Outcome, Seen, Trial};
+use dynamics_core::state::State;
+use firmware_demo::scene::PlantModel;
+use firmware_demo::scenes::openarm_free_drive::trial::{
+    BOUND, CLOSING, Holds, Less, Outcome, Seen, Trial,
+};
+use firmware_demo::scenes::openarm_free_drive::{Free, FreeDrive, TOOL, borne, breakaway, guiding};
 use host_tests::everyday_or_full;
+use joint_drivers::Law;
 
 /// The number of runs. The claim is that of a thousand, which `FREE_DRIVE_RUNS=1000` asks for.
 static RUNS: LazyLock<u32> = LazyLock::new(|| {
@@ -113,4 +119,31 @@ fn each_part_is_worth_something() {
     });
     assert!(gravity[0] > 100.0 && tool[0] > 10.0 * all[0], "{gravity:?} {tool:?}");
     assert!(breakaway[1] > all[1] && friction[2] > all[2], "{breakaway:?} {friction:?}");
+}
+
+#[test]
+fn a_tool_is_picked_up_without_a_step() {
+    let trial = |less| Trial::of_scene(less, PlantModel::Mismatched, Holds::PickedUp);
+    let [told, untold] = [Less::Nothing, Less::Tool].map(trial);
+    let law = FreeDrive::new(guiding().expect("a law"), breakaway()).expect("a law");
+    let torques = |ticks| {
+        law.tool.set(borne(TOOL, ticks as f32 / CLOSING as f32));
+        Free::feedforward(&State::at(told.posture), &law)
+    };
+    let [empty, held] = [0, CLOSING].map(torques);
+    let weight = most((0..7).map(|i| (held[i] - empty[i]).abs()));
+    let step = most((0..CLOSING).flat_map(|tick| {
+        let [from, to] = [tick, tick + 1].map(torques);
+        (0..7).map(move |i| (to[i] - from[i]).abs())
+    }));
+    let [told, untold] = [told, untold].map(|trial| trial.run(Seen::default()).expect("dynamics"));
+    println!(
+        "{weight:.2} N·m in steps of {step:.4}; drift {:.3} mm, {:.0} of a controller that is not told",
+        1e3 * told.drift,
+        1e3 * untold.drift,
+    );
+    // A dither changes by some 0.2 N·m from tick to tick.
+    assert!(weight > 2.0 && step <= 0.05, "{weight} {step}");
+    assert!(told.drift <= BOUND && !told.fault() && untold.drift > 0.1, "{told:?} {untold:?}");
+    assert!(told.again < 2.0 * told.start, "{told:?}");
 }

@@ -19,8 +19,8 @@ pub type Arm<'a> =
 
 /// Runs with an arm that has a tool; `None` if it were not one.
 pub fn with(run: impl FnOnce(&mut Arm<'_>)) -> Option<()> {
-    let mut law = FreeDrive::new(guiding().ok()?, breakaway()).ok()?;
-    law.tool = TOOL;
+    let law = FreeDrive::new(guiding().ok()?, breakaway()).ok()?;
+    law.tool.set(TOOL);
     let joints = joints(&Q).ok()?;
     let gate = MotionController::try_new(controller()).ok()?;
     let gains = Gains { kp: [0.0; 7], kd: [0.0; 7] };

@@ -163,8 +163,11 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> CanJoints<Bus, Joint, V> {
     }
 }
 
-impl<Bus: Can, P: Protocol, const V: usize> CanJoints<Bus, Drive<P>, V> {
+impl<Bus: Can, Joint: CanJoint, const V: usize> CanJoints<Bus, Joint, V> {
     /// Lets the drives deliver torque: that of their last command, send one of zero before.
+    ///
+    /// A joint of your own around a drive implements `AsRef` of it, and passes
+    /// [`CanJoint::learn`] on to it.
     ///
     /// Drives that have registers of their scale are asked for them first, one register in each
     /// call, which is to be made in tick after tick until it succeeds: seven drives of Damiao take
@@ -194,16 +197,19 @@ impl<Bus: Can, P: Protocol, const V: usize> CanJoints<Bus, Drive<P>, V> {
     /// # Ok::<(), Box<dyn core::error::Error>>(())
     /// ```
     #[cold]
-    pub fn enable(&self) -> Result<(), JointError<CanError>> {
+    pub fn enable<P: Protocol>(&self) -> Result<(), JointError<CanError>>
+    where
+        Joint: AsRef<Drive<P>>,
+    {
         let full = JointError { joint: 0, error: CanError::Full };
         let mut state = self.0.try_borrow_mut().map_err(|_| full)?;
-        let mut scales = state.joints.iter().map(Drive::scale).enumerate();
+        let mut scales = state.joints.iter().map(|joint| joint.as_ref().scale()).enumerate();
         let unknown = scales.find_map(|(joint, scale)| Some((joint, scale.err()?)));
         let Some((joint, (register, error))) = unknown else {
-            return state.send(&[(); V], |drive, ()| drive.enable());
+            return state.send(&[(); V], |joint, ()| joint.as_ref().enable());
         };
         let error = JointError { joint, error };
-        let query = state.joints.get(joint).ok_or(error)?.query(register);
+        let query = state.joints.get(joint).ok_or(error)?.as_ref().query(register);
         let sent = query.and_then(|query| transmit(&mut state.bus, &query));
         Err(sent.map_or_else(|error| JointError { joint, error }, |()| error))
     }
@@ -212,9 +218,13 @@ impl<Bus: Can, P: Protocol, const V: usize> CanJoints<Bus, Drive<P>, V> {
     ///
     /// # Errors
     /// The first joint whose frame was not sent.
-    pub fn disable(&self) -> Result<(), JointError<CanError>> {
+    pub fn disable<P: Protocol>(&self) -> Result<(), JointError<CanError>>
+    where
+        Joint: AsRef<Drive<P>>,
+    {
         let error = JointError { joint: 0, error: CanError::Full };
-        self.0.try_borrow_mut().map_err(|_| error)?.send(&[(); V], |drive, ()| drive.disable())
+        let mut state = self.0.try_borrow_mut().map_err(|_| error)?;
+        state.send(&[(); V], |joint, ()| joint.as_ref().disable())
     }
 }
 

@@ -478,6 +478,12 @@ impl<P: Protocol> Drive<P> {
     }
 }
 
+impl<P> AsRef<Self> for Drive<P> {
+    fn as_ref(&self) -> &Self {
+        self
+    }
+}
+
 impl<P: Protocol> CanJoint for Drive<P> {
     fn command<F: Frame>(&self, torque: f32) -> Result<F, CanError> {
         self.set_torque(torque)

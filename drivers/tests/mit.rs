@@ -10,8 +10,8 @@ use joint_drivers::mit::damiao::{self, Damiao};
 use joint_drivers::mit::robstride::{self, RobStride, RobStrideMit};
 use joint_drivers::mit::{Reply, Scale, Setpoint, SetpointAt, State};
 use joint_drivers::{
-    CanJoints, Direction, DriveFault, DriveFaultKind, EncoderMapping, JointDrives, JointEncoders,
-    JointError, JointMapping, JointRange, Outbox,
+    CanJoint, CanJoints, Direction, DriveFault, DriveFaultKind, EncoderMapping, JointDrives,
+    JointEncoders, JointError, JointMapping, JointRange, Outbox, Report,
 };
 
 mod law;
@@ -136,11 +136,35 @@ fn answer(query: &FdFrame, other: Option<(u8, f32)>) -> FdFrame {
     standard(0x10, &[id, 0, 0x33, register, b0, b1, b2, b3])
 }
 
+/// A joint around a drive.
+struct Within(Damiao);
+
+impl AsRef<Damiao> for Within {
+    fn as_ref(&self) -> &Damiao {
+        &self.0
+    }
+}
+
+impl CanJoint for Within {
+    fn command<F: Frame>(&self, torque: f32) -> Result<F, CanError> {
+        self.0.set_torque(torque)
+    }
+
+    fn report<F: Frame>(&mut self, frame: &F) -> Result<Report, CanError> {
+        self.0.report(frame)
+    }
+
+    fn learn<F: Frame>(&mut self, frame: &F) -> bool {
+        self.0.learn(frame)
+    }
+}
+
 #[test]
 fn no_drive_of_a_bus_is_enabled_before_the_scales_of_all_are_right() {
     use damiao::{PMAX, TMAX, VMAX};
     let numbered = |id: u8| Damiao::new(id, 0x10, damiao::DM4310, 5.0, identity()).unwrap();
-    let joints = CanJoints::new(Outbox::<FdFrame, 2>::new(), [numbered(1), numbered(2)]);
+    let drives = [numbered(1), numbered(2)].map(Within);
+    let joints = CanJoints::new(Outbox::<FdFrame, 2>::new(), drives);
     let at = |joint, error| Err(JointError { joint, error });
     let missing = |register: u8| CanError::Missing(register.into());
     let queried = || match joints.commands() {

@@ -11,6 +11,7 @@ use nb::Error::{Other, WouldBlock};
 
 use crate::can::CanError;
 use crate::mit::protocol::Protocol;
+use crate::mit::robstride::RobStrideMit;
 use crate::mit::{Drive, SetpointAt};
 use crate::odrive::{AxisState, Reply};
 use crate::{EncoderType, JointDrives, JointEncoders, JointError, PdDrives, moteus, odrive};
@@ -225,6 +226,42 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> CanJoints<Bus, Joint, V> {
         let error = JointError { joint: 0, error: CanError::Full };
         let mut state = self.0.try_borrow_mut().map_err(|_| error)?;
         state.send(&[(); V], |joint, ()| joint.as_ref().disable())
+    }
+}
+
+impl<Bus: Can, Joint: CanJoint + AsRef<RobStrideMit>, const V: usize> CanJoints<Bus, Joint, V> {
+    /// Asks a drive for its faults, which no feedback of this protocol has: call it between two
+    /// ticks, for one joint after the other. The reply counts until the next one: a fault is the
+    /// error of [`JointDrives::set_torques`] in each tick.
+    ///
+    /// With an [`Outbox`], take its frame by [`Self::commands`] before the next tick.
+    ///
+    /// # Errors
+    /// [`CanError::Node`]: there is no such joint. [`CanError::Full`] and [`CanError::Bus`]: the
+    /// frame was not sent.
+    ///
+    /// ```
+    /// # use embedded_can::{Frame, StandardId};
+    /// # use joint_drivers::can::{CanError, FdFrame};
+    /// # use joint_drivers::mit::robstride::{RS02, RobStrideMit};
+    /// # use joint_drivers::{CanJoints, JointDrives, JointError, JointMapping, JointRange, Outbox};
+    /// # let mapping = JointMapping::IDENTITY.with_range(JointRange::Near(0.0), 5e-3)?;
+    /// let drive = RobStrideMit::new(0x7f, 0xfd, RS02, 17.0, mapping)?;
+    /// let joints = CanJoints::new(Outbox::<FdFrame, 1>::new(), [drive]);
+    /// joints.read_faults(0)?;
+    /// assert_eq!(joints.commands()[0].unwrap().data(), [0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0, 0xfb]);
+    /// // The drive answers that its motor is too hot.
+    /// joints.receive(&FdFrame::new(StandardId::new(0xfd).unwrap(), &[0x7f, 1, 0, 0, 0, 0, 0, 0]).unwrap());
+    /// let error = (&joints).set_torques(&[1.0]).unwrap_err().error;
+    /// assert_eq!(error.to_string(), "the node's motor is too hot");
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    pub fn read_faults(&self, joint: usize) -> Result<(), JointError<CanError>> {
+        let at = |error| JointError { joint, error };
+        let mut state = self.0.try_borrow_mut().map_err(|_| at(CanError::Full))?;
+        let drive = state.joints.get(joint).ok_or(at(CanError::Node))?.as_ref();
+        let sent = drive.read_faults().and_then(|frame| transmit(&mut state.bus, &frame));
+        sent.map_err(at)
     }
 }
 

@@ -327,14 +327,16 @@ fn every_fault_of_a_drive_is_typed_and_sorted() {
         (1 << 4, Err(OverCurrent)),
         (1 << 9, Err(Encoder)),
         (1 << 16, Err(OverCurrent)),
+        (1 << 16 | 1 << 14, Err(OverCurrent)),
         (1 << 31, Err(Fault(1 << 31))),
     ];
     for (word, status) in words {
         let [b0, b1, b2, b3] = u32::to_le_bytes(word);
         let reply = robstride().reply(&extended(0x1500_7ffd, &[b0, b1, b2, b3, 0, 0, 0, 0]));
         assert_eq!(reply, Ok(Reply::Status(status)), "{word:#x}");
-        if word < 1 << 16 {
-            let reply = robstride_mit().reply(&standard(0xfd, &[0x7f, b0, b1, 0, 0, 0, 0, 0]));
+        // A word with the last byte could be a feedback at 0.0 °C.
+        if b3 == 0 {
+            let reply = robstride_mit().reply(&standard(0xfd, &[0x7f, b0, b1, b2, b3, 0, 0, 0]));
             assert_eq!(reply, Ok(Reply::Status(status)), "{word:#x}");
         }
     }
@@ -343,8 +345,13 @@ fn every_fault_of_a_drive_is_typed_and_sorted() {
 #[test]
 fn faults_that_a_drive_is_asked_for_stay_until_it_has_none() {
     let joints = CanJoints::new(Outbox::<FdFrame, 1>::new(), [robstride_mit()]);
-    let over_voltage = Err(JointError { joint: 0, error: CanError::OverVoltage });
-    for (faults, expected) in [(1 << 3, over_voltage), (0, Ok(()))] {
+    let at = |joint, error| Err(JointError { joint, error });
+    assert_eq!(joints.read_faults(1), at(1, CanError::Node));
+    for (faults, expected) in [(1 << 3, at(0, CanError::OverVoltage)), (0, Ok(()))] {
+        joints.read_faults(0).unwrap();
+        // The one command of this outbox has no room beside it.
+        assert_eq!(joints.read_faults(0), at(0, CanError::Full));
+        assert_eq!(joints.commands(), [Some(robstride_mit().read_faults().unwrap())]);
         joints.receive(&standard(0xfd, &[0x7f, faults, 0, 0, 0, 0, 0, 0]));
         // A feedback says nothing of them.
         joints.receive(&standard(0xfd, &[0x7f, 0x90, 0, 0x80, 0x08, 0, 1, 44]));

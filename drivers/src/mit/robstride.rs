@@ -2,12 +2,14 @@
 //! ([`RobStride`]) or in MIT mode with 11 bits ([`RobStrideMit`]), over classic CAN.
 //!
 //! Their own protocol has 16 bits for every quantity, and the faults in every reply. In MIT mode a
-//! reply has no faults: a drive that fails is noticed only if it stops to reply or if
-//! [`RobStrideMit::read_faults`] is sent. Prefer the former; a drive has it from the factory.
+//! reply has no faults: a drive that fails is noticed only if it stops to reply or if it is asked,
+//! by [`CanJoints::read_faults`](crate::CanJoints::read_faults). Prefer the former; a drive has it
+//! from the factory.
 //!
 //! # Source
 //! RobStride's manuals of the seven drives of 28 April 2026 (RobStride/Product_Information, commit
-//! ba7236bc), chapters 4.1 and 6, in Chinese and in English; RobStride/SampleProgram, commit
+//! ba7236bc), chapters 4.1 and 6, in Chinese and in English: in MIT mode "Command 5" reads the
+//! faults, and bytes 1 to 4 of its reply are those of chapter 4.1; RobStride/SampleProgram, commit
 //! 5f598686, for the order of bits.
 //!
 //! Drives are numbered 1 to 127, hosts 0 to 255; from the factory 127 and 0xFD.
@@ -249,10 +251,10 @@ impl Protocol for Mit {
             return Err(CanError::Identifier);
         }
         Ok(match rest {
-            // As RobStride's sample program tells them apart: a feedback of these bytes would have
-            // the most negative torque at 0.0 °C.
-            [b0, b1, 0, 0, 0, 0, 0] => {
-                Feedback::Status(fault_of(u16::from_le_bytes([b0, b1]).into()))
+            // As RobStride's sample program tells them apart, but for bit 16, which it does not
+            // read: a feedback of these bytes would have the most negative torque at 0.0 °C.
+            [b0, b1, b2, 0, 0, 0, 0] => {
+                Feedback::Status(fault_of(u32::from_le_bytes([b0, b1, b2, 0])))
             }
             [.., c1, c0] => Feedback::State {
                 counts: protocol::unpack(rest),

@@ -109,8 +109,9 @@ fn push_and_dither_keep_to_their_energy() {
 
 #[test]
 fn each_part_is_worth_something() {
-    let laws = [Less::Nothing, Less::Gravity, Less::Tool, Less::Friction, Less::Breakaway];
-    let [all, gravity, tool, friction, breakaway] = laws.map(|less| {
+    let laws =
+        [Less::Nothing, Less::Gravity, Less::Tool, Less::Friction, Less::Gears, Less::Breakaway];
+    let [all, gravity, tool, friction, gears, breakaway] = laws.map(|less| {
         let runs: Vec<_> = (0..TABLE).map(|seed| run(seed, less, true)).collect();
         let figures: [fn(&Outcome) -> f32; 3] = [|o| 1e3 * o.drift, |o| o.start, |o| o.drag];
         let of = figures.map(|of| median(runs.iter().map(of).collect())); // those out of bounds, too
@@ -119,6 +120,8 @@ fn each_part_is_worth_something() {
     });
     assert!(gravity[0] > 100.0 && tool[0] > 10.0 * all[0], "{gravity:?} {tool:?}");
     assert!(breakaway[1] > all[1] && friction[2] > all[2], "{breakaway:?} {friction:?}");
+    // The friction of the gears is felt on the way alone.
+    assert!((all[2]..friction[2]).contains(&gears[2]), "{gears:?}");
 }
 
 #[test]

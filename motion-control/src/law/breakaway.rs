@@ -139,6 +139,8 @@ impl<R: Real, const V: usize> BreakawayConfig<R, V> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Breakaway<R, const V: usize> {
     config: BreakawayConfig<R, V>,
+    /// The share of a half period that a tick of the dither is.
+    dither_tick: R,
     joints: [Joint<R>; V],
 }
 
@@ -187,7 +189,7 @@ impl<R: Real, const V: usize> Breakaway<R, V> {
             phase: 0,
             sign: R::ONE,
         });
-        Ok(Self { config, joints })
+        Ok(Self { config, dither_tick: R::ONE / real(config.dither_ticks), joints })
     }
 
     /// The energy that each joint may still be given, J.
@@ -203,12 +205,12 @@ impl<R: Real, const V: usize> Breakaway<R, V> {
     /// pays for the longest step that it may have made, and it has to stand again.
     ///
     /// # Cost
-    /// By count: some 35 flops a joint, of which up to three are divisions; fewer for joints that
-    /// move.
+    /// By count: some 35 flops a joint, fewer for joints that move; a push divides three times, and any
+    /// torque once where the energy is short.
     #[inline]
     #[must_use]
     pub fn torque(&mut self, q: &[R; V]) -> [R; V] {
-        let Self { config, joints } = self;
+        let Self { config, dither_tick, joints } = self;
         let mut torque = [R::ZERO; V];
         for (i, (out, (joint, &q))) in torque.iter_mut().zip(joints.iter_mut().zip(q)).enumerate() {
             let (speed, c) = (entry(&config.speed, i), config.resolution);
@@ -218,7 +220,7 @@ impl<R: Real, const V: usize> Breakaway<R, V> {
             let friction = (R::ONE - config.share) * entry(&config.friction, i);
             joint.refill(step, friction, c + c, entry(&config.energy, i));
             joint.watch(step, config);
-            *out = joint.give(step.is_some(), config, i, longest);
+            *out = joint.give(step.is_some(), config, *dither_tick, i, longest);
         }
         torque
     }
@@ -282,6 +284,7 @@ impl<R: Real> Joint<R> {
         &mut self,
         measured: bool,
         config: &BreakawayConfig<R, V>,
+        dither_tick: R,
         i: usize,
         longest: R,
     ) -> R {
@@ -297,14 +300,21 @@ impl<R: Real> Joint<R> {
             (self.side * push * stiction, free)
         } else if self.still >= config.window {
             let half = R::from_f64(0.5) * entry(&config.energy, i);
-            (self.dither(config.dither_ticks) * config.dither * stiction, free - half)
+            (self.dither(config.dither_ticks, dither_tick) * config.dither * stiction, free - half)
         } else {
             self.phase = 0;
             (R::ZERO, free)
         };
         let torque = if measured & (free > R::ZERO) & (wanted.abs() > R::ZERO) {
-            let most = free / (longest + c + c);
-            wanted.clamped(-most, most)
+            // A division alone where the energy is short.
+            let span = longest + c + c;
+            if wanted.abs() * span <= free {
+                wanted
+            } else if wanted > R::ZERO {
+                free / span
+            } else {
+                -free / span
+            }
         } else {
             R::ZERO
         };
@@ -314,12 +324,12 @@ impl<R: Real> Joint<R> {
     }
 
     /// The dither in this tick, of amplitude 1: half periods that are parabolas, a sine within 0.06.
-    fn dither(&mut self, ticks: u32) -> R {
+    fn dither(&mut self, ticks: u32, tick: R) -> R {
         if self.phase >= ticks {
             (self.phase, self.sign) = (0, -self.sign);
         }
         // The middle of the tick, so that the half periods are symmetric.
-        let x = (real::<R>(self.phase) + R::from_f64(0.5)) / real(ticks);
+        let x = (real::<R>(self.phase) + R::from_f64(0.5)) * tick;
         self.phase = self.phase.saturating_add(1);
         R::from_f64(4.0) * self.sign * x * (R::ONE - x)
     }

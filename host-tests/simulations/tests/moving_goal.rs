@@ -2,14 +2,16 @@
 
 use std::fs::File;
 use std::io::{BufWriter, Write};
+use std::ops::Range;
 
-use dynamics_core::Core;
-use dynamics_core::effects::{Armature, RIGID_BODY};
+use dynamics_core::effects::{Armature, Coulomb, RIGID_BODY, Viscous, Width};
 use dynamics_core::robots::Ur5e;
 use dynamics_core::state::State;
+use dynamics_core::{Core, Engine};
 use host_tests::recordings;
 use motion_control::{
-    JerkLimits, JointFriction, MotionLimits, MovingGoal, PathLimits, Reference, TimedPath,
+    GoalError, JerkLimits, JointFriction, MotionLimits, MovingGoal, PathLimits, Reference,
+    TimedPath, TorqueChange,
 };
 use serde::Deserialize;
 
@@ -260,4 +262,89 @@ fn the_way_of_a_goal_has_a_time_within_limits_of_torque() {
     assert!(fast > 1.15 && slow < 1.02, "{fast} {slow}");
     assert!(timed.seconds() < 2.0 * goal.seconds(), "{} {}", timed.seconds(), goal.seconds());
     assert_eq!(timed.at(u32::MAX).q, goal.at(u32::MAX).q);
+}
+
+/// What random goals within limits of torque show: the greatest torques as shares of the limits, and
+/// without the limits; the goals that exceed them then; those that are refused; the most steps.
+#[derive(Debug, Default)]
+struct Within {
+    within: f32,
+    without: f32,
+    beyond: u32,
+    refused: u32,
+    steps: u32,
+}
+
+/// Goals at random ticks, from rest and on the way, each with four steps of its search in a tick.
+fn goals_within_torques(goals: u32) -> Within {
+    let limits = [JerkLimits { velocity: 3.0, acceleration: 20.0, jerk: 400.0 }; 6];
+    let torque = [60.0, 100.0, 60.0, 15.0, 15.0, 15.0];
+    let friction = Coulomb { torque: [5.0, 5.0, 4.0, 1.0, 1.0, 1.0], width: Width::f32(0.02) };
+    let armature = Armature([0.9, 0.9, 0.9, 0.25, 0.25, 0.25]);
+    let effects = (RIGID_BODY, armature, friction, Viscous([4.0, 4.0, 4.0, 1.0, 1.0, 1.0]));
+    let torques = |state: &State<f32, 6, 6>| Engine::<Ur5e>::rnea(state, &effects);
+    let most = |motion: &MovingGoal<f32, 6>, ticks: Range<u32>| {
+        let taus = ticks.flat_map(|tick| torques(&motion.at(tick)).into_iter().zip(torque));
+        taus.map(|(tau, limit)| tau.abs() / limit).fold(0.0, f32::max)
+    };
+    let (mut rng, home) = (Rng::new(51), [0.0, -1.57, 1.57, -1.57, -1.57, 0.0]);
+    let mut motion = MovingGoal::try_new(&home, limits, TICK).unwrap();
+    let (mut seen, mut tick, delay) = (Within::default(), 0, 150);
+    for _ in 0..goals {
+        let (start, goal) = (tick + delay, home.map(|q| q + rng.within(1.2) as f32));
+        seen.within = seen.within.max(most(&motion, tick..start));
+        let mut change = motion.begin_within(start, &goal, &torque).unwrap();
+        let (mut steps, mut found) = (0, Ok(false));
+        for now in tick..start {
+            assert_eq!(motion.take(now, &change), Ok(None));
+            for _ in 0..4 {
+                steps += u32::from(found == Ok(false));
+                found = change.step(torques);
+            }
+        }
+        seen.steps = seen.steps.max(steps);
+        let (mut without, before) = (motion, motion);
+        let free = without.set(start, &goal).unwrap();
+        let share = most(&without, start..free);
+        (seen.without, seen.beyond) =
+            (seen.without.max(share), seen.beyond + u32::from(share > 1.0));
+        let arrival = match found {
+            Ok(_) => motion.take(start, &change).unwrap().unwrap(),
+            Err(error) => {
+                assert!(matches!(error, GoalError::Torque { .. }), "{error}");
+                assert_eq!((motion.take(start, &change), motion), (Err(GoalError::Missed), before));
+                seen.refused += 1;
+                continue;
+            }
+        };
+        assert_eq!(motion.at(arrival), State::at(goal));
+        seen.within = seen.within.max(most(&motion, start..arrival));
+        tick = start + rng.below((1.1 * f64::from(arrival - start)) as usize) as u32;
+    }
+    seen
+}
+
+#[test]
+fn random_goals_keep_limits_of_torque() {
+    let seen = goals_within_torques(5_000);
+    assert!(seen.within < 1.02 && seen.refused < 30, "{seen:?}");
+    assert!(seen.steps <= TorqueChange::<f32, 6>::MOST_STEPS, "{seen:?}");
+    // Without the limits of torque they are exceeded.
+    assert!(seen.without > 1.9 && seen.beyond > 2_500, "{seen:?}");
+}
+
+/// Gravity alone is beyond a limit on the way, and a joint that is fast cannot brake.
+#[test]
+fn a_goal_that_no_slower_motion_reaches_is_refused() {
+    let limits = [JerkLimits { velocity: 3.0, acceleration: 20.0, jerk: 400.0 }];
+    let mut goal = MovingGoal::try_new(&[0.0_f64], limits, 1e-3).unwrap();
+    let torques = |state: &State<f64, 1, 1>| [2.0 * state.qdd[0] + 12.0 * state.q[0].sin()];
+    let error = Err(GoalError::Torque { joint: 0 });
+    assert_eq!(goal.set_within(0, &[1.5], &[11.0], torques), error);
+    assert_eq!(goal.set_within(0, &[1.5], &[f64::NAN], torques), error);
+    let not_finite = Err(GoalError::NotFinite { joint: 0 });
+    assert_eq!(goal.set_within(0, &[1.5], &[11.0], |_| [f64::NAN]), not_finite);
+    assert_eq!(goal, MovingGoal::try_new(&[0.0], limits, 1e-3).unwrap());
+    goal.set_within(0, &[1.5], &[13.0], torques).unwrap();
+    assert_eq!(goal.set_within(400, &[0.0], &[1.0], torques), error);
 }

@@ -15,6 +15,9 @@ use dynamics_core::state::{State, all_finite};
 mod course;
 #[cfg(test)]
 mod tests;
+mod torque;
+
+pub use torque::TorqueChange;
 
 use course::{Course, Fastest, Phase, Start};
 
@@ -37,8 +40,8 @@ pub struct JerkLimits<R> {
 /// cannot: a joint that has to brake as fast as it can has no slower motion. Positions between start and goal
 /// stay between them, but for what a joint needs to turn back.
 ///
-/// The limits are those of the joints. A motion whose torques have to be limited as well is, from
-/// rest, the path of a [`TimedPath`](crate::TimedPath).
+/// Limits of torque are kept as well by [`MovingGoal::set_within`], which lowers the limits of
+/// velocity and acceleration.
 ///
 /// ```
 /// use motion_control::{JerkLimits, MovingGoal, Reference};
@@ -126,6 +129,11 @@ pub enum GoalError {
     TooLong,
     /// The tick in which a motion starts is over, or the goal was set meanwhile.
     Missed,
+    /// No slower motion from this state keeps the joint's limit of torque.
+    Torque {
+        /// The joint.
+        joint: usize,
+    },
 }
 
 impl fmt::Display for GoalError {
@@ -139,6 +147,9 @@ impl fmt::Display for GoalError {
             }
             Self::TooLong => out.write_str("the motion takes 2^32 ticks or more"),
             Self::Missed => out.write_str("the tick of the change is over, or the goal was set"),
+            Self::Torque { joint } => {
+                write!(out, "joint {joint}: no slower motion keeps its limit of torque")
+            }
         }
     }
 }

@@ -429,6 +429,11 @@ impl Control {
         })
     }
 
+    /// The torques of a motion with the tool of the feed-forward, N·m or N.
+    pub fn torques(&self, state: &State) -> [f32; N] {
+        dynamics::inverse_dynamics(state, self.tool.as_ref())
+    }
+
     /// Takes the reference of the next tick.
     ///
     /// # Errors

@@ -169,7 +169,7 @@ fn a_supervisor_with_a_wrong_limit_is_found() {
 
 #[test]
 fn without_the_watchdog_a_run_exceeds_a_rated_speed() {
-    const RUN: u32 = 6180;
+    const RUN: u32 = 11552;
     let (_, outcome) = one(RUN, Setup::UNWATCHED, |_| ());
     assert!(matches!(outcome, Err(Violation::Speed { .. })), "{outcome:?}");
     let page = PAGE.read();

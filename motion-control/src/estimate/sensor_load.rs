@@ -198,7 +198,7 @@ impl<R: Real> SensorLoadFit<R> {
         if !turns {
             return Err(SensorLoadError::OneDirection);
         }
-        let [hx, hy, hz] = shifted_solution(&a, R::ZERO, &[-x, -y, -z]);
+        let [hx, hy, hz] = shifted_solution(a, [R::ZERO; 3], [-x, -y, -z]);
         let (mass, h) = (-along / trace, R::Vec3::new(hx, hy, hz));
         let offset = Force::new(n + h.cross(g), f + g * mass);
         Ok(SensorLoad { mass, first_moment: h, offset })

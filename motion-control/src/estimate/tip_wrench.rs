@@ -116,12 +116,12 @@ impl<R: Real, const V: usize> TipWrench<R, V> {
             *c = [ang[0], ang[1], ang[2], lin[0], lin[1], lin[2]];
             b.iter_mut().zip(c).for_each(|(sum, c)| *sum += *c * (*tau * *weight));
         }
-        let a = squares(scaled.into_iter());
+        let a = squares(scaled.into_iter().map(Some));
         // Eigenvalues below the roundings of the largest are not known: a shift of that size keeps
         // them from growing.
         let trace = (0..6).fold(R::ZERO, |sum, i| sum + a[i][i]);
         let shift = R::ONE + trace * (R::EPSILON * R::from_f64(ROUNDINGS));
-        let x = shifted_solution(&a, shift, &b);
+        let x = shifted_solution(a, [shift; 6], b);
         if !(all_finite(&x) & shift.is_finite()) {
             let joint = first_not_finite(jacobian, external).unwrap_or(0);
             return Err(Fault::NotFinite { joint });
@@ -134,19 +134,23 @@ impl<R: Real, const V: usize> TipWrench<R, V> {
     }
 }
 
-/// Σ c cᵀ of one column or more.
+/// The upper triangle of Σ c cᵀ, of one column or more.
 #[inline(always)]
-pub(crate) fn squares<R: Real>(columns: impl Iterator<Item = [R; 6]>) -> [[R; 6]; 6] {
+pub(crate) fn squares<R: Real>(columns: impl Iterator<Item = Option<[R; 6]>>) -> [[R; 6]; 6] {
     let mut sums = [[R::ZERO; 6]; 6];
     for (k, c) in columns.enumerate() {
-        for i in 0..6 {
-            for j in i..6 {
-                let product = c[i] * c[j];
-                sums[i][j] = if k == 0 { product } else { sums[i][j] + product };
+        if k == 0 {
+            let c = c.unwrap_or([R::ZERO; 6]);
+            sums = core::array::from_fn(|i| core::array::from_fn(|j| c[i] * c[j]));
+        } else if let Some(c) = c {
+            for i in 0..6 {
+                for j in i..6 {
+                    sums[i][j] += c[i] * c[j];
+                }
             }
         }
     }
-    core::array::from_fn(|i| core::array::from_fn(|j| sums[i.min(j)][i.max(j)]))
+    sums
 }
 
 /// The first joint with a number that is not finite.

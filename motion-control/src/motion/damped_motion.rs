@@ -16,21 +16,26 @@ use dynamics_core::algorithms::shifted_solution;
 use dynamics_core::scalar::{Real, Vector};
 use dynamics_core::spatial::{Force, Motion};
 
-/// x as a force, of which J_jᵀ x are the motions, by the columns J_j of the joints that are free and
-/// zeros for the others; `square` is λ², and `per_length` 1/ℓ.
-#[inline(always)]
+/// x as a force, of which J_jᵀ x are the motions, by the columns J_j of the joints that are free;
+/// `square` is λ², and `length` ℓ.
+///
+/// The factor 1/ℓ of lengths is left out of columns and x, and is its square in the damping instead.
+#[inline(never)]
 pub(super) fn damped_motion<R: Real, const V: usize>(
     columns: &[Motion<R>; V],
-    (square, per_length): (R, R),
-    v: Motion<R>,
+    free: &[bool; V],
+    (square, length): (R, R),
+    v: &Motion<R>,
 ) -> Force<R> {
-    let scaled = |motion: &Motion<R>| {
-        let ([a, b, c], [x, y, z]) = (motion.ang.array(), (motion.lin * per_length).array());
+    let entries = |motion: &Motion<R>| {
+        let ([a, b, c], [x, y, z]) = (motion.ang.array(), motion.lin.array());
         [a, b, c, x, y, z]
     };
-    let a = squares(columns.iter().map(scaled));
-    let [a, b, c, x, y, z] = shifted_solution(&a, square, &scaled(&v));
-    Force::new(R::Vec3::new(a, b, c), R::Vec3::new(x, y, z) * per_length)
+    let free = columns.iter().zip(free).map(|(column, free)| free.then(|| entries(column)));
+    let along = square * length * length;
+    let shifts = [square, square, square, along, along, along];
+    let [a, b, c, x, y, z] = shifted_solution(squares(free), shifts, entries(v));
+    Force::new(R::Vec3::new(a, b, c), R::Vec3::new(x, y, z))
 }
 
 /// The square of (ω, v/ℓ).

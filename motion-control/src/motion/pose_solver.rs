@@ -106,11 +106,7 @@ impl<R: Real, const V: usize> PoseSolver<R, V> {
             let (pose, jacobian) = kinematics(&q);
             let error = pose_error(&pose, goal);
             let now = square(error, per_length);
-            let damping = (share * now + omega, per_length);
-            let mut columns = jacobian;
-            let held = columns.iter_mut().zip(free).filter(|(_, free)| !free);
-            held.for_each(|(column, _)| *column = Motion::ZERO);
-            let x = damped_motion(&columns, damping, error);
+            let x = damped_motion(&jacobian, &free, (share * now + omega, self.length), &error);
             let steps = jacobian.map(|column| column.dot(x).clamped(-most, most));
             if !(now + x.ang.dot(x.ang) + x.lin.dot(x.lin)).is_finite() {
                 return Err(PoseSolverError::NotFinite);

@@ -16,10 +16,13 @@
 //! measured from where the joint is in the middle of the tick, can be stopped in whole ticks if
 //!
 //! ```text
-//! u (u/2 + s) ≤ a e      u ≤ √(s² + 2 a e) − s                              (2)
+//! g(u) = u (u/2 + s) ≤ a e                                                  (2)
 //! ```
 //!
-//! which the speed u − s of the next tick then fulfils too.
+//! which the speed u − s of the next tick then fulfils too. Only the speeds from w − s to w + s can
+//! come after w, and g is convex: the speed of which its chord over them is a e fulfils (2), and
+//! the speed by the chord above that one is nearer to the greatest which does. This takes two
+//! divisions in place of a square root. While w + s fulfils (2) the end is no limit.
 //!
 //! A joint that moves the tip by the singular value σ = |v|/|d| comes to the singular posture ahead
 //! when σ has fallen to zero, and should have stopped there: all speeds are scaled so that none is
@@ -31,12 +34,11 @@
 
 use super::damped_motion::{damped_motion, square};
 use crate::entry;
-use crate::law::pose_error;
 use crate::limits::{ConfigError, ConfigParameter, MotionLimits};
 use crate::reference::Reference;
 use crate::root;
 use dynamics_core::algorithms::frame::Pose;
-use dynamics_core::scalar::{Real, Vector};
+use dynamics_core::scalar::{Matrix, Real, Vector, positive_part};
 use dynamics_core::spatial::Motion;
 use dynamics_core::state::{State, all_finite};
 
@@ -47,10 +49,16 @@ mod tests;
 const ROUNDINGS: f64 = 4.0;
 /// The least λ².
 const LEAST: f64 = 1e-3;
+/// The least square of a twist, (rad/s)².
+const REST: f64 = 1e-20;
 /// The least square of joint speeds that are taken for not finite, (rad/s)² or (m/s)².
-const MOST: f64 = 1e30;
-/// The distance from which on the end of a range is no limit, rad or m.
-const FAR: f64 = 1e6;
+const MOST: f64 = 1e12;
+/// The least limit of a speed, rad/s or m/s.
+const SLOW: f64 = 1e-8;
+/// 4 cos²(θ/2) of a rotation that is next to half a turn.
+const HALF_A_TURN: f64 = 1e-4;
+/// A bound of speeds that is none, rad/s or m/s.
+const NONE: f64 = 1e30;
 
 /// The limits of a [`TipMotion`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -144,8 +152,10 @@ pub struct TipMotion<R, const V: usize> {
     held: [R; V],
     /// 1/ℓ and 1/h.
     inverse: [R; 2],
-    /// The distances from an end from which on no speed is limited by (2).
-    far: [R; V],
+    /// 1/v² and 1/a of the limits of each joint.
+    per_limit: [[R; 2]; V],
+    /// The positions between which no speed is limited by (2).
+    within: [[R; 2]; V],
 }
 
 impl<R: Real, const V: usize> TipMotion<R, V> {
@@ -160,19 +170,23 @@ impl<R: Real, const V: usize> TipMotion<R, V> {
         tip.require(posture & gain.is_finite() & (gain >= R::ZERO))?;
         for (j, limits) in config.limits.iter().enumerate() {
             let range = ConfigParameter::JointRange { joint: j };
-            let some = (config.lower[j] <= config.upper[j]) & (limits.velocity > R::ZERO);
+            let some = (config.lower[j] <= config.upper[j]) & (limits.velocity > R::from_f64(SLOW));
             range.require(some & q[j].is_finite())?;
             range.positive(limits.acceleration)?;
         }
         // The greatest speeds leave room for their rounding.
-        let less = R::ONE - R::from_f64(ROUNDINGS) * R::EPSILON;
-        config.limits.iter_mut().for_each(|limits| limits.velocity *= less);
-        let far = config.limits.map(|MotionLimits { velocity, acceleration: a }| {
-            velocity * (velocity / (a + a) + config.tick + config.tick)
+        config.limits.iter_mut().for_each(|limits| limits.velocity *= less::<R>());
+        let per_limit = config.limits.map(|MotionLimits { velocity, acceleration }| {
+            [velocity * velocity, acceleration].map(|x| R::ONE / x)
+        });
+        let within = core::array::from_fn(|j| {
+            let MotionLimits { velocity, acceleration: a } = config.limits[j];
+            let far = velocity * (velocity / (a + a) + config.tick + config.tick);
+            [config.lower[j] + far, config.upper[j] - far]
         });
         let inverse = [config.length, config.tick].map(|x| R::ONE / x);
         let (state, rest, held, free) = (State::at(*q), [R::ZERO; V], [R::ZERO; V], [true; V]);
-        Ok(Self { config, state, rest, held, free, inverse, far })
+        Ok(Self { config, state, rest, held, free, inverse, per_limit, within })
     }
 
     /// The state of the reference in this tick: where the next [`Self::step`] needs the Jacobian.
@@ -217,56 +231,94 @@ impl<R: Real, const V: usize> TipMotion<R, V> {
     /// [`TipStatus::NotFinite`]: the joints brake within their limits.
     #[inline]
     pub fn step(&mut self, jacobian: &[Motion<R>; V], twist: &Motion<R>) -> TipStatus {
-        let near: [bool; V] = core::array::from_fn(|j| {
-            let (q, far) = (self.state.q[j], self.far[j]);
-            (self.config.upper[j] - q < far) | (q - self.config.lower[j] < far)
-        });
-        let near = near.contains(&true).then_some(&near);
         let [per_length, _] = self.inverse;
         let mut rest = *twist;
-        let mut whole = root(square(*twist, per_length) + R::MIN_POSITIVE);
-        let damping = self.config.damping * whole + R::from_f64(LEAST);
-        let (gain, all_free) = (self.config.posture_gain, !self.free.contains(&false));
-        let (has_posture, mut p, mut sum) = (gain > R::ZERO, [R::ZERO; V], whole * whole);
-        let (mut columns, mut some) = (jacobian, [Motion::ZERO; V]);
-        if has_posture | !all_free {
+        let mut places = self.state.q.iter().zip(&self.within);
+        // Not between them also if a limit of speed is infinite.
+        let near = !places.all(|(q, [lower, upper])| (q > lower) & (q < upper));
+        let bounds = near.then(|| self.hold(jacobian, &mut rest));
+        let all_free = !(near && self.free.contains(&false));
+        let mut sum = square(*twist, per_length) + R::from_f64(REST);
+        let mut inverse = sum.rsqrt();
+        let damping = self.config.damping * (sum * inverse) + R::from_f64(LEAST);
+        let gain = self.config.posture_gain;
+        let (has_posture, mut p) = (gain > R::ZERO, [R::ZERO; V]);
+        if has_posture {
             for j in 0..V {
-                if has_posture {
-                    let quarter = R::from_f64(0.25) * self.config.limits[j].velocity;
-                    let wanted = gain * (self.config.posture[j] - self.state.q[j]);
-                    p[j] = wanted.clamped(-quarter, quarter);
-                }
-                let known = if self.free[j] {
-                    some[j] = jacobian[j];
+                let quarter = R::from_f64(0.25) * self.config.limits[j].velocity;
+                let wanted = gain * (self.config.posture[j] - self.state.q[j]);
+                p[j] = wanted.clamped(-quarter, quarter);
+                if self.free[j] {
                     sum += p[j] * p[j];
-                    p[j]
-                } else {
-                    self.viable(j, self.held[j])
-                };
-                rest -= jacobian[j] * known;
+                    rest -= jacobian[j] * p[j];
+                }
             }
-            (columns, whole) = (&some, root(sum));
+            inverse = sum.rsqrt();
         }
-        let x = damped_motion(columns, (damping, per_length), rest);
+        let x = damped_motion(jacobian, &self.free, (damping, self.config.length), &rest);
         let mut speeds = jacobian.map(|column| column.dot(x));
         if has_posture {
             speeds.iter_mut().zip(&p).for_each(|(speed, p)| *speed += *p);
         }
-        let status = self.limit((near, all_free), whole, &mut speeds);
-        self.advance(near, &speeds);
+        let status = self.limit((bounds.as_ref(), all_free), inverse, &mut speeds);
+        self.advance(bounds.as_ref(), &speeds);
         status
     }
 
-    /// Limits the speeds, of which the motion has the size `whole`.
+    /// The bounds of the joints; takes the motions of those that are held there from the rest of the
+    /// twist.
+    #[inline(never)]
+    fn hold(&mut self, jacobian: &[Motion<R>; V], rest: &mut Motion<R>) -> [[R; 2]; V] {
+        core::array::from_fn(|j| {
+            let [lower, upper] = self.bounds(j);
+            if !self.free[j] {
+                let known = self.held[j].clamped(lower, upper);
+                self.free[j] = known == self.held[j];
+                if !self.free[j] {
+                    *rest -= jacobian[j] * known;
+                }
+            }
+            [lower, upper]
+        })
+    }
+
+    /// The least and the greatest speed of joint j in the next tick from which it can stop before the
+    /// ends of its range, by (2).
+    #[inline(always)]
+    fn bounds(&self, j: usize) -> [R; 2] {
+        let Self { config, state, .. } = self;
+        let (half, h) = (R::from_f64(0.5), config.tick);
+        let (q, qd) = (entry(&state.q, j), entry(&state.qd, j));
+        let a = config.limits.get(j).map_or(R::ONE, |limits| limits.acceleration);
+        let (s, margin) = (a * h, R::from_f64(ROUNDINGS) * R::EPSILON * q.abs());
+        let way = half * h * qd + entry(&self.rest, j);
+        let bound = |way: R, w: R| {
+            let (e, most) = (way - margin, positive_part(w + s));
+            if e <= margin {
+                return R::ZERO;
+            }
+            if most * (half * most + s) <= a * e {
+                return R::from_f64(NONE);
+            }
+            let chord = |u: R| u + (a * e - u * (half * u + s)) / (half * (u + most) + s);
+            chord(chord(positive_part(w - s))).clamped(R::ZERO, R::from_f64(NONE))
+        };
+        [
+            -bound(q - entry(&config.lower, j) + way, -qd),
+            bound(entry(&config.upper, j) - q - way, qd),
+        ]
+    }
+
+    /// Limits the speeds; `inverse` is 1 over the size of their motion.
     #[inline(always)]
     fn limit(
         &mut self,
-        (near, all_free): (Option<&[bool; V]>, bool),
-        whole: R,
+        (bounds, all_free): (Option<&[[R; 2]; V]>, bool),
+        inverse: R,
         speeds: &mut [R; V],
     ) -> TipStatus {
-        let add = |squares: &[R; V]| squares.iter().fold(R::MIN_POSITIVE, |sum, x| sum + *x);
         let mut squares = speeds.map(|d| d * d);
+        let add = |squares: &[R; V]| squares.iter().fold(R::MIN_POSITIVE, |sum, x| sum + *x);
         let mut sum = add(&squares);
         // Squares of greater speeds might overflow.
         let usual = sum < R::from_f64(MOST);
@@ -279,98 +331,63 @@ impl<R: Real, const V: usize> TipMotion<R, V> {
             held.for_each(|(square, _)| *square = R::ZERO);
             sum = add(&squares);
         }
-        let sigma = whole * sum.rsqrt();
-        // The share that is left is (most / square).
-        let (mut most, mut square, mut status) = (R::ONE, R::ONE, TipStatus::Follows);
+        // 1/σ; the square of the share that is left is 1/most.
+        let per_sigma = root(sum) * inverse;
+        let (mut most, mut status) = (R::ONE, TipStatus::Follows);
         for (joint, now) in squares.into_iter().enumerate() {
-            let MotionLimits { velocity, acceleration } = self.config.limits[joint];
-            let (fast, turning) = (velocity * velocity, acceleration * sigma);
-            let limit = if fast < turning { fast } else { turning };
-            if now * most > limit * square {
-                (most, square, status) = (limit, now, TipStatus::Slowed(joint));
+            let [fast, turning] = self.per_limit[joint];
+            let turning = turning * per_sigma;
+            let over = now * if fast > turning { fast } else { turning };
+            if over > most {
+                (most, status) = (over, TipStatus::Slowed(joint));
             }
         }
-        let share = root(most / square);
+        let share = most.rsqrt();
         speeds.iter_mut().for_each(|speed| *speed *= share);
         self.free = [true; V];
-        let Some(near) = near else {
+        let Some(bounds) = bounds else {
             return status;
         };
-        for joint in 0..V {
-            if near[joint] {
-                let most = self.config.limits[joint].velocity;
-                let wanted = speeds[joint].clamped(-most, most);
-                speeds[joint] = self.viable(joint, wanted);
-                if speeds[joint] != wanted {
-                    (self.held[joint], self.free[joint]) = (wanted, false);
-                    status = TipStatus::Limited(joint);
-                }
+        for (joint, [lower, upper]) in bounds.iter().enumerate() {
+            let most = self.config.limits[joint].velocity;
+            let wanted = speeds[joint].clamped(-most, most);
+            speeds[joint] = wanted.clamped(*lower, *upper);
+            if speeds[joint] != wanted {
+                (self.held[joint], self.free[joint]) = (wanted, false);
+                status = TipStatus::Limited(joint);
             }
         }
         status
     }
 
-    /// The speed of joint j, or the greatest one in its direction by (2).
-    #[inline(never)]
-    fn viable(&self, j: usize, speed: R) -> R {
-        let Self { config, state, .. } = self;
-        let (up, half, h) = (speed >= R::ZERO, R::from_f64(0.5), config.tick);
-        let end = entry(if up { &config.upper } else { &config.lower }, j);
-        let (q, qd, a) = (
-            entry(&state.q, j),
-            entry(&state.qd, j),
-            config.limits.get(j).map_or(R::ONE, |l| l.acceleration),
-        );
-        let margin = R::from_f64(ROUNDINGS) * R::EPSILON * q.abs();
-        let way = (end - q) - (half * h * qd + entry(&self.rest, j));
-        let (u, e, s) = (speed.abs(), if up { way } else { -way } - margin, a * h);
-        if u * (half * u + s) <= a * e {
-            return speed;
-        }
-        let square = s * s + (a + a) * e.clamped(R::ZERO, R::from_f64(FAR));
-        let most = if e > margin { (root(square) - s).clamped(R::ZERO, u) } else { R::ZERO };
-        if up { most } else { -most }
-    }
-
-    /// The new speed of joint j, limited by (2) as far as its acceleration allows.
-    #[inline(never)]
-    fn braked(&self, j: usize, new: R) -> R {
-        let Some(MotionLimits { velocity, acceleration }) = self.config.limits.get(j) else {
-            return new;
-        };
-        let (old, step) = (entry(&self.state.qd, j), *acceleration * self.config.tick);
-        let new = self.viable(j, new).clamped(-*velocity, *velocity);
-        new.clamped(old - step, old + step)
-    }
-
     /// Advances all joints towards these speeds, together and within their limits.
     #[inline(always)]
-    fn advance(&mut self, near: Option<&[bool; V]>, speeds: &[R; V]) {
+    fn advance(&mut self, bounds: Option<&[[R; 2]; V]>, speeds: &[R; V]) {
         let (h, half, [_, per_tick]) = (self.config.tick, R::from_f64(0.5), self.inverse);
-        // The share of the changes is (most / greatest).
-        let (mut most, mut greatest) = (R::ONE, R::ONE);
-        for (j, speed) in speeds.iter().enumerate() {
-            let change = (*speed - self.state.qd[j]).abs();
-            let step = self.config.limits[j].acceleration * h;
-            if change * most > step * greatest {
-                (most, greatest) = (step, change);
-            }
+        let old = self.state.qd;
+        let changes: [R; V] = core::array::from_fn(|j| speeds[j] - old[j]);
+        // The greatest change over the one that the acceleration allows.
+        let mut most = h;
+        for (change, [_, per_limit]) in changes.iter().zip(&self.per_limit) {
+            let over = change.abs() * *per_limit;
+            most = if over > most { over } else { most };
         }
-        let (share, old) = (most / greatest, self.state.qd);
-        let mut new: [R; V] = core::array::from_fn(|j| old[j] + share * (speeds[j] - old[j]));
-        if let Some(near) = near {
-            for j in 0..V {
-                if near[j] {
-                    new[j] = self.braked(j, new[j]);
+        let (share, per_tick) = (h / most, per_tick * less::<R>());
+        for j in 0..V {
+            let change = share * changes[j];
+            let (mut new, mut qdd) = (old[j] + change, change * per_tick);
+            if let Some(bounds) = bounds {
+                let ([lower, upper], a) = (bounds[j], self.config.limits[j].acceleration);
+                let kept = new.clamped(lower, upper);
+                if kept != new {
+                    new = kept.clamped(old[j] - a * h, old[j] + a * h);
+                    qdd = ((new - old[j]) * per_tick).clamped(-a, a);
                 }
             }
-        }
-        for j in 0..V {
-            let (q, a) = (self.state.q[j], self.config.limits[j].acceleration);
-            let way = half * h * (old[j] + new[j]) + self.rest[j];
-            (self.state.q[j], self.state.qd[j]) = (q + way, new[j]);
+            let (q, way) = (self.state.q[j], half * h * (old[j] + new) + self.rest[j]);
+            (self.state.q[j], self.state.qd[j]) = (q + way, new);
             self.rest[j] = way - (self.state.q[j] - q);
-            self.state.qdd[j] = ((new[j] - old[j]) * per_tick).clamped(-a, a);
+            self.state.qdd[j] = qdd;
         }
     }
 }
@@ -413,18 +430,46 @@ impl<R: Real> TipGoal<R> {
     /// on and about one axis, both at once.
     ///
     /// # Cost
-    /// Some 100 flops; the same instructions for all data but for the slower of two branches.
+    /// The same instructions for all data, but next to half a turn.
     #[inline]
     #[must_use]
     pub fn twist(&self, pose: &Pose<R>) -> Motion<R> {
-        let twist = pose_error(pose, &self.pose) * self.gain;
-        let mut share = R::ONE;
-        for (part, most) in [(twist.ang, self.angular), (twist.lin, self.linear)] {
-            let square = part.dot(part);
-            if square * share * share > most * most {
-                share = most * square.rsqrt();
-            }
-        }
-        twist * share
+        let turn = turn::<R>(&pose.rot, &self.pose.rot, self.gain);
+        let way = (self.pose.pos - pose.pos) * self.gain;
+        // Of both speeds the one that is greater as a multiple of its limit.
+        let [angular, linear] = [self.angular * self.angular, self.linear * self.linear];
+        let [a, b] = [turn.dot(turn), way.dot(way)];
+        let of_turn = a * linear > b * angular;
+        let (square, most) = if of_turn { (a, angular) } else { (b, linear) };
+        let slower = if of_turn { self.angular } else { self.linear } * square.rsqrt();
+        let share = if square > most { slower } else { R::ONE };
+        Motion::new(turn * share, way * share)
     }
+}
+
+/// The share of a limit that leaves room for roundings.
+#[inline(always)]
+fn less<R: Real>() -> R {
+    R::ONE - R::from_f64(2.0 * ROUNDINGS) * R::EPSILON
+}
+
+/// `gain` times the rotation [`quaternion_error`](crate::quaternion_error), 2 sin(θ/2) along its axis
+/// n, by the sum Σ a × w = 2 n sin θ over the axes of both attitudes; next to half a turn, where that
+/// vanishes, along the longest a + w.
+#[inline(always)]
+fn turn<R: Real>(attitude: &R::Mat3, wanted: &R::Mat3, gain: R) -> R::Vec3 {
+    let (a, w) = (attitude.cols(), wanted.cols());
+    let dots: [R; 3] = core::array::from_fn(|k| a[k].dot(w[k]));
+    let sum = a[0].cross(w[0]) + a[1].cross(w[1]) + a[2].cross(w[2]);
+    // 4 cos²(θ/2).
+    let square = R::ONE + dots[0] + dots[1] + dots[2];
+    if square > R::from_f64(HALF_A_TURN) {
+        return sum * (gain * square.rsqrt());
+    }
+    let k = if dots[1] > dots[0] { 1 } else { 0 };
+    let k = if dots[2] > entry(&dots, k) { 2 } else { k };
+    let [a, w] = [a, w].map(|axes| axes.get(k).copied().unwrap_or(axes[0]));
+    let along = a + w;
+    let twice = if along.dot(sum) < R::ZERO { -gain - gain } else { gain + gain };
+    along * (twice * along.dot(along).rsqrt())
 }

@@ -1,8 +1,10 @@
 //! One and two joints: refusals, ends of ranges, starts beyond limits, wild numbers.
 
 use super::*;
+use crate::law::pose_error;
 use crate::tests::refused;
-use dynamics_core::glam::{DVec3, Vec3};
+use core::f64::consts::PI;
+use dynamics_core::glam::{DMat3, DVec3, Vec3};
 
 /// Two joints that turn about z and move along x.
 fn columns<R: Real>() -> [Motion<R>; 2] {
@@ -186,5 +188,13 @@ fn a_goal_beyond_its_speeds_is_approached_along_the_straight_way() {
     let twist = goal.twist(&Pose::IDENTITY);
     assert!((twist.lin - DVec3::new(0.3, 0.4, 0.0)).length() < 1e-15 && twist.ang == DVec3::ZERO);
     assert_eq!(goal.twist(&pose), Motion::ZERO);
+    // Turns up to half a turn, as the error of the attitude says.
+    let free = TipGoal { gain: 1.0, linear: 9.0, angular: 9.0, ..goal };
+    let axis = DVec3::new(2.0, -3.0, 6.0) / 7.0;
+    for (angle, most) in [(0.3, 1e-14), (2.0, 1e-14), (3.13, 1e-11), (3.138, 1e-2), (PI, 1e-6)] {
+        let from = Pose { rot: DMat3::from_axis_angle(axis, -angle), ..pose };
+        let off = free.twist(&from).ang - pose_error(&from, &pose).ang;
+        assert!(off.length() < most, "{angle}: {off}");
+    }
     assert!(TipMotion::try_new(CONFIG, &[0.0; 2]).unwrap().ticks() == 0);
 }

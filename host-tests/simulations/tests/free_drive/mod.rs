@@ -62,26 +62,12 @@ fn a_released_arm_stays() {
         most(of(1)),
     );
     assert!(pairs().count() >= 4 * *RUNS as usize / 5);
-    // The bar is none. 13 of 971 miss it, by up to 14 mm: a row of decision 2.
+    // The bar is none. 8 of 978 miss it, by up to 5.1 mm: a row of decision 2.
     let share = far as f32 / pairs().count() as f32;
-    assert!(share <= 0.03, "{far} runs");
-    // The worst of a thousand runs, 14.0 mm, is a row of decision 2.
-    let farthest = of(0).filter(|drift| *drift >= 12.0).count();
-    assert!(farthest <= *RUNS as usize / 1000, "{farthest} runs");
-    // An oscillation that ends is no limit cycle: one of a thousand runs has one.
-    let swings = |seed: &u32| {
-        let [all, alone] = &PAIRS[*seed as usize];
-        !all.fault() && !alone.fault() && all.reversal > 1.0
-    };
-    let swinging: Vec<u32> = (0..*RUNS).filter(swings).collect();
-    assert!(swinging.len() <= *RUNS as usize / 1000, "{swinging:?}");
-    for seed in swinging {
-        let mut longer = Trial::drawn(seed, Less::Nothing, seed % 2 == 1);
-        longer.seconds[3] = 30.0;
-        let later = longer.run(Seen::default()).expect("a law and dynamics").reversal;
-        println!("run {seed}: {later:.2} steps from 15 to 30 s");
-        assert!(later <= 0.3, "{later}");
-    }
+    assert!(share <= 0.02, "{far} runs");
+    assert!(most(of(0)) < 6.0);
+    // No limit cycle: a joint that went back and forth would do so by steps of its encoder.
+    assert!(reversal <= 0.5, "{reversal}");
 }
 
 #[test]
@@ -95,7 +81,7 @@ fn less_force_starts_a_motion() {
         "of the force under gravity compensation alone, median and worst: start {start:.2?} ({above} \
          above 0.5), after 10 s of rest {again:.2?}, on the way {drag:.2?}"
     );
-    // The bar is that of each run, which 280 of 971 miss: a row of decision 2.
+    // The bar is that of each run, which 315 of 978 miss: a row of decision 2.
     assert!(start[0] <= 0.5, "{start:?}");
 }
 

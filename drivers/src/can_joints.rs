@@ -413,10 +413,11 @@ impl<Bus: Can, Joint: PdCanJoint, const V: usize> PdDrives<V> for &CanJoints<Bus
     }
 }
 
-/// A bus in memory, for a task that awaits its own: [`CanJoints`] over it has the frames to send in
-/// [`CanJoints::commands`], and takes those that came by [`CanJoints::receive`].
+/// A bus in memory, for a task that awaits its own or blocks in it: [`CanJoints`] over it has the
+/// frames to send in [`CanJoints::commands`], and takes those that came by [`CanJoints::receive`].
 ///
-/// `embedded-can` has no asynchronous trait, so that each HAL of Embassy has functions of its own.
+/// `embedded-can` has no asynchronous trait, so that each HAL of Embassy has functions of its own,
+/// and its blocking one waits for a frame: only the program knows how many replies come in a tick.
 /// Send the frames that the start of a loop leaves here before its first tick.
 ///
 /// ```

@@ -265,6 +265,16 @@ struct Cell<'a, 's> {
 }
 
 impl Cell<'_, '_> {
+    /// The time until each drive has replied to zero torque: in a tick of the loop a lost frame
+    /// would be a fault of the start, which stops the arm. Friction holds it.
+    #[inline(never)]
+    fn start(&mut self, commands: &Replies<ClassicFrame>) -> Option<()> {
+        while self.replies.iter().any(Option::is_none) {
+            self.replies = self.plant.tick(commands, &[0.0; 7])?;
+        }
+        Some(())
+    }
+
     fn tick(&mut self) -> Option<()> {
         let Self {
             control, joints, law, reference, replies, plant, status: last, out, seen, ..
@@ -419,8 +429,7 @@ impl Trial {
         if self.holds == Holds::Tool {
             cell.close(CLOSING + LATE);
         }
-        // The first replies, to zero torque: friction holds the arm for a tick.
-        cell.replies = cell.plant.tick(&joints.commands(), &[0.0; 7])?;
+        cell.start(&joints.commands())?;
         for _ in 0..ticks(seconds[0]) {
             cell.tick()?;
         }

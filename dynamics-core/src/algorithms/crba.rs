@@ -50,7 +50,8 @@ where
     }
 
     // Nothing borrows it, so that the compiler builds it where the caller wants it, without a copy.
-    // By a zero of which it does not know: `memclr` takes three cycles a word of a Cortex-M.
+    // The compiler does not know this zero, or it would call `memclr`, which takes three cycles a
+    // word on a Cortex-M.
     let zero = black_box(R::ZERO);
     let mut m = MassMatrix { rows: [[zero; V]; V] };
     macro_rules! set {
@@ -138,7 +139,7 @@ where
         } else if let Some(joint) = link.coordinates().next()
             && joint < V
         {
-            // The bound is asked once, or each entry would ask for it.
+            // The bound is checked once here, in place of once for each entry.
             project_inward!(joint, ic.along(&link.unit_subspace(turns, 0)));
         }
     }

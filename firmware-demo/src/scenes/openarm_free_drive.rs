@@ -2,8 +2,8 @@
 //! it stays. Its gripper then closes on a tool of 1 kg, and it is led back with it and stays again.
 //!
 //! While the gripper closes, the tool's weight goes over to the arm within 0.2 s, and the
-//! controller is told 20 ms later how far it has closed: it sets [`FreeDrive::tool`] between two
-//! ticks, so that no torque has a step. A controller that is not told drops the arm.
+//! law has the same share of it 20 ms later, since [`FreeDrive::tool`] is set between two ticks: no
+//! torque has a step. A law without this payload drops the arm.
 //!
 //! The torque of a tick is that of gravity and the tool, [`HandGuiding`]'s on top of it, and
 //! [`Breakaway`]'s push and dither. It has no trajectory of its own: the reference of the loop is
@@ -135,7 +135,7 @@ pub fn guiding() -> Result<HandGuidingConfig<f32, 7>, ConfigError> {
 
 /// A slower dither than the guide's, 10 Hz, and less push: at 21 Hz, with 0.78 and 0.6 of the
 /// least stiction, one of three released arms moved by more than 2 mm, and the tank, which pays for
-/// each change of the torque, ended the dither after half the time. A push of 0.3 drives a joint on
+/// each change of the torque, ended the dither after half the time. A push of 0.3 accelerates a joint
 /// that slips as the hand lets go, and starts no motion with less force than one of 0.1.
 pub fn breakaway() -> BreakawayConfig<f32, 7> {
     BreakawayConfig {

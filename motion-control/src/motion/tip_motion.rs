@@ -162,7 +162,8 @@ impl<R: Real, const V: usize> TipMotion<R, V> {
     /// The reference that rests at q, rad or m.
     ///
     /// # Errors
-    /// [`ConfigError::OutOfRange`] names a number that is beyond its range.
+    /// [`ConfigError::OutOfRange`] names a number that is beyond its range, among them a limit of
+    /// velocity below 10⁻⁸ rad/s or m/s.
     pub fn try_new(mut config: TipMotionConfig<R, V>, q: &[R; V]) -> Result<Self, ConfigError> {
         let tip = ConfigParameter::TipMotion;
         [config.tick, config.damping, config.length].iter().try_for_each(|x| tip.positive(*x))?;

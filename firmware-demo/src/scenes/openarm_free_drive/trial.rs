@@ -29,7 +29,7 @@ pub const BOUND: f32 = 2e-3;
 const MOVED: f32 = 2e-3;
 /// The ticks in which a gripper closes: the weight of the tool goes over to the hand evenly.
 pub const CLOSING: u32 = 100;
-/// The ticks after which the controller is told how far the gripper has closed.
+/// The ticks by which the payload of the law follows the gripper.
 const LATE: u32 = 10;
 
 /// Whether the hand of the arm holds a tool.
@@ -257,8 +257,8 @@ struct Cell<'a, 's> {
     replies: Replies<ClassicFrame>,
     plant: Plant,
     seconds: [f32; 4],
-    /// The controller is told of the tool.
-    told: bool,
+    /// The tool becomes a payload of the law.
+    follows: bool,
     status: Option<Status>,
     out: Outcome,
     seen: Seen<'s>,
@@ -321,11 +321,11 @@ impl Cell<'_, '_> {
         Some([start, drag])
     }
 
-    /// The gripper has begun to close before this many ticks.
+    /// Closes the gripper further, which began to close this many ticks ago.
     fn close(&mut self, ticks: u32) {
         let share = |ticks: u32| ticks.min(CLOSING) as f32 / CLOSING as f32;
         self.plant.bear(share(ticks));
-        if self.told {
+        if self.follows {
             self.law.tool.set(borne(TOOL, share(ticks.saturating_sub(LATE))));
         }
     }
@@ -412,7 +412,7 @@ impl Trial {
         let control = ControlLoop::new(Kept(&joints, &law), &joints, NoBrake, gains, gate, ());
         let (joints, law, replies) = (&joints, &law, [const { None }; 7]);
         let (reference, seconds, out) = (State::at(near), self.seconds, Outcome::default());
-        let (told, status) = (self.less != Less::Tool, None);
+        let (follows, status) = (self.less != Less::Tool, None);
         let mut cell = Cell {
             control,
             joints,
@@ -421,7 +421,7 @@ impl Trial {
             replies,
             plant,
             seconds,
-            told,
+            follows,
             status,
             out,
             seen,

@@ -127,7 +127,7 @@ fn a_tool_is_picked_up_without_a_step() {
     }));
     let [told, untold] = [told, untold].map(|trial| trial.run(Seen::default()).expect("dynamics"));
     println!(
-        "{weight:.2} N·m in steps of {step:.4}; drift {:.3} mm, {:.0} of a controller that is not told",
+        "{weight:.2} N·m in steps of {step:.4}; drift {:.3} mm, {:.0} without the payload",
         1e3 * told.drift,
         1e3 * untold.drift,
     );

@@ -53,7 +53,7 @@ pub const TOO_LONG: i32 = -24;
 /// No start has led to the pose.
 pub const NOT_REACHED: i32 = -25;
 /// No slower motion to a goal keeps a joint's limit of torque.
-pub const TOO_WEAK: i32 = -26;
+pub const TORQUE_LIMIT: i32 = -26;
 /// The tick in which a motion to a goal starts is over, or the goal was set meanwhile.
 pub const LATE: i32 = -27;
 

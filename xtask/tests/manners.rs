@@ -232,7 +232,9 @@ fn no_process_is_left_behind_after_a_signal_to_end() {
             processes.display()
         );
         let mut command = xtask(&["meter"]);
+        let qemu = dir.program("qemu", "echo QEMU emulator version 7.2.22");
         let mut child = command
+            .env("QEMU_SYSTEM_ARM", qemu)
             .arg(dir.file("firmware", &three_passages(EXIT)))
             .env("CARGO", cargo_but(&dir, "build", &lines))
             .stderr(Stdio::null())

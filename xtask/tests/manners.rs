@@ -36,15 +36,42 @@ fn a_closed_pipe_or_full_disk_is_no_panic() {
 /// A user who is not root, may use sudo, and has neither QEMU nor anything else.
 fn poor_user(dir: &Dir, with_sudo: bool) -> Command {
     dir.program("id", "echo 1000");
-    dir.program("apt-get", "true");
+    dir.program("apt-get", APT);
+    dir.program("dpkg", DPKG);
     if with_sudo {
         let ran = dir.join("sudo-ran");
         dir.program("sudo", &format!("echo \"$@\" >> {}", ran.display()));
     }
     let mut command = xtask(&["demo"]);
     command.env("PATH", dir.join("")).env("RUSTC", rustc());
+    command.env("CARGO_TARGET_DIR", dir.join("target")).env("APT_RAN", dir.join("apt-ran"));
+    command.env("CARGO", cargo_but(dir, "build", "echo it builds; exit 1"));
     command
 }
+
+/// An apt-get that notes what it is called for. `APT` chooses what goes wrong.
+const APT: &str = r#"for word; do case $word in -oDir::Cache=*) cache=${word#*=};; esac; done
+case "$*" in
+*-s\ install*) [ "$APT" != removes ] || echo "Remv qemu-utils [1:10.0.2]"; exit;;
+*--download-only*) what=download;;
+*clean*) exit;;
+*update*) what=update;;
+*) what="$*";;
+esac
+echo "$what" >> "$APT_RAN"
+case "$APT $what" in
+offline*update) echo "W: Failed to fetch http://a/InRelease  Temporary failure resolving 'a'";;
+offline*) echo "E: Unable to locate package qemu-system-arm"; exit 100;;
+stale*download) while read -r did; do [ "$did" != update ] || updated=1; done < "$APT_RAN"
+    [ "$updated" ] || { echo "E: Failed to fetch http://a/qemu.deb  404  Not Found"; exit 100; };;
+refuses*install*) exit 100;;
+esac
+[ "$what" != download ] || : > "$cache/archives/qemu.deb""#;
+
+/// Unpacks a QEMU that takes every plugin.
+const DPKG: &str = r#"/bin/mkdir -p "$3/usr/bin"
+printf '#!/bin/sh\necho QEMU emulator version 7.2.22' > "$3/usr/bin/qemu-system-arm"
+/bin/chmod +x "$3/usr/bin/qemu-system-arm""#;
 
 /// The compiler itself: rustup's stand-in for it needs a PATH.
 fn rustc() -> PathBuf {
@@ -68,66 +95,115 @@ fn yes_and_ci_let_it_run_sudo() {
     for (argument, ci) in [("--yes", "false"), ("--scene=ur5e", "true")] {
         let dir = Dir::new();
         let mut command = poor_user(&dir, true);
-        command.arg(argument).env("CI", ci);
-        let (code, _, said) = outcome(&mut command);
+        let (_, _, said) = outcome(command.arg(argument).env("CI", ci));
         let ran = std::fs::read_to_string(dir.join("sudo-ran")).expect("sudo ran");
         assert!(ran.contains("apt-get install"), "{ran}");
-        // This sudo installs nothing, so QEMU is still not there.
-        assert_eq!(code, Some(1), "{said}");
+        assert!(ran.contains("--no-remove"), "{ran}");
+        // This sudo installs nothing, so QEMU is unpacked.
+        assert!(said.contains("unpacked `qemu-system-arm`"), "{said}");
     }
-}
-
-/// Root on a Debian where `qemu-system-arm` conflicts with the user's `qemu-utils`; `apt-ran` lists
-/// the calls of apt-get.
-fn root_with_a_conflict(dir: &Dir) -> Command {
-    let mut command = poor_user(dir, false);
-    dir.program("id", "echo 0");
-    let ran = dir.join("apt-ran");
-    let refuses = "case \"$*\" in *qemu-system-arm*) exit 100;; esac";
-    let lines = format!("echo \"$@\" >> {}\n{refuses}", ran.display());
-    dir.program("apt-get", &lines);
-    command.env("CARGO", cargo_but(dir, "build", "exit 1"));
-    command
 }
 
 #[test]
 fn unconfirmed_commands_are_printed_and_not_run() {
-    let dirs = [(); 3].map(|()| Dir::new());
-    let [with_sudo, without, root] = &dirs;
-    let mut alone = poor_user(without, false);
-    let ran = without.join("apt-ran");
-    without.program("apt-get", &format!("touch {}", ran.display()));
-    alone.arg("--yes");
-    for (mut command, ran, words) in [
-        (
-            poor_user(with_sudo, true),
-            with_sudo.join("sudo-ran"),
-            ["    sudo apt-get install", "--yes"],
-        ),
-        (alone, ran, ["as root", "    apt-get install"]),
-        (root_with_a_conflict(root), root.join("apt-ran"), ["    apt-get install", "--yes"]),
+    for (with_sudo, uid, words) in [
+        (true, 1000, "    sudo apt-get install"),
+        (false, 1000, "there is neither root nor sudo: unpack qemu-system-arm"),
+        (false, 0, "since apt-get would remove qemu-utils: unpack qemu-system-arm"),
     ] {
-        let (code, _, said) = outcome(&mut command);
-        assert_eq!(code, Some(1), "{said}");
-        assert!(!ran.exists(), "{said}");
-        assert!(said.contains("qemu-system-arm"), "{said}");
-        for words in words.iter().filter(|_| on_debian()) {
-            assert!(said.contains(words), "{said}");
+        for argument in ["--no-install", "--scene=ur5e"] {
+            let dir = Dir::new();
+            let mut command = poor_user(&dir, with_sudo);
+            dir.program("id", &format!("echo {uid}"));
+            command.arg(argument).env("APT", if uid == 0 { "removes" } else { "" });
+            let (code, _, said) = outcome(&mut command);
+            assert_eq!(code, Some(1), "{said}");
+            for ran in ["sudo-ran", "apt-ran", "target/unpacked"] {
+                assert!(!dir.join(ran).exists(), "{ran}: {said}");
+            }
+            assert!(said.contains("`qemu-system-arm`") && !said.contains("it builds"), "{said}");
+            assert!(!on_debian() || said.contains(words), "{said}");
+            assert_eq!(said.contains("`--yes` installs"), argument != "--no-install", "{said}");
         }
     }
 }
 
+/// The calls of apt-get by a user of this number, root or without any right, who agrees, and what
+/// is said.
+fn installing(dir: &Dir, uid: u32, apt: &str) -> (String, String) {
+    let mut command = poor_user(dir, false);
+    dir.program("id", &format!("echo {uid}"));
+    let (_, _, said) = outcome(command.arg("--yes").env("APT", apt));
+    (std::fs::read_to_string(dir.join("apt-ran")).expect("apt-get ran"), said)
+}
+
 #[test]
-fn a_package_of_the_user_is_not_removed() {
+fn what_apt_refuses_is_unpacked() {
+    if !on_debian() {
+        return;
+    }
+    let install = "update\ninstall --no-install-recommends --no-remove -y qemu-system-arm -o \
+                   DPkg::Lock::Timeout=600\n";
+    for (uid, apt, calls) in [
+        // The package would remove one of the user's, and is not tried.
+        (0, "removes", "download\n"),
+        (0, "refuses", &*format!("{install}download\n")),
+        (1000, "", "download\n"),
+        (1000, "stale", "download\nupdate\ndownload\n"),
+    ] {
+        let dir = Dir::new();
+        // What an interrupted run and another compiler left is redone.
+        let junk = dir.join("target/unpacked/qemu-system-arm.part/root/junk");
+        std::fs::create_dir_all(&junk).expect("a folder");
+        let (ran, said) = installing(&dir, uid, apt);
+        assert_eq!(ran, calls, "{said}");
+        assert!(said.contains("unpacked `qemu-system-arm`") && said.contains("it builds"), "{said}");
+        let here = dir.join("target/unpacked/qemu-system-arm");
+        assert!(here.join("bin/qemu-system-arm").is_file() && !here.join("apt").exists());
+        assert!(!junk.exists() && !here.join("root/junk").exists());
+        // Once there it is used as it is.
+        let (again, said) = installing(&dir, uid, "offline");
+        assert!(again == ran && said.contains("it builds"), "{said}");
+    }
+}
+
+#[test]
+fn without_a_network_a_short_message_says_what_to_do() {
     if !on_debian() {
         return;
     }
     let dir = Dir::new();
-    let (code, _, said) = outcome(root_with_a_conflict(&dir).arg("--yes"));
-    let ran = std::fs::read_to_string(dir.join("apt-ran")).expect("apt-get ran");
-    let mut installs = ran.lines().filter(|line| line.starts_with("install"));
-    assert!(installs.all(|line| line.contains("--no-remove")), "{ran}");
-    assert_eq!((ran.lines().count(), code), (2, Some(1)), "{ran}\n{said}");
+    let (_, said) = installing(&dir, 1000, "offline");
+    let message = said.split_once("error: ").expect("an error").1;
+    assert!(message.lines().count() <= 5, "{message}");
+    for words in ["Temporary failure resolving", "QEMU_SYSTEM_ARM", "With a network"] {
+        assert!(message.contains(words), "{message}");
+    }
+    assert!(!dir.join("target/unpacked/qemu-system-arm").exists());
+}
+
+#[test]
+fn a_qemu_without_plugins_is_found_out_before_anything_is_built() {
+    let dir = Dir::new();
+    let lines = "[ \"$1\" = --version ] && echo QEMU emulator version 8.2.0 && exit\n\
+                 echo 'plugin interface not enabled in this build' >&2; exit 1";
+    let bare = dir.program("qemu-system-arm", lines);
+    for chosen in [true, false] {
+        let mut command = poor_user(&dir, true);
+        command.arg("--no-install");
+        if chosen {
+            command.env("QEMU_SYSTEM_ARM", &bare);
+        }
+        let (code, _, said) = outcome(&mut command);
+        assert!(said.contains("version 8.2.0) was built without plugins"), "{said}");
+        assert_eq!(said.contains("QEMU_SYSTEM_ARM: "), chosen, "{said}");
+        assert!(code == Some(1) && !said.contains("it builds"), "{said}");
+    }
+    if on_debian() {
+        // It does not stand in the way of one that has them.
+        let (_, said) = installing(&dir, 1000, "");
+        assert!(said.contains("unpacked `qemu-system-arm`"), "{said}");
+    }
 }
 
 /// Cargo, with another program for one of its commands.
@@ -156,7 +232,9 @@ fn no_process_is_left_behind_after_a_signal_to_end() {
             processes.display()
         );
         let mut command = xtask(&["meter"]);
+        let qemu = dir.program("qemu", "echo QEMU emulator version 7.2.22");
         let mut child = command
+            .env("QEMU_SYSTEM_ARM", qemu)
             .arg(dir.file("firmware", &three_passages(EXIT)))
             .env("CARGO", cargo_but(&dir, "build", &lines))
             .stderr(Stdio::null())

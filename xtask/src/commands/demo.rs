@@ -1,7 +1,5 @@
 //! `cargo xtask demo`: builds scenes, runs them in QEMU, reports.
 
-mod tracking;
-
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::OnceLock;
@@ -59,18 +57,12 @@ pub struct Args {
 /// Runs scenes, writes what the arguments name, and prints.
 pub fn run(options: Options, args: Args) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
-    let tools = setup::for_demo(options)?;
     let one = [args.scene];
     let scenes = if args.all { Scene::all() } else { &one };
+    output::note(&promise(scenes));
+    let tools = setup::for_demo(options)?;
     let built = Built::new(&workspace, &tools, scenes)?;
-    let measured = match built.measure(&workspace, &tools) {
-        Ok(measured) => measured,
-        Err(why) if args.write_docs || args.write_budgets => return Err(why),
-        Err(why) if built.lacks_the_meter(&tools, &why) => {
-            return tracking::run(&workspace, &tools, &built.runs, &why, args.json);
-        }
-        Err(why) => return Err(why),
-    };
+    let measured = built.measure(&workspace, &tools)?;
     let mut pictures = Vec::new();
     for one in &measured {
         let picture = workspace.output(&format!("{}.svg", one.report.scene))?;
@@ -100,6 +92,18 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
+/// Says at once what is about to happen, and how long it takes.
+fn promise(scenes: &[Scene]) -> String {
+    let what = match scenes {
+        [one] => format!("the firmware of scene {}", one.name()),
+        all => format!("the firmware of {} scenes", all.len()),
+    };
+    format!(
+        "builds {what} and a cycle meter, and runs them in QEMU: some two minutes the first time, \
+         seconds a scene later"
+    )
+}
+
 /// The README's first lines, and the tables and the picture of the default scene.
 fn write_docs(
     workspace: &Workspace,
@@ -127,10 +131,12 @@ pub struct Built {
 impl Built {
     pub fn new(workspace: &Workspace, tools: &Tools, scenes: &[Scene]) -> Result<Self> {
         let names: Vec<&str> = scenes.iter().map(|scene| scene.name()).collect();
-        let building = Spinner::start(&format!("building {}", names.join(", ")));
-        let elves = firmware::build_bins(workspace, tools.toolchain, RELEASE, &names)?;
-        building.say("building the cycle meter".into());
+        let building = Spinner::start("building the cycle meter");
         let meter = firmware::build_meter(workspace)?;
+        // Before the longer build: a QEMU may refuse it.
+        tools.qemu.interface(&meter)?;
+        building.say(format!("building {}", names.join(", ")));
+        let elves = firmware::build_bins(workspace, tools.toolchain, RELEASE, &names)?;
         drop(building);
         let runs = scenes.iter().copied().zip(elves).collect();
         Ok(Self { meter, runs })
@@ -139,7 +145,6 @@ impl Built {
     /// Runs the ones under the other, as many at a time as there are cores, and returns them in
     /// their order.
     pub fn measure(&self, workspace: &Workspace, tools: &Tools) -> Result<Vec<Measured>> {
-        tools.qemu.interface(&self.meter)?;
         let (runs, meter, next) = (&self.runs, &self.meter, AtomicUsize::new(0));
         let done: Vec<_> = runs.iter().map(|_| OnceLock::new()).collect();
         let work = || {
@@ -155,13 +160,6 @@ impl Built {
             }
         });
         done.into_iter().filter_map(OnceLock::into_inner).collect()
-    }
-
-    /// Whether the runs failed because QEMU does not take the meter: it said so, or it is so new
-    /// that the meter may be what made it fail.
-    fn lacks_the_meter(&self, tools: &Tools, why: &Error) -> bool {
-        let refused = tools.qemu.interface(&self.meter).is_err();
-        refused || (matches!(why, Error::Qemu { .. }) && !tools.qemu.is_known())
     }
 }
 

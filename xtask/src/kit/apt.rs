@@ -38,6 +38,21 @@ pub fn lines(packages: &[&str]) -> Vec<String> {
     hint.into_iter().chain(lines).collect()
 }
 
+/// Why the packages cannot be installed here, as far as it is known before it is tried.
+pub fn refusal(packages: &[&str]) -> Option<String> {
+    if Privilege::this() == Privilege::None {
+        return Some("there is neither root nor sudo".to_owned());
+    }
+    // It changes nothing, and needs no root.
+    let mut simulated = Command::new("apt-get");
+    simulated.args(["-s", "install", "--no-install-recommends"]).args(packages);
+    // An empty index tells nothing.
+    let plan = shell::capture(&mut simulated).unwrap_or_default();
+    let removed = plan.lines().filter_map(|line| line.strip_prefix("Remv ")?.split(' ').next());
+    let removed = removed.collect::<Vec<_>>().join(" ");
+    (!removed.is_empty()).then(|| format!("apt-get would remove {removed}"))
+}
+
 /// Installs Debian packages.
 ///
 /// # Errors

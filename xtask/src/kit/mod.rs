@@ -30,4 +30,5 @@ pub mod sources;
 pub mod system;
 pub mod table;
 pub mod toolchain;
+pub mod unpacked;
 pub mod workspace;

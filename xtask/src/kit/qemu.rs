@@ -5,6 +5,7 @@ mod tests;
 mod text;
 mod watch;
 
+use std::ffi::OsString;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -13,9 +14,9 @@ use std::time::Duration;
 
 use defmt_decoder::{DecodeError, StreamDecoder, Table};
 
-use crate::kit::error::{Error, Result, check};
+use crate::kit::error::{Error, Result, check, refuse_if};
 use crate::kit::toolchain::release;
-use crate::kit::{processes, shell};
+use crate::kit::{processes, shell, unpacked};
 use watch::{Decoder, Line, Watch, bytes_of, said};
 
 pub const PROGRAM: &str = "qemu-system-arm";
@@ -35,9 +36,16 @@ pub const DONE: &str = "done";
 /// The longest silence of a firmware.
 const PATIENCE: Duration = Duration::from_secs(60);
 
-/// The first QEMU that has plugins, and the first of which it is not known whether it takes the
-/// meter.
-const KNOWN: std::ops::Range<(u32, u32)> = (4, 2)..(11, 0);
+/// The first QEMU that is tested with the meter.
+const OLDEST: (u32, u32) = (7, 0);
+
+/// The environment variable that names the QEMU for an ARM.
+pub const VARIABLE: &str = "QEMU_SYSTEM_ARM";
+
+/// The QEMU that the user chose.
+pub fn chosen() -> Option<OsString> {
+    std::env::var_os(VARIABLE).filter(|program| !program.is_empty())
+}
 
 /// The time limit for QEMU to load the meter and exit.
 const LOADING: Duration = Duration::from_secs(30);
@@ -75,23 +83,39 @@ impl<'a> Run<'a> {
 }
 
 /// Advice for a user whose QEMU does not load the meter.
-pub const ANOTHER_QEMU: &str = "either work in a container of Debian 12 or 13, whose \
-    `qemu-system-arm` takes it: `docker run -it -v \"$PWD\":/work -w /work debian:12`, and in it \
-    `apt-get update && apt-get install -y cargo-web rustc-web`; or build QEMU 10.0 from \
-    https://download.qemu.org with `./configure --target-list=arm-softmmu --enable-plugins && \
-    make`, and put its build directory first on the PATH";
+pub const ANOTHER_QEMU: &str = "docker run -it -v \"$PWD\":/work -w /work debian:12
+    # and in it: apt-get update && apt-get install -y cargo-web rustc-web
+    # or build QEMU 10 from https://download.qemu.org, and name it by QEMU_SYSTEM_ARM:
+    ./configure --target-list=arm-softmmu --enable-plugins && make";
 
 impl Qemu {
-    pub fn is_installed() -> bool {
-        shell::succeeds(Command::new(PROGRAM).arg("--version"))
-    }
-
-    /// Asks the QEMU of this machine for its version.
+    /// The QEMU that the user chose, or the first one that has plugins.
     ///
     /// # Errors
-    /// It cannot be asked.
+    /// There is none.
     pub fn find() -> Result<Self> {
-        Self::at(PROGRAM)
+        match chosen() {
+            Some(program) => {
+                let found = Self::at(program).and_then(Self::with_plugins);
+                found.map_err(|why| check!("{VARIABLE}: {why}; another one:\n    {ANOTHER_QEMU}"))
+            }
+            None => Self::first(PROGRAM),
+        }
+    }
+
+    /// The first emulator of a name that has plugins, on the PATH or unpacked.
+    ///
+    /// # Errors
+    /// There is none, or none with plugins.
+    pub fn first(program: &str) -> Result<Self> {
+        let mut refused = None;
+        for place in unpacked::places(program) {
+            match Self::at(place).and_then(Self::with_plugins) {
+                Ok(found) => return Ok(found),
+                Err(why) => refused = refused.or(Some(why)),
+            }
+        }
+        Err(refused.unwrap_or_else(|| check!("`{program}`, the emulator that runs the firmware")))
     }
 
     /// Asks a QEMU for its version.
@@ -105,9 +129,23 @@ impl Qemu {
         Ok(Self { version, program, interface: OnceLock::new() })
     }
 
-    /// Whether QEMUs of this version are known to take the meter.
-    pub fn is_known(&self) -> bool {
-        KNOWN.contains(&release(&self.version))
+    /// Refuses one that cannot take the meter, as far as it shows before the meter is built: it is
+    /// asked for a plugin that is not there.
+    fn with_plugins(self) -> Result<Self> {
+        let program = self.program.display();
+        refuse_if!(cfg!(windows), "the cycle meter, a plugin of QEMU, is not for Windows");
+        refuse_if!(
+            release(&self.version) < OLDEST,
+            "{program} is {}, and the cycle meter takes QEMU 7 to 11",
+            self.version
+        );
+        let why = self.load(Path::new("no-plugin"), None).err().unwrap_or_default();
+        refuse_if!(
+            ["not enabled in this build", "invalid option"].iter().any(|says| why.contains(says)),
+            "{program} ({}) was built without plugins, one of which counts the cycles",
+            self.version
+        );
+        Ok(self)
     }
 
     /// With which version of the plugin interface it takes the meter, if not the one that the meter
@@ -129,7 +167,7 @@ impl Qemu {
         tried.clone().map_err(|why| {
             check!(
                 "{} does not take the cycle meter, which speaks versions 1 to {} of QEMU's \
-                 plugin interface ({why}); {ANOTHER_QEMU}",
+                 plugin interface ({why}); another one:\n    {ANOTHER_QEMU}",
                 self.version,
                 cycle_meter::NEWEST_INTERFACE
             )
@@ -142,7 +180,7 @@ impl Qemu {
         let mut command = Command::new(&self.program);
         command
             .args("-machine none -nodefaults -display none -monitor stdio -plugin".split(' '))
-            .arg(format!("{},out={NOWHERE}", meter.display()))
+            .arg(format!("file={},out={NOWHERE}", doubled(meter.display())))
             .envs(interface.map(|version| (cycle_meter::INTERFACE, version.to_string())))
             .stdin(Stdio::piped())
             .stdout(Stdio::null())
@@ -212,11 +250,12 @@ impl Qemu {
         command.args(["-machine", machine]);
         command.args(FIXED.split(' '));
         let words = [run.name].into_iter().chain(run.words.iter().copied());
-        let words: String = words.map(|word| format!(",arg={word}")).collect();
+        let words: String = words.map(|word| format!(",arg={}", doubled(word))).collect();
         let semihosting = format!("enable=on,target=native{words}");
         command.args(["-serial", run.serial, "-semihosting-config", &semihosting]);
         if let Some((plugin, out)) = run.meter {
-            let mut plugged = format!("{},out={}", plugin.display(), out.display());
+            let [file, out] = [plugin, out].map(|path| doubled(path.display()));
+            let mut plugged = format!("file={file},out={out}");
             if !run.reading.is_empty() {
                 plugged += &format!(",reading={}", run.reading);
             }
@@ -268,6 +307,11 @@ impl Qemu {
             }
         }
     }
+}
+
+/// A value among QEMU's options, where a comma that ends none of them stands twice.
+fn doubled(value: impl std::fmt::Display) -> String {
+    value.to_string().replace(',', ",,")
 }
 
 /// The version that QEMU would take, from why it refused another one.

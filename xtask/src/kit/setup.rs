@@ -3,11 +3,11 @@
 use std::io::{IsTerminal, Write};
 use std::process::Command;
 
-use crate::kit::error::{Error, Result, bail, refuse_if};
-use crate::kit::qemu::Qemu;
-use crate::kit::system::{self, Privilege, System};
+use crate::kit::error::{Error, Result, bail, check, refuse_if};
+use crate::kit::qemu::{self, ANOTHER_QEMU, Qemu};
+use crate::kit::system::{self, System};
 use crate::kit::toolchain::{self, DEBIAN_PACKAGES, TARGET, Toolchain};
-use crate::kit::{apt, output, shell};
+use crate::kit::{apt, output, shell, unpacked};
 
 const CLIPPY: &str = "rust-web-clippy";
 /// The subcommands of cargo that the tests need, with rustup's component and Debian's package.
@@ -65,26 +65,52 @@ impl Plan {
         self.rustup.push(line);
     }
 
-    /// Installs everything if the user agrees, or says why it may not.
+    /// Installs everything if the user agrees, or says why it may not. An emulator that apt-get
+    /// refuses is unpacked.
     pub fn carry_out(&self, options: Options) -> Result<()> {
-        let packages = !self.apt.is_empty();
-        let apt = packages.then(|| apt::lines(&self.apt));
-        let commands = [&*self.rustup, &apt.unwrap_or_default(), &self.manual].concat();
+        let can_be_unpacked = |package: &&str| unpacked::program_of(package).is_some();
+        let (emulators, others): (Vec<&str>, Vec<&str>) =
+            self.apt.iter().copied().partition(can_be_unpacked);
+        let refusal = (!emulators.is_empty()).then(|| apt::refusal(&emulators)).flatten();
+        let mut install = others.clone();
+        if refusal.is_none() {
+            install.extend(&emulators);
+        }
+        let mut commands = self.rustup.clone();
+        if !install.is_empty() {
+            commands.extend(apt::lines(&install));
+        }
+        if !emulators.is_empty() {
+            commands.push(unpacked::line(&emulators, refusal.as_deref()));
+        }
+        commands.extend(self.manual.iter().cloned());
         if commands.is_empty() {
             return Ok(());
         }
         for reason in &self.reasons {
             output::note(&format!("missing: {reason}"));
         }
-        if !self.manual.is_empty() {
+        let refused = (!others.is_empty()).then(|| apt::refusal(&others)).flatten();
+        if let Some(why) = &refused {
+            output::note(&format!("not installed: {}, since {why}", others.join(" ")));
+        }
+        if refused.is_some() || !self.manual.is_empty() {
             return Err(Error::Missing { commands });
         }
-        may_install(options, &commands, packages)?;
+        may_install(options, &commands)?;
         for line in &self.rustup {
             shell::run(Command::new("rustup").args(line.split(' ').skip(1)))?;
         }
-        let install = packages.then(|| apt::install(&self.apt));
-        install.unwrap_or(Ok(()))
+        if !others.is_empty() {
+            apt::install(&others)?;
+        }
+        if refusal.is_none()
+            && !emulators.is_empty()
+            && let Err(why) = apt::install(&emulators)
+        {
+            output::note(&format!("not installed: {why}"));
+        }
+        emulators.iter().try_for_each(|package| unpacked::unpack(package))
     }
 }
 
@@ -109,10 +135,10 @@ impl Options {
 /// Asks whether these commands may run, unless the user has agreed; everybody is asked, root too.
 ///
 /// # Errors
-/// The user says no or cannot be asked, or may not install packages.
-pub fn may_install(options: Options, commands: &[String], packages: bool) -> Result<()> {
+/// The user says no or cannot be asked.
+pub fn may_install(options: Options, commands: &[String]) -> Result<()> {
     let missing = || Error::Missing { commands: commands.to_vec() };
-    if options.no_install || packages && Privilege::this() == Privilege::None {
+    if options.no_install {
         return Err(missing());
     }
     let shown = commands.join("\n    ");
@@ -138,13 +164,11 @@ fn is_yes(answer: &str) -> bool {
 }
 
 pub fn for_demo(options: Options) -> Result<Tools> {
-    let (toolchain, qemu) = (compiler(options)?, Qemu::find()?);
-    Ok(Tools { toolchain, qemu })
+    set_up(options, Plan::default())
 }
 
 /// Everything that the tests need: what the demo needs, rustfmt and clippy.
 pub fn for_test(options: Options) -> Result<Tools> {
-    let tools = for_demo(options)?;
     let mut plan = Plan::default();
     for (subcommand, component, package) in COMPONENTS {
         let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
@@ -159,11 +183,12 @@ pub fn for_test(options: Options) -> Result<Tools> {
             plan.add(reason, &[package], &elsewhere);
         }
     }
-    let is_debian = tools.toolchain == Toolchain::Debian;
-    if is_debian && !toolchain::has_debian_clippy() && !plan.apt.contains(&CLIPPY) {
+    let tools = set_up(options, plan)?;
+    if tools.toolchain == Toolchain::Debian && !toolchain::has_debian_clippy() {
+        let mut plan = Plan::default();
         plan.add("the clippy of Debian's compiler".into(), &[CLIPPY], "");
+        plan.carry_out(options)?;
     }
-    plan.carry_out(options)?;
     Ok(tools)
 }
 
@@ -195,14 +220,16 @@ pub fn for_cores(options: Options, targets: &[&str], packages: &[&'static str]) 
     plan.carry_out(options)
 }
 
-/// The compiler and QEMU in one plan, so that the user receives one message about everything.
-fn compiler(options: Options) -> Result<Toolchain> {
-    let mut plan = Plan::default();
+/// The compiler and QEMU with the rest of a plan, so that the user receives one message about
+/// everything, before anything is built.
+fn set_up(options: Options, mut plan: Plan) -> Result<Tools> {
     let mut chosen = choose(&mut plan)?;
-    if !Qemu::is_installed() {
-        let reason = "`qemu-system-arm`, the emulator that runs the firmware";
-        let elsewhere = System::this().qemu_command();
-        plan.add(reason.into(), &[system::QEMU], elsewhere);
+    if let Err(why) = Qemu::find() {
+        if qemu::chosen().is_some() {
+            return Err(why);
+        }
+        let advice = System::this().qemu_advice(shell::which(qemu::PROGRAM).is_some());
+        plan.add(why.to_string(), &[system::QEMU], advice);
     }
     let may_fall_back = System::this() == System::Debian;
     if options.no_install && !plan.rustup.is_empty() && may_fall_back {
@@ -237,7 +264,9 @@ fn compiler(options: Options) -> Result<Toolchain> {
         }
         Toolchain::Native => {}
     }
-    Ok(chosen)
+    // The distribution's may be too old.
+    let qemu = Qemu::find().map_err(|why| check!("{why}; another one:\n    {ANOTHER_QEMU}"))?;
+    Ok(Tools { toolchain: chosen, qemu })
 }
 
 /// Selects the compiler and plans what it lacks.

@@ -1,6 +1,6 @@
 //! Running other programs.
 
-use std::io::IsTerminal;
+use std::io::{BufRead, BufReader, IsTerminal};
 use std::path::PathBuf;
 use std::process::{Child, Command, ExitStatus, Stdio};
 
@@ -75,10 +75,30 @@ pub fn heard_by(command: &mut Command, place: fn() -> Stdio) -> &mut Command {
     command.stdin(Stdio::null()).stdout(place()).stderr(place())
 }
 
+/// Runs a command and hands over each line that it prints as it comes, of stderr too.
+pub fn follow(command: &mut Command, mut on_line: impl FnMut(&str)) -> Result<()> {
+    let (reader, writer) = std::io::pipe().map_err(|e| Error::spawn(command, e))?;
+    let other = writer.try_clone().map_err(|e| Error::spawn(command, e))?;
+    command.stdin(Stdio::null()).stdout(writer).stderr(other);
+    let (mut child, _group) = spawn(command)?;
+    // The pipe ends when nobody holds it for writing.
+    heard_by(command, Stdio::null);
+    for line in BufReader::new(reader).lines().map_while(std::io::Result::ok) {
+        on_line(&line);
+    }
+    let status = child.wait().map_err(|e| Error::spawn(command, e))?;
+    succeeded(command, status)
+}
+
 /// The path of a program on the PATH.
 pub fn which(program: &str) -> Option<PathBuf> {
-    let path = std::env::var_os("PATH")?;
-    std::env::split_paths(&path)
-        .map(|dir| dir.join(format!("{program}{}", std::env::consts::EXE_SUFFIX)))
-        .find(|file| file.is_file())
+    all_of(program).next()
+}
+
+/// All programs of this name on the PATH, in its order.
+pub fn all_of(program: &str) -> impl Iterator<Item = PathBuf> {
+    let file = format!("{program}{}", std::env::consts::EXE_SUFFIX);
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    let folders: Vec<PathBuf> = std::env::split_paths(&path).collect();
+    folders.into_iter().map(move |folder| folder.join(&file)).filter(|file| file.is_file())
 }

@@ -2,7 +2,7 @@
 
 use std::process::Command;
 
-use crate::kit::shell;
+use crate::kit::{qemu, shell};
 
 /// Debian's package of the emulator.
 pub const QEMU: &str = "qemu-system-arm";
@@ -28,8 +28,8 @@ const SYSTEMS: [(System, &[&str], &str); 7] = [
     (System::Arch, &["arch"], "sudo pacman -S --needed qemu-system-arm"),
     (System::Suse, &["suse", "opensuse"], "sudo zypper install -y qemu-arm"),
     (System::MacOs, &[], "brew install qemu"),
-    (System::Windows, &[], "winget install SoftwareFreedomConservancy.QEMU    # and put \
-        qemu-system-arm on the PATH"),
+    (System::Windows, &[], "wsl --install -d Debian    # clone and run in it: the cycle meter, a \
+        plugin of QEMU, is not for Windows"),
     (System::Other, &[], "# install QEMU's `qemu-system-arm` with your system's package manager"),
 ];
 
@@ -54,10 +54,12 @@ impl System {
         systems.next().unwrap_or(Self::Other)
     }
 
-    /// The command that installs QEMU, where xtask does not install it.
-    pub fn qemu_command(self) -> &'static str {
-        let mut rows = SYSTEMS.iter();
-        rows.find(|row| row.0 == self).map_or("", |row| row.2)
+    /// What gets the user a QEMU where xtask does not, or another one than the system's.
+    pub fn qemu_advice(self, has_one: bool) -> &'static str {
+        if has_one && self != Self::Windows {
+            return qemu::ANOTHER_QEMU;
+        }
+        SYSTEMS.iter().find(|row| row.0 == self).map_or("", |row| row.2)
     }
 }
 
@@ -96,16 +98,20 @@ mod tests {
     use super::System;
 
     #[test]
-    fn every_system_has_instructions_to_install_qemu() {
-        for system in [
-            System::Fedora,
-            System::Arch,
-            System::Suse,
-            System::MacOs,
-            System::Windows,
-            System::Other,
+    fn every_system_has_instructions_to_get_qemu() {
+        for (system, words) in [
+            (System::Fedora, "sudo dnf install -y qemu-system-arm-core"),
+            (System::Arch, "sudo pacman -S --needed qemu-system-arm"),
+            (System::Suse, "sudo zypper install -y qemu-arm"),
+            (System::MacOs, "brew install qemu"),
+            (System::Windows, "wsl --install -d Debian"),
+            (System::Other, "`qemu-system-arm` with your system's package manager"),
         ] {
-            assert!(system.qemu_command().contains("qemu"), "{system:?}");
+            assert!(system.qemu_advice(false).contains(words), "{system:?}");
+            // To install what is there would not help where it has no plugins.
+            let another = system.qemu_advice(true);
+            let words = if system == System::Windows { words } else { "--enable-plugins" };
+            assert!(another.contains(words) && another.lines().count() <= 5, "{system:?}");
         }
     }
 

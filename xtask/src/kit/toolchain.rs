@@ -109,10 +109,9 @@ fn recorded_paths(sysroot: &Path, version: &str) -> Option<String> {
     let hash = version.lines().find_map(|line| line.strip_prefix("commit-hash: "))?;
     let sources = sysroot.join("lib/rustlib/src/rust");
     has_sources(sysroot).then(|| {
-        format!(
-            "target.{TARGET}.rustflags=['--remap-path-prefix={}=/rustc/{hash}']",
-            sources.display()
-        )
+        let flag = format!("--remap-path-prefix={}=/rustc/{hash}", sources.display());
+        // Strings of JSON are strings of TOML, with a quote or a backslash in the path, too.
+        format!("target.{TARGET}.rustflags=[{}]", serde_json::Value::from(flag))
     })
 }
 
@@ -222,7 +221,7 @@ mod tests {
 
     #[test]
     fn sources_of_core_change_no_path_in_the_firmware() {
-        let sysroot = tempfile::tempdir().expect("a folder");
+        let sysroot = tempfile::Builder::new().prefix("o'b\"r, ").tempdir().expect("a folder");
         let version = "rustc 1.95.0\ncommit-hash: 5980\n";
         assert_eq!(recorded_paths(sysroot.path(), version), None);
         let manifest = sysroot.path().join(SOURCES);
@@ -231,7 +230,9 @@ mod tests {
         let setting = recorded_paths(sysroot.path(), version).expect("the sources are there");
         let root = sysroot.path().display();
         let flag = format!("--remap-path-prefix={root}/lib/rustlib/src/rust=/rustc/5980");
-        assert_eq!(setting, format!("target.thumbv7em-none-eabihf.rustflags=['{flag}']"));
+        let read: toml_edit::DocumentMut = setting.parse().expect("a setting");
+        let flags = &read["target"]["thumbv7em-none-eabihf"]["rustflags"];
+        assert_eq!(flags[0].as_str(), Some(&*flag));
     }
 
     #[test]

@@ -7,7 +7,7 @@ use std::sync::OnceLock;
 use serde_json::Value;
 
 use crate::kit::error::{Error, Result, check};
-use crate::kit::shell;
+use crate::kit::{shell, unpacked};
 
 /// The packages whose bins run on the target: the demo's scenes, and what the laboratory measures.
 /// Cargo finds a bin and a feature in the one that has it.
@@ -96,6 +96,7 @@ impl Workspace {
     pub fn cargo(&self, subcommand: &str) -> Command {
         let mut command = host_cargo();
         command.arg(subcommand).current_dir(&self.root);
+        command.envs(unpacked::path(&self.target).map(|path| ("PATH", path)));
         command
     }
 

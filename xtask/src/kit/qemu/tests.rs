@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use defmt_decoder::DecodeError;
 use tempfile::TempDir;
 
-use super::Qemu;
+use super::{Qemu, Run};
 use super::watch::{Decoder, Line, Watch};
 
 /// The folder of a script `qemu`, gone with the value.
@@ -144,7 +144,40 @@ fn a_qemu_that_loads_the_meter_or_names_its_version_takes_it() {
         let qemu = qemu(&script);
         let accepted = qemu.interface(Path::new("meter.so"));
         assert_eq!(accepted.map_err(|e| e.to_string()), Ok(interface), "{version}");
-        assert!(interface.is_none() || !qemu.is_known());
+    }
+}
+
+#[test]
+fn a_qemu_is_judged_before_anything_is_built() {
+    let says = |what: &str| format!("echo 'qemu-system-arm: {what}' >&2; exit 1");
+    let no_file = says("Could not load plugin no-plugin: cannot open shared object file");
+    for version in ["7.0.0", "7.2.22", "8.2.2", "9.2.0", "10.0.2", "11.0.0"] {
+        assert!(qemu(&refusing(version, &no_file)).with_plugins().is_ok(), "{version}");
+    }
+    for (version, lines, why) in [
+        ("6.2.0", &no_file, "takes QEMU 7 to 11"),
+        ("8.1.0", &says("plugin interface not enabled in this build"), "built without plugins"),
+        ("7.2.0", &says("-plugin: invalid option"), "built without plugins"),
+    ] {
+        let refused = qemu(&refusing(version, lines)).with_plugins().err();
+        let refused = refused.expect("refused").to_string();
+        assert!(refused.contains(why) && refused.contains(version), "{refused}");
+    }
+}
+
+#[test]
+fn commas_of_paths_and_words_stand_twice() {
+    let script = refusing("10.0.2", "exit 0");
+    let [plugin, out] = ["/a, b/meter.so", "/it's, c=d/out"].map(Path::new);
+    let run = Run { words: &["1,2"], ..Run::logging("a,b", plugin, Some((plugin, out))) };
+    let command = qemu(&script).command("m", &run).expect("a command");
+    let words: Vec<&str> = command.get_args().filter_map(|word| word.to_str()).collect();
+    for word in [
+        "enable=on,target=native,arg=a,,b,arg=1,,2",
+        "file=/a,, b/meter.so,out=/it's,, c=d/out",
+        "/a, b/meter.so",
+    ] {
+        assert!(words.contains(&word), "{words:?}");
     }
 }
 

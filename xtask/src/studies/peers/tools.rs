@@ -80,7 +80,7 @@ pub fn set_up(workspace: &Workspace, options: Options) -> Result<(Tools, Peers)>
         fill.arg(&requirements);
         let commands = [shell::display(&make), shell::display(&fill)];
         output::note("missing: a Python environment with Pinocchio and CasADi");
-        setup::may_install(options, &commands, false)?;
+        setup::may_install(options, &commands)?;
         std::fs::create_dir_all(&dir).map_err(Error::file("create", &dir))?;
         shell::run(&mut make)?;
         shell::run(&mut fill)?;

@@ -103,7 +103,7 @@ fn download(folder: &Path, pinned: &Path, options: Options) -> Result<PathBuf> {
     pip.args(["-m", "pip", "download", "--quiet", "--no-deps", "--require-hashes"]);
     pip.arg("--dest").arg(&package).arg("--requirement").arg(pinned);
     if !succeeds_before(&package) {
-        setup::may_install(options, &[shell::display(&pip)], false)?;
+        setup::may_install(options, &[shell::display(&pip)])?;
     }
     shell::capture(&mut pip)?;
     let wheels = std::fs::read_dir(&package).map_err(Error::file("read", &package))?;

@@ -223,8 +223,8 @@ macro_rules! scene_main {
             use $crate::target::watch::{QUEUE, Timed, watch};
 
             type Scene = Timed<$crate::scenes::$module::$scene, $B, $Q, $V, $N>;
-            type Slots = ::telemetry::Slots<$N, QUEUE>;
-            type Queue = ::telemetry::Queue<'static, $N, QUEUE>;
+            type Slots = ::machine_link::Slots<$N, QUEUE>;
+            type Queue = ::machine_link::Queue<'static, $N, QUEUE>;
             static WIRES: Wires<$N> = Wires::new();
             let slots = ::cortex_m::singleton!(: Slots = Slots::default());
             let queue = ::cortex_m::singleton!(: Queue = Queue::new());

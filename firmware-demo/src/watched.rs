@@ -6,8 +6,8 @@ use core::sync::atomic::{AtomicU32, Ordering::Relaxed};
 use dynamics_core::model::{JointKind, model};
 use heapless::String;
 use joint_drivers::{Phase, Probe, Telemetry};
+use machine_link::{Axis, Machine, Producer, Sample};
 use motion_control::{Detectors, Mode, Reference};
-use telemetry::{Axis, Machine, Producer, Sample};
 
 use crate::marker::measured;
 use crate::plant::Rig;

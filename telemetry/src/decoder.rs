@@ -11,8 +11,8 @@ const ROOM: usize = 1024;
 /// The counts of a [`Decoder`].
 ///
 /// ```
-/// let decoder = telemetry::Decoder::<6>::new();
-/// assert_eq!(decoder.counts(), telemetry::Counts::default());
+/// let decoder = machine_link::Decoder::<6>::new();
+/// assert_eq!(decoder.counts(), machine_link::Counts::default());
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counts {
@@ -33,7 +33,7 @@ impl Counts {
     /// Ticks that were lost on the line.
     ///
     /// ```
-    /// let counts = telemetry::Counts { missing: 5, dropped: 3, ..Default::default() };
+    /// let counts = machine_link::Counts { missing: 5, dropped: 3, ..Default::default() };
     /// assert_eq!(counts.lost(), 2);
     /// ```
     #[must_use]
@@ -48,7 +48,7 @@ impl Counts {
 /// rest of a frame whose beginning nobody heard, and is not counted as bad.
 ///
 /// ```
-/// use telemetry::{Decoder, FrameError};
+/// use machine_link::{Decoder, FrameError};
 /// let mut decoder = Decoder::<6>::new();
 /// let found: Vec<_> = [7, 7, 0, 9, 1, 0].iter().filter_map(|&byte| decoder.push(byte)).collect();
 /// assert_eq!(found, [Err(FrameError::Cobs)]);
@@ -72,7 +72,7 @@ impl<const N: usize> Decoder<N> {
     /// A decoder that has received nothing.
     ///
     /// ```
-    /// assert_eq!(telemetry::Decoder::<6>::new().counts().frames, 0);
+    /// assert_eq!(machine_link::Decoder::<6>::new().counts().frames, 0);
     /// ```
     #[must_use]
     pub const fn new() -> Self {
@@ -86,7 +86,7 @@ impl<const N: usize> Decoder<N> {
     /// Takes the next byte; returns the message that it completes, or why a frame holds none.
     ///
     /// ```
-    /// assert_eq!(telemetry::Decoder::<6>::new().push(0), None);
+    /// assert_eq!(machine_link::Decoder::<6>::new().push(0), None);
     /// ```
     pub fn push(&mut self, byte: u8) -> Option<Result<Message<N>, FrameError>> {
         let found = self.frames.push(byte)?;
@@ -105,7 +105,7 @@ impl<const N: usize> Decoder<N> {
     /// The counts so far.
     ///
     /// ```
-    /// assert_eq!(telemetry::Decoder::<6>::new().counts().lost(), 0);
+    /// assert_eq!(machine_link::Decoder::<6>::new().counts().lost(), 0);
     /// ```
     #[must_use]
     pub const fn counts(&self) -> Counts {
@@ -130,13 +130,13 @@ impl<const N: usize> Decoder<N> {
 /// Cuts a stream of bytes at its zeros and decodes what lies between, of any type of message.
 ///
 /// ```
-/// use telemetry::decoder::Frames;
+/// use machine_link::decoder::Frames;
 /// let mut buffer = [0; 16];
-/// let frame = telemetry::encode(&7_u32, &mut buffer)?;
+/// let frame = machine_link::encode(&7_u32, &mut buffer)?;
 /// let mut frames = Frames::new();
 /// let found: Vec<_> = frame.iter().filter_map(|&byte| frames.push(byte)).collect();
 /// assert_eq!(found, [Ok(7_u32)]);
-/// # Ok::<(), telemetry::EncodeError>(())
+/// # Ok::<(), machine_link::EncodeError>(())
 /// ```
 #[derive(Clone, Debug)]
 pub struct Frames {
@@ -157,7 +157,7 @@ impl Frames {
     /// Nothing received yet.
     ///
     /// ```
-    /// assert_eq!(telemetry::decoder::Frames::new().push::<u32>(0), None);
+    /// assert_eq!(machine_link::decoder::Frames::new().push::<u32>(0), None);
     /// ```
     #[must_use]
     pub const fn new() -> Self {
@@ -167,7 +167,7 @@ impl Frames {
     /// Takes the next byte; returns the message that it completes, or why a frame holds none.
     ///
     /// ```
-    /// assert_eq!(telemetry::decoder::Frames::new().push::<u32>(1), None);
+    /// assert_eq!(machine_link::decoder::Frames::new().push::<u32>(1), None);
     /// ```
     pub fn push<M: DeserializeOwned>(&mut self, byte: u8) -> Option<Result<M, FrameError>> {
         if byte != 0 {

@@ -26,7 +26,7 @@
 //! # The two sides
 //!
 //! ```
-//! use telemetry::{Decoder, Message, Queue, Sample, Slots, split, encode};
+//! use machine_link::{Decoder, Message, Queue, Sample, Slots, split, encode};
 //!
 //! let mut slots = Slots::<1, 4>::default();
 //! let mut queue = Queue::new();
@@ -35,7 +35,7 @@
 //! *interrupt.sample() = sample; // in the control tick
 //! interrupt.push();
 //!
-//! let mut bytes = [0; telemetry::capacity(1)];
+//! let mut bytes = [0; machine_link::capacity(1)];
 //! let tick = main.pop().expect("what was pushed"); // in the main loop
 //! let frame = encode(&Message::Tick(tick), &mut bytes)?;
 //!
@@ -43,7 +43,7 @@
 //! let found: Vec<_> = frame.iter().filter_map(|&byte| decoder.push(byte)).collect();
 //! let [Ok(Message::Tick(tick))] = &found[..] else { panic!("one tick") };
 //! assert_eq!((tick.number, tick.joints[0].torque), (0, 12.0));
-//! # Ok::<(), telemetry::EncodeError>(())
+//! # Ok::<(), machine_link::EncodeError>(())
 //! ```
 #![no_std]
 #![forbid(unsafe_code)]

@@ -13,7 +13,7 @@ pub const PHASES: [&str; 5] = ["read", "reference", "dynamics", "safety", "write
 /// A message of a machine with up to N joints.
 ///
 /// ```
-/// use telemetry::{Machine, Message};
+/// use machine_link::{Machine, Message};
 /// let message = Message::Machine(Machine::<6>::default());
 /// assert!(matches!(message, Message::Machine(machine) if machine.joints.is_empty()));
 /// ```
@@ -34,7 +34,7 @@ pub enum Message<const N: usize> {
 /// A frame of 37 bytes and 17 per joint at most.
 ///
 /// ```
-/// let machine = telemetry::Machine::<6> { tick_us: 1000, ..Default::default() };
+/// let machine = machine_link::Machine::<6> { tick_us: 1000, ..Default::default() };
 /// assert_eq!(machine.name, "");
 /// ```
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -54,7 +54,7 @@ pub struct Machine<const N: usize> {
 /// ```
 /// use dynamics_core::model::JointLimits;
 /// let limits = JointLimits { lower: -3.1, upper: 3.1, velocity: 2.0, torque: 28.0 };
-/// let axis = telemetry::Axis { limits, prismatic: false };
+/// let axis = machine_link::Axis { limits, prismatic: false };
 /// assert_eq!(axis.limits.torque, 28.0);
 /// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -68,7 +68,7 @@ pub struct Axis {
 /// The positions and the torque of a joint in a tick.
 ///
 /// ```
-/// let joint = telemetry::Joint { reference: 0.5, estimate: 0.25, torque: 3.0 };
+/// let joint = machine_link::Joint { reference: 0.5, estimate: 0.25, torque: 3.0 };
 /// assert_eq!(joint.error(), 0.25);
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -85,7 +85,7 @@ impl Joint {
     /// The tracking error: reference less estimate, rad or m.
     ///
     /// ```
-    /// assert_eq!(telemetry::Joint::default().error(), 0.0);
+    /// assert_eq!(machine_link::Joint::default().error(), 0.0);
     /// ```
     #[must_use]
     pub fn error(&self) -> f32 {
@@ -97,7 +97,7 @@ impl Joint {
 ///
 /// ```
 /// use motion_control::Mode;
-/// let sample = telemetry::Sample::<6>::default();
+/// let sample = machine_link::Sample::<6>::default();
 /// assert_eq!((sample.status.mode, sample.counts), (Mode::Full, [0; 6]));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -143,7 +143,7 @@ impl<const N: usize> Sample<N> {
     /// again.
     ///
     /// ```
-    /// let sample = telemetry::Sample::<1> { counts: [50, 30, 10, 90, 80, 80], ..Default::default() };
+    /// let sample = machine_link::Sample::<1> { counts: [50, 30, 10, 90, 80, 80], ..Default::default() };
     /// assert_eq!(sample.message(100).cost, [20, 20, 20, 10, 0]);
     /// ```
     #[must_use]
@@ -179,7 +179,7 @@ const IDLE: Status = Status { mode: Mode::Full, fault: None, limited: false };
 /// A frame of 59 bytes and 12 per joint at most, where `usize` has 32 bits.
 ///
 /// ```
-/// let tick = telemetry::Tick::<6>::default();
+/// let tick = machine_link::Tick::<6>::default();
 /// assert_eq!((tick.number, tick.dropped), (0, 0));
 /// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

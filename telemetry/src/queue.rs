@@ -21,9 +21,9 @@ pub struct Slots<const N: usize, const Q: usize> {
 /// Room for Q − 1 ticks of N joints in [`Slots`].
 ///
 /// ```
-/// let mut slots = telemetry::Slots::<6, 32>::default();
-/// let mut queue = telemetry::Queue::new();
-/// let (mut interrupt, _) = telemetry::split(&mut slots, &mut queue, 0);
+/// let mut slots = machine_link::Slots::<6, 32>::default();
+/// let mut queue = machine_link::Queue::new();
+/// let (mut interrupt, _) = machine_link::split(&mut slots, &mut queue, 0);
 /// assert_eq!((0..40).filter(|_| interrupt.push()).count(), 31);
 /// ```
 #[derive(Debug)]
@@ -60,7 +60,7 @@ impl<const N: usize, const Q: usize> Queue<'_, N, Q> {
     /// An empty queue.
     ///
     /// ```
-    /// const EMPTY: telemetry::Queue<'_, 6, 32> = telemetry::Queue::new();
+    /// const EMPTY: machine_link::Queue<'_, 6, 32> = machine_link::Queue::new();
     /// # let _ = EMPTY;
     /// ```
     #[must_use]
@@ -79,7 +79,7 @@ impl<const N: usize, const Q: usize> Default for Queue<'_, N, Q> {
 /// begins again; 0 if there is no timer.
 ///
 /// ```
-/// use telemetry::{Queue, Slots, split};
+/// use machine_link::{Queue, Slots, split};
 /// let mut slots = Slots::<1, 2>::default(); // room for one tick
 /// let mut queue = Queue::new();
 /// let (mut interrupt, mut main) = split(&mut slots, &mut queue, 0);
@@ -109,7 +109,7 @@ impl<const N: usize> Producer<'_, '_, N> {
     /// The sample of this tick, to be written; it has the contents of an older one.
     ///
     /// ```
-    /// use telemetry::{Queue, Slots, split};
+    /// use machine_link::{Queue, Slots, split};
     /// let mut slots = Slots::<1, 4>::default();
     /// let mut queue = Queue::new();
     /// let (mut interrupt, mut main) = split(&mut slots, &mut queue, 0);
@@ -130,9 +130,9 @@ impl<const N: usize> Producer<'_, '_, N> {
     /// message outside the interrupt.
     ///
     /// ```
-    /// let mut slots = telemetry::Slots::<6, 4>::default();
-    /// let mut queue = telemetry::Queue::new();
-    /// assert!(telemetry::split(&mut slots, &mut queue, 0).0.push());
+    /// let mut slots = machine_link::Slots::<6, 4>::default();
+    /// let mut queue = machine_link::Queue::new();
+    /// assert!(machine_link::split(&mut slots, &mut queue, 0).0.push());
     /// ```
     #[inline]
     pub fn push(&mut self) -> bool {
@@ -150,9 +150,9 @@ impl<const N: usize> Producer<'_, '_, N> {
     /// Ticks that were dropped so far.
     ///
     /// ```
-    /// let mut slots = telemetry::Slots::<6, 4>::default();
-    /// let mut queue = telemetry::Queue::new();
-    /// assert_eq!(telemetry::split(&mut slots, &mut queue, 0).0.dropped(), 0);
+    /// let mut slots = machine_link::Slots::<6, 4>::default();
+    /// let mut queue = machine_link::Queue::new();
+    /// assert_eq!(machine_link::split(&mut slots, &mut queue, 0).0.dropped(), 0);
     /// ```
     #[must_use]
     pub fn dropped(&self) -> u32 {
@@ -164,9 +164,9 @@ impl<const N: usize> Consumer<'_, '_, N> {
     /// The oldest tick in the queue, which leaves it.
     ///
     /// ```
-    /// let mut slots = telemetry::Slots::<6, 4>::default();
-    /// let mut queue = telemetry::Queue::new();
-    /// assert!(telemetry::split(&mut slots, &mut queue, 0).1.pop().is_none());
+    /// let mut slots = machine_link::Slots::<6, 4>::default();
+    /// let mut queue = machine_link::Queue::new();
+    /// assert!(machine_link::split(&mut slots, &mut queue, 0).1.pop().is_none());
     /// ```
     pub fn pop(&mut self) -> Option<Tick<N>> {
         let sample = self.filled.dequeue()?;

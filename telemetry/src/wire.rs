@@ -14,7 +14,7 @@ static CRC: Crc<u32, Table<1>> = Crc::<u32, Table<1>>::new(&CRC_32_ISCSI);
 /// Why a message has no frame.
 ///
 /// ```
-/// use telemetry::{EncodeError, Message, Tick, encode};
+/// use machine_link::{EncodeError, Message, Tick, encode};
 /// let tick = Message::Tick(Tick::<6>::default());
 /// assert_eq!(encode(&tick, &mut [0; 8]), Err(EncodeError::Full));
 /// ```
@@ -29,7 +29,7 @@ pub enum EncodeError {
 /// Why a frame holds no message.
 ///
 /// ```
-/// use telemetry::{FrameError, Message, decode};
+/// use machine_link::{FrameError, Message, decode};
 /// assert_eq!(decode::<Message<6>>(&mut [3, 1, 2]), Err(FrameError::Short));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -62,7 +62,7 @@ pub enum FrameError {
 /// The bytes that any frame of a machine with this many joints fits into.
 ///
 /// ```
-/// assert_eq!(telemetry::capacity(6), 166);
+/// assert_eq!(machine_link::capacity(6), 166);
 /// ```
 #[must_use]
 pub const fn capacity(joints: usize) -> usize {
@@ -80,11 +80,11 @@ pub const fn capacity(joints: usize) -> usize {
 /// [`EncodeError`].
 ///
 /// ```
-/// use telemetry::{Message, Tick, encode};
-/// let mut buffer = [0; telemetry::capacity(6)];
+/// use machine_link::{Message, Tick, encode};
+/// let mut buffer = [0; machine_link::capacity(6)];
 /// let frame = encode(&Message::Tick(Tick::<6>::default()), &mut buffer)?;
 /// assert_eq!((frame[0], frame.last()), (0, Some(&0)));
-/// # Ok::<(), telemetry::EncodeError>(())
+/// # Ok::<(), machine_link::EncodeError>(())
 /// ```
 pub fn encode<'b, M: Serialize>(
     message: &M,
@@ -109,12 +109,12 @@ pub fn encode<'b, M: Serialize>(
 /// [`FrameError`].
 ///
 /// ```
-/// use telemetry::{Message, Tick, decode, encode};
-/// let mut buffer = [0; telemetry::capacity(6)];
+/// use machine_link::{Message, Tick, decode, encode};
+/// let mut buffer = [0; machine_link::capacity(6)];
 /// let message = Message::Tick(Tick::<6>::default());
 /// let length = encode(&message, &mut buffer)?.len();
 /// assert_eq!(decode::<Message<6>>(&mut buffer[1..length - 1]), Ok(message));
-/// # Ok::<(), telemetry::EncodeError>(())
+/// # Ok::<(), machine_link::EncodeError>(())
 /// ```
 pub fn decode<M: DeserializeOwned>(bytes: &mut [u8]) -> Result<M, FrameError> {
     let length = cobs::decode_in_place(bytes).map_err(|_| FrameError::Cobs)?;

@@ -1,11 +1,11 @@
 //! The claims of the crate about its queue, its frames and its decoder.
 
 use dynamics_core::model::JointLimits;
-use motion_control::{Fault, Mode, Status};
-use telemetry::{
+use machine_link::{
     Axis, Counts, Decoder, EncodeError, FrameError, Joint, Machine, Message, Queue, Slots, Tick,
     VERSION, capacity, encode, split,
 };
+use motion_control::{Fault, Mode, Status};
 
 const JOINTS: usize = 6;
 type Found = Result<Message<JOINTS>, FrameError>;

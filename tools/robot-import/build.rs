@@ -1,5 +1,6 @@
 //! The sources of the libraries that a project carries, as a list in the program: it stands alone
-//! wherever it was installed.
+//! wherever it was installed. A package of crates.io is built without the repository; its program
+//! carries nothing, and its projects have their libraries from there.
 
 use std::error::Error;
 use std::fmt::Write as _;
@@ -10,6 +11,15 @@ use std::{env, fs};
 const CRATES: [&str; 4] = ["drivers", "dynamics-core", "motion-control", "telemetry"];
 /// The files of a crate that are carried beside its sources.
 const BESIDE: [&str; 3] = ["build.rs", "Cargo.toml", "NOTATION.md"];
+/// The files of the repository that `src/project/libraries.rs` names by their place here.
+const FILES: [&str; 6] = [
+    "Cargo.toml",
+    "Cargo.lock",
+    "firmware-demo/boards/Cargo.lock",
+    "LICENSE-APACHE",
+    "LICENSE-MIT",
+    "rustfmt.toml",
+];
 
 fn main() -> Result<(), Box<dyn Error>> {
     // Projects are written by the program alone; the wheel's sources have not all of these crates.
@@ -17,9 +27,19 @@ fn main() -> Result<(), Box<dyn Error>> {
         return Ok(());
     }
     let own = PathBuf::from(env::var("CARGO_MANIFEST_DIR")?);
+    let out = PathBuf::from(env::var("OUT_DIR")?);
     let root = own.ancestors().nth(2).ok_or("the repository")?;
+    let is_there = CRATES.iter().all(|name| root.join(name).join("Cargo.toml").is_file());
+    let text = |name: &&str| match is_there {
+        true => format!("include_str!({:?})", root.join(name)),
+        false => "\"\"".to_owned(),
+    };
+    fs::write(
+        out.join("files.rs"),
+        format!("[{}]", FILES.iter().map(text).collect::<Vec<_>>().join(", ")),
+    )?;
     let mut list = "&[\n".to_owned();
-    for name in CRATES {
+    for name in CRATES.iter().filter(|_| is_there) {
         let folder = root.join(name);
         let mut files = Vec::new();
         for beside in BESIDE.map(|name| folder.join(name)) {
@@ -38,7 +58,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         list += "] },\n";
     }
     list += "]\n";
-    fs::write(Path::new(&env::var("OUT_DIR")?).join("crates.rs"), list)?;
+    fs::write(out.join("crates.rs"), list)?;
     println!("cargo:rerun-if-changed=build.rs");
     Ok(())
 }

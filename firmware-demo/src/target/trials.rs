@@ -4,9 +4,9 @@
 use cortex_m_semihosting::debug;
 use dynamics_core::model::{JointLimits, Robot};
 use dynamics_core::robots::OpenArm;
+use machine_link::{Axis, Message, Sample};
 use stm32f4xx_hal::pac;
 use stm32f4xx_hal::serial::Tx;
-use telemetry::{Axis, Message, Sample};
 
 use super::watch::{MACHINE, argument, port, send};
 use super::{fail, leave};

@@ -8,12 +8,12 @@ use core::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 use cortex_m::peripheral::SYST;
 use embedded_io::Write;
+use machine_link::{Consumer, Message, Queue, Slots, capacity, encode, split};
 use stm32f4xx_hal::gpio::GpioExt;
 use stm32f4xx_hal::pac;
 use stm32f4xx_hal::rcc::{Rcc, RccExt};
 use stm32f4xx_hal::serial::config::{Config, InvalidConfig};
 use stm32f4xx_hal::serial::{SerialExt, Tx};
-use telemetry::{Consumer, Message, Queue, Slots, capacity, encode, split};
 
 use super::{CLOCK, Tick, fail, leave, microseconds, start};
 use crate::scene::Scene;

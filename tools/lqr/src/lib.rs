@@ -58,13 +58,13 @@ pub fn held<const V: usize, const U: usize>(
 ///
 /// ```
 /// use dynamics_core::algorithms::Linearisation;
-/// use lqr::{Deviations, held, lqr};
+/// use lqr_gains::{Deviations, held, lqr};
 /// // An inverted pendulum of 1 kg·m² that falls with 3 1/s.
 /// let pendulum = Linearisation { dq: [[9.0]], dqd: [[0.0]], du: [[1.0]] };
 /// let k = lqr(&pendulum, 2e-3, &Deviations { q: [0.1], qd: [1.0], u: [1.0] })?;
 /// let [phi, gamma] = held(&pendulum, 2e-3);
 /// assert!((phi - gamma * &k).complex_eigenvalues().iter().all(|z| z.norm() < 1.0));
-/// # Ok::<(), lqr::LqrError>(())
+/// # Ok::<(), lqr_gains::LqrError>(())
 /// ```
 ///
 /// # Errors
@@ -112,7 +112,7 @@ pub fn lqr<const V: usize, const U: usize>(
 ///
 /// ```
 /// let k = nalgebra::DMatrix::from_row_slice(1, 2, &[0.5, -1234.5678901]);
-/// assert_eq!(lqr::source(&[k]), "[\n    [\n        [0.5, -1234.5679],\n    ],\n]");
+/// assert_eq!(lqr_gains::source(&[k]), "[\n    [\n        [0.5, -1234.5679],\n    ],\n]");
 /// ```
 pub fn source(tables: &[DMatrix<f64>]) -> String {
     let number = |x: &f64| format!("{:?}", *x as f32);

@@ -7,7 +7,7 @@ use dynamics_core::model::Robot;
 use dynamics_core::robots::Ur5e;
 use dynamics_core::sim::runge_kutta;
 use dynamics_core::state::State;
-use lqr::{Deviations, LqrError, held, lqr, source};
+use lqr_gains::{Deviations, LqrError, held, lqr, source};
 use nalgebra::DMatrix;
 
 const TICK: f64 = 2e-3;

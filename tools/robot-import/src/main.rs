@@ -117,7 +117,7 @@ fn new(args: New) -> Result<(), Box<dyn std::error::Error>> {
     let library = match (args.library, args.git) {
         (Some(path), _) => Library::Path(std::path::absolute(path)?),
         (None, Some(address)) => Library::Git(address),
-        (None, None) => Library::Copy,
+        (None, None) => Library::own(),
     };
     project::check_folder(&folder, &name)?;
     let imported = import::import(

@@ -19,8 +19,8 @@ pub mod view;
 
 /// The most joints that a machine may have.
 pub const JOINTS: usize = 32;
-pub type Message = telemetry::Message<JOINTS>;
-pub type Tick = telemetry::Tick<JOINTS>;
-pub type Machine = telemetry::Machine<JOINTS>;
+pub type Message = machine_link::Message<JOINTS>;
+pub type Tick = machine_link::Tick<JOINTS>;
+pub type Machine = machine_link::Machine<JOINTS>;
 /// The decoder of any machine's frames.
-pub type Decoder = telemetry::Decoder<JOINTS>;
+pub type Decoder = machine_link::Decoder<JOINTS>;

@@ -5,9 +5,9 @@ use std::fs::File;
 use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 
+use machine_link::PHASES;
 use mcap::records::MessageHeader;
 use serde::Serialize;
-use telemetry::PHASES;
 
 use crate::Tick;
 use crate::error::{Error, Result};
@@ -36,7 +36,7 @@ struct Json<'a> {
     fault: Option<String>,
     limited: bool,
     dropped: u32,
-    joints: &'a [telemetry::Joint],
+    joints: &'a [machine_link::Joint],
     cost: BTreeMap<&'a str, u32>,
 }
 

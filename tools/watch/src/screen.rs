@@ -1,12 +1,12 @@
 //! The view as a screen of a terminal.
 
+use machine_link::{Axis, Joint, PHASES};
 use motion_control::Mode;
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::style::{Color, Style, Stylize};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Cell, Paragraph, Row, Table};
-use telemetry::{Axis, Joint, PHASES};
 
 use crate::view::{View, mode};
 

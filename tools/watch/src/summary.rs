@@ -2,8 +2,8 @@
 
 use std::time::Duration;
 
+use machine_link::PHASES;
 use serde::Serialize;
-use telemetry::PHASES;
 
 use crate::view::{View, mode};
 

@@ -2,8 +2,8 @@
 
 use std::collections::VecDeque;
 
+use machine_link::{Counts, PHASES};
 use motion_control::{Fault, Mode};
-use telemetry::{Counts, PHASES};
 
 use crate::{Machine, Message, Tick};
 

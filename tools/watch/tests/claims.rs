@@ -4,10 +4,10 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use dynamics_core::model::JointLimits;
+use machine_link::{Axis, Joint, encode};
 use motion_control::{Fault, Mode};
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
-use telemetry::{Axis, Joint, encode};
 use telemetry_watch::record::Recorder;
 use telemetry_watch::session::{self, Options};
 use telemetry_watch::source::Place;

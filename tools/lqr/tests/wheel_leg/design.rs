@@ -18,7 +18,7 @@ use dynamics_core::clusters::Clustered;
 use dynamics_core::effects::{Armature, Coriolis, Gravity, Inertia, Viscous};
 use dynamics_core::state::State;
 use firmware_demo::robots::{Straight, WheelLeg};
-use lqr::Deviations;
+use lqr_gains::Deviations;
 use nalgebra::{SMatrix, SVector};
 
 pub type Model = Clustered<Core<WheelLeg>>;

@@ -10,7 +10,7 @@ use dynamics_core::state::State;
 use firmware_demo::robots::{Straight, WheelLeg};
 use firmware_demo::scenes::wheel_leg_balance::gains::GAINS;
 use firmware_demo::scenes::wheel_leg_balance::{self, LENGTHS, TICK};
-use lqr::{held, lqr, source};
+use lqr_gains::{held, lqr, source};
 use nalgebra::DMatrix;
 
 /// The effects of the scene that have derivatives at rest: sliding friction is a step there.

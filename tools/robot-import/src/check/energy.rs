@@ -18,8 +18,8 @@ pub use crate::rows::{Rows, rows};
 use crate::selection::{Role, Selected};
 
 /// A number that can be differentiated.
-pub trait Number: DualNum<f64> + Copy {}
-impl<T: DualNum<f64> + Copy> Number for T {}
+pub trait Number: DualNum<Primitive = f64> + Copy {}
+impl<T: DualNum<Primitive = f64> + Copy> Number for T {}
 
 /// g of [`dynamics_core::effects::Gravity::EARTH`], m/s².
 const G: f64 = 9.81;
@@ -161,7 +161,7 @@ fn steps(joint: &Joint) -> Vec<Step> {
 }
 
 /// A J (Ä − G)ᵀ of a link: ∫ r (r̈ − g)ᵀ dm, with 1 as fourth component of r.
-fn work<T: Number>(pose: &Rows<Dual2<T, f64>>, (moments, first, mass): &Moments) -> [[T; 3]; 4] {
+fn work<T: Number>(pose: &Rows<Dual2<T>>, (moments, first, mass): &Moments) -> [[T; 3]; 4] {
     let of_link = |i: usize, k: usize| match (i, k) {
         (3, 3) => *mass,
         (3, i) | (i, 3) => first[i],
@@ -227,11 +227,11 @@ fn forces<T: Number>(
 }
 
 /// A pose without its derivatives in time.
-fn value<T: Number>(pose: &Rows<Dual2<T, f64>>) -> Rows<T> {
+fn value<T: Number>(pose: &Rows<Dual2<T>>) -> Rows<T> {
     pose.map(|row| row.map(|entry| entry.re))
 }
 
-fn value_of<T: Number>(pose: &Rows<Dual<T, f64>>) -> Rows<T> {
+fn value_of<T: Number>(pose: &Rows<Dual<T>>) -> Rows<T> {
     pose.map(|row| row.map(|entry| entry.re))
 }
 
@@ -340,7 +340,7 @@ mod tests {
 
     /// Kinetic minus potential energy.
     fn lagrangian<T: Number>(energy: &Energy<'_>, u: &[T], ud: &[T]) -> T {
-        let u: Vec<Dual<T, f64>> = u.iter().zip(ud).map(|(&u, &ud)| Dual::new(u, ud)).collect();
+        let u: Vec<Dual<T>> = u.iter().zip(ud).map(|(&u, &ud)| Dual::new(u, ud)).collect();
         let mut sum = T::from(0.0);
         for (pose, mass) in energy.poses(&u).iter().zip(&energy.masses) {
             let (Some(pose), Some((moments, first, mass))) = (pose, mass) else {

@@ -1,7 +1,7 @@
 //! The library's crates as a project carries them: their sources, and manifests that need no
 //! workspace.
 
-use super::{Library, ProjectError};
+use super::{Library, ProjectError, VERSION};
 
 /// A crate of the repository.
 struct Crate {
@@ -10,18 +10,20 @@ struct Crate {
     files: &'static [(&'static str, &'static str)],
 }
 
+/// Texts of the repository, in the order of `build.rs`.
+const FILES: [&str; 6] = include!(concat!(env!("OUT_DIR"), "/files.rs"));
 const CRATES: &[Crate] = include!(concat!(env!("OUT_DIR"), "/crates.rs"));
 /// The manifest of the repository, from which those of its crates inherit.
-const WORKSPACE: &str = include_str!("../../../../Cargo.toml");
+const WORKSPACE: &str = FILES[0];
 /// The versions of the registry's crates that the repository's tests have compiled. Cargo drops
 /// what a project does not use.
-pub(super) const LOCK: &str = include_str!("../../../../Cargo.lock");
-pub(super) const LOCK_OF_BOARDS: &str = include_str!("../../../../firmware-demo/boards/Cargo.lock");
+pub(super) const LOCK: &str = FILES[1];
+pub(super) const LOCK_OF_BOARDS: &str = FILES[2];
 /// Files beside the crates: their licences, and how their sources are formatted.
 const BESIDE: [(&str, &str); 3] = [
-    ("libraries/LICENSE-APACHE", include_str!("../../../../LICENSE-APACHE")),
-    ("libraries/LICENSE-MIT", include_str!("../../../../LICENSE-MIT")),
-    ("libraries/rustfmt.toml", include_str!("../../../../rustfmt.toml")),
+    ("libraries/LICENSE-APACHE", FILES[3]),
+    ("libraries/LICENSE-MIT", FILES[4]),
+    ("libraries/rustfmt.toml", FILES[5]),
 ];
 
 /// The folder of a project with the crates.
@@ -111,17 +113,21 @@ fn beside(value: &str) -> String {
 }
 
 impl Library {
+    /// The one of a user who names none: a copy, if the program carries the crates.
+    #[must_use]
+    pub fn own() -> Self {
+        if CRATES.is_empty() { Self::Registry } else { Self::Copy }
+    }
+
     /// The words of the README about it.
     pub(super) fn note(&self) -> Result<String, ProjectError> {
-        let version = inherited(WORKSPACE, "package", "version").unwrap_or_default();
         Ok(match self {
             Self::Copy => format!(
-                "`{FOLDER}/` has the crates of dynamics-core {} that this project uses, so that it \
+                "`{FOLDER}/` has the crates of dynamics-core {VERSION} that this project uses, so that it \
                  stands alone. To take them from their repository\ninstead, replace each `path \
                  = \"{FOLDER}/…\"` in `Cargo.toml` by `git = \"ADDRESS\"`, and delete the folder.",
-                version.trim_matches('"')
             ),
-            Self::Path(_) | Self::Git(_) => format!(
+            Self::Registry | Self::Path(_) | Self::Git(_) => format!(
                 "Cargo takes the crates of dynamics-core from `Cargo.toml`'s `{}`.",
                 self.dependency(super::DYNAMICS)?
             ),

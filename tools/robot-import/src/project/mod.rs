@@ -97,14 +97,18 @@ pub struct FileEffects {
 /// The source from which a project gets dynamics-core and the crates beside it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Library {
-    /// A copy in the project.
+    /// A copy in the project, of a program that was built in the repository.
     Copy,
+    /// The crates of this version on crates.io.
+    Registry,
     /// The folder of the crate `dynamics-core`.
     Path(PathBuf),
     /// The address of its repository.
     Git(String),
 }
 
+/// The version of all crates of the repository.
+const VERSION: &str = env!("CARGO_PKG_VERSION");
 /// The folder of the library.
 const DYNAMICS: &str = "dynamics-core";
 
@@ -113,6 +117,7 @@ impl Library {
     fn dependency(&self, folder: &str) -> Result<String, ProjectError> {
         match self {
             Self::Copy => Ok(format!("{{ path = \"{}/{folder}\" }}", libraries::FOLDER)),
+            Self::Registry => Ok(format!("{{ version = \"{VERSION}\" }}")),
             Self::Path(path) => {
                 let path = match folder {
                     DYNAMICS => path.clone(),
@@ -262,7 +267,9 @@ pub fn files(project: &Project) -> Result<Vec<(String, String)>, ProjectError> {
         Kind::Board(_) => libraries::LOCK_OF_BOARDS,
         Kind::Simulation | Kind::C => libraries::LOCK,
     };
-    files.push(("Cargo.lock".to_owned(), lock.to_owned()));
+    if project.library != Library::Registry {
+        files.push(("Cargo.lock".to_owned(), lock.to_owned()));
+    }
     files.push(robot);
     Ok(files)
 }
@@ -339,7 +346,7 @@ fn values(project: &Project) -> Result<Vec<Value>, ProjectError> {
         ("library", dependency(DYNAMICS)?),
         ("motion_control", dependency("motion-control")?),
         ("joint_drivers", dependency("drivers")?),
-        ("telemetry", optional(&dependency("telemetry")?)),
+        ("machine_link", optional(&dependency("telemetry")?)),
         ("robot", robot.type_name.clone()),
         ("effect_names", names),
         ("effect_types", types),

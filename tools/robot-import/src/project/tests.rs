@@ -151,6 +151,20 @@ fn a_project_has_no_path_out_of_its_folder() {
     }
 }
 
+#[test]
+fn a_project_of_a_program_from_crates_io_names_its_version() {
+    let boards = BOARDS.iter().map(|board| for_board(board, &["a"]));
+    for project in boards.chain([project(false), project(true)]) {
+        let files = files(&Project { library: Library::Registry, ..project });
+        let files = files.unwrap_or_else(|error| panic!("{error}"));
+        assert!(!files.iter().any(|(path, _)| path.contains("libraries/") || path == "Cargo.lock"));
+        let (_, manifest) = files.iter().find(|file| file.0 == "Cargo.toml").expect("a manifest");
+        assert!(!manifest.contains("path = \"libraries"), "{manifest}");
+        let line = format!("\nmotion-control = {{ version = \"{VERSION}\" }}\n");
+        assert!(manifest.contains(&line), "{manifest}");
+    }
+}
+
 /// The path of a file that another one includes.
 fn included(path: &str, target: &str) -> String {
     let mut folders: Vec<&str> = path.split('/').collect();

@@ -63,7 +63,7 @@ const STEPS: &[Step] = &[
     ("doc", Host, Full, "the documentation builds without a warning, that of private items too", host::doc),
     ("examples", Host, Everyday, "the library's examples run", package::examples),
     ("features", Host, Full, "the library builds with its oldest compiler, and its features for the target; they change no number", package::features),
-    ("package", Host, Full, "the crate packages, and builds from its package alone", package::package),
+    ("package", Host, Full, "the crates to be published package with their licences, and build from their packages alone", package::package),
     ("deny", Host, Full, "dependencies, their licences and their sources are those that deny.toml allows", package::deny),
     ("firmware", Target, Full, "every bin of the firmware builds, as do the guide's programs and the servo bus under Embassy", functions::build),
     ("meter", Target, Everyday, "the cycle meter agrees with sequences counted by hand", functions::meter),

@@ -24,7 +24,7 @@ pub fn msrv(context: &Context) -> Result<String> {
             .or_else(|_| skip(format!("{MSRV} is not there")))?;
     }
     let check = "check --package dynamics-core --package motion-control --package joint-drivers \
-        --package telemetry --all-features --target-dir target/msrv"
+        --package machine-link --all-features --target-dir target/msrv"
         .split(' ');
     let mut cargo = toolchain::rustup(MSRV, "cargo");
     shell::capture(cargo.current_dir(&context.workspace.root).args(check))?;

@@ -4,7 +4,7 @@ use std::ffi::OsString;
 use std::path::Path;
 
 use super::{Context, others};
-use crate::kit::error::{Error, Result, refuse_if};
+use crate::kit::error::{Error, Result, check, refuse_if};
 use crate::kit::host_bin::SHARED;
 use crate::kit::shell;
 use crate::kit::toolchain::{TARGET, Toolchain};
@@ -16,8 +16,48 @@ const FEATURES: &str = "defmt,serde";
 /// simulation's end.
 const COMPARED: &str = "computed_torque";
 
+/// What each package has beside its sources.
+const BESIDE: [&str; 3] = ["LICENSE-APACHE", "LICENSE-MIT", "README.md"];
+
+/// Packages each crate that may be published, and builds it from its package and from those of the
+/// others.
 pub fn package(context: &Context) -> Result<String> {
-    context.cargo(&["package --package dynamics-core --allow-dirty"])
+    let metadata = context.cargo(&["metadata --no-deps --format-version 1"])?;
+    let packages = published(&metadata)?;
+    let names: Vec<&str> = packages.iter().map(|(name, _)| name.as_str()).collect();
+    context.cargo(&[format!("package --allow-dirty -p {}", names.join(" -p "))])?;
+    for (name, version) in &packages {
+        let file = format!("target/package/{name}-{version}");
+        check_beside(&context.workspace.root.join(file))?;
+    }
+    Ok(names.join(", "))
+}
+
+/// The names and versions of the members whose manifests do not forbid to publish them.
+fn published(metadata: &str) -> Result<Vec<(String, String)>> {
+    #[derive(serde::Deserialize)]
+    struct Metadata {
+        packages: Vec<Package>,
+    }
+    #[derive(serde::Deserialize)]
+    struct Package {
+        name: String,
+        version: String,
+        publish: Option<Vec<String>>,
+    }
+    let metadata: Metadata =
+        serde_json::from_str(metadata).map_err(|e| check!("cargo metadata: {e}"))?;
+    let packages = metadata.packages.into_iter().filter(|package| package.publish.is_none());
+    Ok(packages.map(|package| (package.name, package.version)).collect())
+}
+
+/// Fails if an unpacked package lacks a file that comes from outside its folder.
+fn check_beside(folder: &Path) -> Result<()> {
+    for name in BESIDE {
+        let length = std::fs::metadata(folder.join(name)).map_or(0, |file| file.len());
+        refuse_if!(length < 500, "{} lacks its {name}", folder.display());
+    }
+    Ok(())
 }
 
 pub fn features(context: &Context) -> Result<String> {
@@ -79,4 +119,30 @@ pub fn deny(context: &Context) -> Result<String> {
     }
     context.cargo(&["deny check bans licenses sources"])?;
     Ok(String::new())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{BESIDE, check_beside, published};
+
+    #[test]
+    fn a_package_without_its_licence_is_found() {
+        let folder = tempfile::tempdir().expect("a folder");
+        for name in BESIDE {
+            std::fs::write(folder.path().join(name), "text ".repeat(200)).expect("a file");
+        }
+        assert!(check_beside(folder.path()).is_ok());
+        // What a checkout without symbolic links has in its place.
+        std::fs::write(folder.path().join("LICENSE-MIT"), "../LICENSE-MIT").expect("a file");
+        let error = check_beside(folder.path()).expect_err("no licence").to_string();
+        assert!(error.ends_with("lacks its LICENSE-MIT"), "{error}");
+    }
+
+    #[test]
+    fn what_may_not_be_published_is_not_packaged() {
+        let metadata = r#"{"packages": [{"name": "a", "version": "1.0.0", "publish": []},
+            {"name": "b", "version": "0.1.0", "publish": null}]}"#;
+        let names = published(metadata).expect("packages");
+        assert_eq!(names, [("b".to_owned(), "0.1.0".to_owned())]);
+    }
 }

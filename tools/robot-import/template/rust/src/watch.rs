@@ -2,14 +2,14 @@
 //! shows and records.
 //!
 //! Here tick and frame follow each other in one loop. On a board the tick is an interrupt, which
-//! fills the sample of a `telemetry::Queue`, and the main loop sends what it takes out of the
+//! fills the sample of a `machine_link::Queue`, and the main loop sends what it takes out of the
 //! queue: then the port never delays the tick.
 
 use dynamics_core::model::{JointKind, model};
 use dynamics_core::state::State;
 use joint_drivers::ControlLoop;
+use machine_link::{Axis, Machine, Message, Sample, capacity, encode};
 use motion_control::Reference;
-use telemetry::{Axis, Machine, Message, Sample, capacity, encode};
 
 use crate::control::{FeedForward, SetupError, controller, gains};
 use crate::excitation::Excitation;

@@ -94,7 +94,7 @@ pub enum Reply {
 ///
 /// ```
 /// use embedded_can::Frame;
-/// use joint_drivers::{JointMapping, JointRange, frame::FdFrame, odrive::{ODrive, Reply}};
+/// use joint_drivers::{JointMapping, JointRange, can::FdFrame, odrive::{ODrive, Reply}};
 /// let mapping = JointMapping::IDENTITY.with_range(JointRange::Near(2.0), 5e-3)?;
 /// let mut axis = ODrive::new(3, 10.0, mapping)?;
 /// let command: FdFrame = axis.set_torque(1.5)?;

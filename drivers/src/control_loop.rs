@@ -12,7 +12,7 @@ use motion_control::{
     Status, StopCategory, ThermalLimit, TickCounter, feedback,
 };
 
-#[cfg(any(test, feature = "async"))]
+#[cfg(feature = "async")]
 use crate::asynch;
 use crate::{DriveFault, DriveFaultKind, EncoderType, JointDrives, JointEncoders, JointError};
 
@@ -61,13 +61,13 @@ pub trait Law<const V: usize, X = ()> {
 }
 
 /// The last error of a device and its joint, in as few bytes as a small stack needs.
-type Kept<E> = Option<(u8, E)>;
+type LastError<E> = Option<(u8, E)>;
 
-fn keep<E>(JointError { joint, error }: JointError<E>) -> Kept<E> {
+fn keep<E>(JointError { joint, error }: JointError<E>) -> LastError<E> {
     Some((u8::try_from(joint).unwrap_or(u8::MAX), error))
 }
 
-fn kept<E>(kept: &Kept<E>) -> Option<JointError<&E>> {
+fn kept<E>(kept: &LastError<E>) -> Option<JointError<&E>> {
     let (joint, error) = kept.as_ref()?;
     let joint = usize::from(*joint);
     Some(JointError { joint, error })
@@ -153,8 +153,8 @@ where
     controller: MotionController<f32, V, A>,
     detectors: Detectors,
     counter: TickCounter,
-    encoder_error: Kept<E::Error>,
-    drive_error: Kept<D::Error>,
+    encoder_error: LastError<E::Error>,
+    drive_error: LastError<D::Error>,
 }
 
 impl<E, D, Brake, const V: usize, Detectors> ControlLoop<E, D, Brake, V, Detectors, E::Age>
@@ -418,7 +418,7 @@ where
     }
 }
 
-#[cfg(any(test, feature = "async"))]
+#[cfg(feature = "async")]
 impl<E, D, Brake, const V: usize, Detectors> ControlLoop<E, D, Brake, V, Detectors, E::Age>
 where
     E: asynch::JointEncoders<V>,
@@ -440,7 +440,7 @@ where
     }
 }
 
-#[cfg(any(test, feature = "async"))]
+#[cfg(feature = "async")]
 impl<E, D, Brake, const V: usize, Detectors, const CIRCLES: u128>
     ControlLoop<E, D, Brake, V, Detectors, OnCircles<CIRCLES, E::Age>>
 where
@@ -463,7 +463,7 @@ where
     }
 }
 
-#[cfg(any(test, feature = "async"))]
+#[cfg(feature = "async")]
 impl<E, D, Brake, const V: usize, Detectors, A> ControlLoop<E, D, Brake, V, Detectors, A>
 where
     E: asynch::JointEncoders<V>,
@@ -492,7 +492,7 @@ where
 #[inline(never)]
 fn read<'a, E: JointEncoders<V>, D: Detect<f32, V>, A: MeasurementAge, const V: usize>(
     encoders: &mut E,
-    last: &mut Kept<E::Error>,
+    last: &mut LastError<E::Error>,
     controller: &'a mut MotionController<f32, V, A>,
     detectors: &mut D,
 ) -> ObservedTick<'a, f32, V, A> {
@@ -503,7 +503,7 @@ fn read<'a, E: JointEncoders<V>, D: Detect<f32, V>, A: MeasurementAge, const V: 
 #[inline(always)]
 fn observe<'a, E: EncoderType, D: Detect<f32, V>, A: MeasurementAge, const V: usize>(
     read: Result<[f32; V], JointError<E::Error>>,
-    last: &mut Kept<E::Error>,
+    last: &mut LastError<E::Error>,
     controller: &'a mut MotionController<f32, V, A>,
     detectors: &mut D,
 ) -> ObservedTick<'a, f32, V, A> {

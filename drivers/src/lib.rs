@@ -59,7 +59,7 @@
 //!   `ControlLoop::tick_async`, and `start_async`, `read_async`, `positions_async` and others. They
 //!   share the state and the decoding with the blocking form.
 #![cfg_attr(
-    not(any(test, feature = "async")),
+    not(feature = "async"),
     doc = "",
     doc = "[`embedded_hal_async`]: https://docs.rs/embedded-hal-async"
 )]
@@ -70,34 +70,30 @@
 #[cfg(test)]
 extern crate std;
 
-pub mod as5047p;
-pub mod as5600;
-#[cfg(any(test, feature = "async"))]
+#[cfg(feature = "async")]
 pub mod asynch;
 pub mod can;
-mod can_joints;
 mod control_loop;
+mod drives;
 mod encoder_mapping;
-pub mod feetech;
-pub mod h_bridge;
-pub mod incremental;
+mod encoders;
 mod joint;
 mod mapping;
-pub mod mit;
-pub mod moteus;
-mod multi_turn;
-pub mod odrive;
-mod pd_drives;
-#[cfg(test)]
-mod starts;
+mod servos;
 
-pub use can_joints::{CanJoint, CanJoints, Outbox, PdCanJoint, Report};
+pub use can::joint::{CanJoint, PdCanJoint, Report};
+pub use can::joints::{CanJoints, Outbox};
+#[doc(inline)]
+pub use can::{mit, moteus, odrive};
 pub use control_loop::{ControlLoop, Law, Phase, Probe, Telemetry};
+pub use drives::h_bridge;
+pub use drives::pd::{PdDrives, PdOnDrives};
 pub use encoder_mapping::{EncoderMapping, JointRange, LostTurn};
+pub use encoders::multi_turn::MultiTurnEncoder;
+pub use encoders::{as5047p, as5600, incremental};
 pub use joint::{
     DriveFault, DriveFaultKind, EncoderType, JointDrive, JointDrives, JointEncoder, JointEncoders,
     JointError, NoBrake,
 };
 pub use mapping::{Direction, JointMapping, MappingError, Resolution};
-pub use multi_turn::MultiTurnEncoder;
-pub use pd_drives::{PdDrives, PdOnDrives};
+pub use servos::feetech;

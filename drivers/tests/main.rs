@@ -15,6 +15,7 @@ mod incremental;
 mod lost_turn;
 mod mapping;
 mod mit;
+mod starts;
 
 /// The mapping of a joint that starts near zero.
 fn near_zero(mapping: JointMapping) -> EncoderMapping {
@@ -34,5 +35,14 @@ impl<const V: usize, F: Fn(u32) -> State<f32, V, V>> Reference<f32, V> for Motio
     }
     fn ticks(&self) -> u32 {
         u32::MAX
+    }
+}
+
+/// The output of a future of mocks, which are ready at once.
+fn ready<F: Future>(future: F) -> F::Output {
+    use core::task::{Context, Poll, Waker};
+    match core::pin::pin!(future).poll(&mut Context::from_waker(Waker::noop())) {
+        Poll::Ready(output) => output,
+        Poll::Pending => panic!("a mock is never pending"),
     }
 }

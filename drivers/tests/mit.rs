@@ -4,11 +4,11 @@
 use core::f32::consts::{PI, TAU};
 
 use embedded_can::Frame;
-use joint_drivers::can::{CanError, ClassicFrame, FdFrame, Part};
+use joint_drivers::can::{CanError, ClassicFrame, Component, FdFrame};
 use joint_drivers::mit::cubemars::{self, CubeMars};
 use joint_drivers::mit::damiao::{self, Damiao};
 use joint_drivers::mit::robstride::{self, RobStride, RobStrideMit};
-use joint_drivers::mit::{Reply, Scale, Setpoint, SetpointAt, State};
+use joint_drivers::mit::{DriveState, Reply, Scale, Setpoint, SetpointAt};
 use joint_drivers::{
     CanJoint, CanJoints, Direction, DriveFault, DriveFaultKind, EncoderMapping, JointDrives,
     JointEncoders, JointError, JointMapping, JointRange, Outbox, Report,
@@ -38,7 +38,7 @@ fn cubemars() -> CubeMars {
     CubeMars::new(3, 3, cubemars::AK80_64, 144.0, identity()).unwrap()
 }
 
-fn state(reply: Result<Reply, CanError>) -> State {
+fn state(reply: Result<Reply, CanError>) -> DriveState {
     match reply {
         Ok(Reply::State(state)) => state,
         other => panic!("{other:?}"),
@@ -279,7 +279,7 @@ fn replies_are_mapped_to_the_joint() {
 #[test]
 fn every_fault_of_a_drive_is_typed_and_sorted() {
     use CanError::*;
-    let [motor, drive] = [Part::Motor, Part::Drive].map(OverTemperature);
+    let [motor, drive] = [Component::Motor, Component::Drive].map(OverTemperature);
     let damiao_codes = [
         (0x0, Err(NotReady)),
         (0x1, Ok(())),

@@ -25,8 +25,9 @@ mod errors;
 mod firmware;
 mod noise;
 mod run;
+mod trial;
 
-pub use ablation::{Current, CurrentWithout, Effects, Named, Without, name};
+pub use ablation::{Current, CurrentWithout, Effects, Without, name};
 pub use app::{
     App, QUEUE, Record, STEPS, SimLoop, StartError, devices, marked_tick, simulated_loop,
 };
@@ -38,7 +39,8 @@ pub use firmware::{
     Devices, HOLD, NEAR, OMEGA_N, REENTRY, RIDE, SceneLoop, SetupError, Start, TICK, ZETA,
 };
 pub use noise::Noise;
-pub use run::{Full, Less, Name, PdOnly, PlantModel, Run};
+pub use run::{Full, FullWithout, PdOnly, Run};
+pub use trial::{Batch, Figures, Less, PlantModel, Term, Trial};
 
 /// The data sheet of a scene: a robot of B bodies, Q position and V velocity coordinates whose last
 /// N joints are driven.

@@ -12,15 +12,14 @@ use motion_control::Status;
 
 use crate::marker::measured;
 use crate::region;
-use crate::scene::{App, Effects, Errors, Name, OMEGA_N, QUEUE, Record, Scene, StartError, ZETA};
+use crate::scene::{
+    App, Errors, OMEGA_N, PlantModel, QUEUE, Record, Scene, StartError, Trial, ZETA,
+};
 use crate::sim_io::Wires;
 
-pub mod guided;
-#[cfg(feature = "telemetry")]
 pub mod trials;
 #[cfg(feature = "telemetry")]
 pub mod watch;
-pub mod wheeled;
 
 /// The core's clock, Hz.
 const CLOCK: u32 = 168_000_000;
@@ -113,18 +112,16 @@ where
         fail("the peripherals are taken");
     };
     let ticks = app.ticks();
-    head::<S, B, Q, V, N>(ticks);
+    head::<App<S, B, Q, V, N>, N>(N, ticks);
+    defmt::println!("gains {=f32} {=f32} {=str}", OMEGA_N, ZETA, S::GAIN_POSE_NAME);
+    for effect in App::<S, B, Q, V, N>::TERMS {
+        defmt::println!("effect {=str} {=usize}", (effect.name)(), effect.bytes);
+    }
     start(app, &mut peripherals, microseconds::<S, B, Q, V, N>());
 
     for (number, run) in App::<S, B, Q, V, N>::runs().enumerate() {
-        // The law's name, by its two parts.
-        let (less, law) = match run.law {
-            Name::Of(law) => ("", law),
-            Name::Without(effect) => ("without-", effect()),
-        };
-        let plant = run.plant.name();
-        let at = run.tick as usize as u32;
-        defmt::println!("run {=str} {=str}{=str} {=u32:#x}", plant, less, law, at);
+        let law = run.less.name(App::<S, B, Q, V, N>::TERMS, run.law);
+        begin(run.plant, law, run.tick as usize);
         let mut errors = Errors::default();
         while errors.count() < ticks {
             let Some(record) = records.dequeue() else {
@@ -144,13 +141,7 @@ where
                 defmt::println!("sample {=u32}{}{}", record.tick, reference, actual);
             }
         }
-        defmt::println!("rms{}", Words(&errors.rms()));
-        defmt::println!("max{}", Words(&errors.max));
-        defmt::println!("total {=f32}", errors.total());
-        if let Some(Status { mode, fault, limited }) = errors.status {
-            let (mode, fault) = (defmt::Debug2Format(&mode), defmt::Debug2Format(&fault));
-            defmt::println!("status mode {}, fault {}, limited {=bool}", mode, fault, limited);
-        }
+        figures(&errors.rms(), &errors.max, errors.total(), None, errors.status);
     }
     defmt::println!("stack {=usize}", stack_peak());
     defmt::println!("done");
@@ -165,23 +156,36 @@ where
     const { (S::TICK * 1e6 + 0.5) as u32 }
 }
 
-/// The log's description of the scene, before its runs.
-fn head<S, const B: usize, const Q: usize, const V: usize, const N: usize>(ticks: u32)
-where
-    S: Scene<B, Q, V, N>,
-{
+/// The log's description of a trial, before its runs.
+fn head<T: Trial<N>, const N: usize>(joints: usize, ticks: u32) {
+    let microseconds = const { (T::TICK * 1e6 + 0.5) as u32 };
     defmt::println!(
         "scene {=str} joints {=usize} tick-us {=u32} ticks {=u32} bound {=f32}",
-        S::NAME,
-        N,
-        microseconds::<S, B, Q, V, N>(),
+        T::NAME,
+        joints,
+        microseconds,
         ticks,
-        S::BOUND
+        T::BOUND
     );
-    let pose = S::GAIN_POSE_NAME;
-    defmt::println!("gains {=f32} {=f32} {=str}", OMEGA_N, ZETA, pose);
-    for effect in <S::Effects as Effects<S, B, Q, V, N>>::NAMED {
-        defmt::println!("effect {=str} {=usize}", (effect.name)(), effect.bytes);
+}
+
+/// The log's line before a run, with its law's name in two parts.
+fn begin(plant: PlantModel, [less, law]: [&str; 2], tick_at: usize) {
+    let at = tick_at as u32;
+    defmt::println!("run {=str} {=str}{=str} {=u32:#x}", plant.name(), less, law, at);
+}
+
+/// The figures of a run.
+fn figures(rms: &[f32], max: &[f32], total: f32, start: Option<f32>, status: Option<Status>) {
+    defmt::println!("rms{}", Words(rms));
+    defmt::println!("max{}", Words(max));
+    defmt::println!("total {=f32}", total);
+    if let Some(start) = start {
+        defmt::println!("start {=f32}", start);
+    }
+    if let Some(Status { mode, fault, limited }) = status {
+        let (mode, fault) = (defmt::Debug2Format(&mode), defmt::Debug2Format(&fault));
+        defmt::println!("status mode {}, fault {}, limited {=bool}", mode, fault, limited);
     }
 }
 

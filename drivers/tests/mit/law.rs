@@ -219,7 +219,7 @@ fn a_fault_makes_the_gains_zero_in_its_tick() {
     joints.receive(&plant.reply());
     tick(&mut arm, &joints, &mut plant);
     assert_eq!(gains(&plant), 0.0);
-    let hot = CanError::OverTemperature(Part::Motor);
+    let hot = CanError::OverTemperature(Component::Motor);
     assert_eq!(arm.drive_error(), Some(JointError { joint: 0, error: &hot }));
     let telemetry = tick(&mut arm, &joints, &mut plant);
     assert_eq!((telemetry.status.mode, gains(&plant)), (Mode::Stopped, 0.0));

@@ -2,10 +2,9 @@
 #![no_std]
 #![no_main]
 
+use firmware_demo::scenes::openarm_free_drive::trial::Guidance;
+
 #[cortex_m_rt::entry]
 fn main() -> ! {
-    #[cfg(not(feature = "telemetry"))]
-    firmware_demo::target::guided::scene();
-    #[cfg(feature = "telemetry")]
-    firmware_demo::target::trials::openarm_free_drive()
+    firmware_demo::target::trials::scene::<Guidance, 7>()
 }

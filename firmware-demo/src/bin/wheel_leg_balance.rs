@@ -2,10 +2,9 @@
 #![no_std]
 #![no_main]
 
+use firmware_demo::scenes::wheel_leg_balance::trial::Ride;
+
 #[cortex_m_rt::entry]
 fn main() -> ! {
-    #[cfg(not(feature = "telemetry"))]
-    firmware_demo::target::wheeled::scene();
-    #[cfg(feature = "telemetry")]
-    firmware_demo::target::trials::wheel_leg_balance()
+    firmware_demo::target::trials::scene::<Ride, 6>()
 }

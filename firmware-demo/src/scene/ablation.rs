@@ -5,7 +5,7 @@ use core::any::type_name;
 use dynamics_core::delegate_effect;
 use dynamics_core::effects::Effect;
 
-use super::{Less, Run, Scene};
+use super::{Run, Scene, Term};
 
 /// The effects of a tuple without the I-th.
 #[derive(Clone, Copy, Debug)]
@@ -58,22 +58,13 @@ delegate_effect! {
     |this| { Without<S::Effects, I> => Without::<_, I>(S::current(this.0)) }
 }
 
-/// An effect that a scene names.
-#[derive(Clone, Copy, Debug)]
-pub struct Named {
-    /// The name of its type.
-    pub name: fn() -> &'static str,
-    /// The bytes of its value where it is kept in RAM, as in the plant.
-    pub bytes: usize,
-}
-
 /// The effects of a scene, and the runs of its laws that each lack one of them.
 pub trait Effects<S, const B: usize, const Q: usize, const V: usize, const N: usize>:
     Effect<f32, B, V>
 where
     S: Scene<B, Q, V, N>,
 {
-    const NAMED: &'static [Named];
+    const TERMS: &'static [Term];
     /// Feed-forward without each, in their order.
     const ABLATIONS: &'static [Run<S, B, Q, V, N>];
 }
@@ -100,11 +91,11 @@ macro_rules! tuple {
             S: Scene<B, Q, V, N, Effects = Self>,
             $($t: Effect<f32, B, V>,)*
         {
-            const NAMED: &'static [Named] = &[$(
-                Named { name: name::<$t>, bytes: size_of::<$t>() },
+            const TERMS: &'static [Term] = &[$(
+                Term { name: name::<$t>, bytes: size_of::<$t>() },
             )*];
             const ABLATIONS: &'static [Run<S, B, Q, V, N>] =
-                &[$(Run::without::<Less<S, $i, B, Q, V>>(name::<$t>),)*];
+                &[$(Run::without::<$i>(),)*];
         }
     };
 }

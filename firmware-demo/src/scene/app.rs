@@ -2,6 +2,7 @@
 
 use core::fmt;
 
+use dynamics_core::model::JointLimits;
 use heapless::spsc::Producer;
 use joint_drivers::as5047p::As5047p;
 use joint_drivers::h_bridge::LockedAntiphase;
@@ -9,7 +10,9 @@ use joint_drivers::{ControlLoop, Law, NoBrake, Telemetry};
 use motion_control::{Detect, Gains, MotionController, Reference, TrajectoryError};
 
 use super::firmware::control_loop;
-use super::{Devices, Noise, PlantModel, Run, Scene, SceneLoop, SetupError, Start};
+use super::{
+    Devices, Effects, Noise, PlantModel, Run, Scene, SceneLoop, SetupError, Start, Term, Trial,
+};
 use crate::plant::{Rig, Simulated};
 use crate::region::Marked;
 use crate::sim_io::{SimDrive, SimEncoder, Wires};
@@ -112,10 +115,6 @@ where
         Ok(Self { reference, wires, rig, control, records, run: 0, tick: 0, broken: false })
     }
 
-    pub fn ticks(&self) -> u32 {
-        self.reference.ticks() + SETTLE
-    }
-
     pub fn runs() -> impl Iterator<Item = &'static Run<S, B, Q, V, N>> {
         S::RUNS.iter().chain(S::BASELINES).chain(S::ABLATIONS)
     }
@@ -157,6 +156,22 @@ where
                 Err(_) => self.broken = true,
             }
         }
+    }
+}
+
+impl<S, const B: usize, const Q: usize, const V: usize, const N: usize> Trial<N>
+    for App<S, B, Q, V, N>
+where
+    S: Scene<B, Q, V, N>,
+{
+    const NAME: &'static str = S::NAME;
+    const TICK: f32 = S::TICK;
+    const BOUND: f32 = S::BOUND;
+    const LIMITS: [JointLimits<f32>; N] = S::LIMITS;
+    const TERMS: &'static [Term] = <S::Effects as Effects<S, B, Q, V, N>>::TERMS;
+
+    fn ticks(&self) -> u32 {
+        self.reference.ticks() + SETTLE
     }
 }
 

@@ -8,33 +8,7 @@ use dynamics_core::state::State;
 use joint_drivers::{Law, Telemetry};
 
 use super::app::{SimLoop, marked_tick};
-use super::{Current, CurrentWithout, Scene, Without};
-
-/// The accuracy of the controller's model of the plant.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PlantModel {
-    Exact,
-    /// Its inertias are off by up to 3 %, its friction by up to 10 %.
-    Mismatched,
-}
-
-impl PlantModel {
-    /// Its name in the log.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Exact => "exact",
-            Self::Mismatched => "mismatched",
-        }
-    }
-}
-
-/// A law, as the log names it.
-#[derive(Clone, Copy, Debug)]
-pub enum Name {
-    Of(&'static str),
-    /// The scene's feed-forward without an effect of this name.
-    Without(fn() -> &'static str),
-}
+use super::{Current, CurrentWithout, Less, PlantModel, Scene, Without};
 
 /// The function that is called once a tick.
 type Ticked<S, const B: usize, const Q: usize, const V: usize, const N: usize> = fn(
@@ -48,7 +22,8 @@ type Ticked<S, const B: usize, const Q: usize, const V: usize, const N: usize> =
 pub struct Run<S: Scene<B, Q, V, N>, const B: usize, const Q: usize, const V: usize, const N: usize>
 {
     pub plant: PlantModel,
-    pub law: Name,
+    pub law: &'static str,
+    pub less: Less,
     /// The control loop under this law.
     pub tick: Ticked<S, B, Q, V, N>,
 }
@@ -57,17 +32,18 @@ impl<S, const B: usize, const Q: usize, const V: usize, const N: usize> Run<S, B
 where
     S: Scene<B, Q, V, N>,
 {
-    pub const fn of<L: Law<N, S::Environment>>(plant: PlantModel, name: &'static str) -> Self {
-        Self { plant, law: Name::Of(name), tick: marked_tick::<L, S::Reference, S::Environment, N> }
+    pub const fn of<L: Law<N, S::Environment>>(plant: PlantModel, law: &'static str) -> Self {
+        let tick = marked_tick::<L, S::Reference, S::Environment, N>;
+        Self { plant, law, less: Less::NOTHING, tick }
     }
 
-    /// A run of the law `L`, which lacks an effect of this name, on the exact plant.
-    pub const fn without<L: Law<N, S::Environment>>(name: fn() -> &'static str) -> Self {
-        Self {
-            plant: PlantModel::Exact,
-            law: Name::Without(name),
-            tick: marked_tick::<L, S::Reference, S::Environment, N>,
-        }
+    /// A run of the whole law without the I-th effect, on the exact plant.
+    pub const fn without<const I: usize>() -> Self
+    where
+        Without<S::Effects, I>: Effect<f32, B, V>,
+    {
+        let run = Self::of::<FullWithout<S, I, B, Q, V>>(PlantModel::Exact, "");
+        Self { less: Less(I as u8), ..run }
     }
 }
 
@@ -91,10 +67,12 @@ where
 }
 
 /// The same without the I-th effect.
-pub struct Less<S, const I: usize, const B: usize, const Q: usize, const V: usize>(PhantomData<S>);
+pub struct FullWithout<S, const I: usize, const B: usize, const Q: usize, const V: usize>(
+    PhantomData<S>,
+);
 
 impl<S, const I: usize, const B: usize, const Q: usize, const V: usize, const N: usize>
-    Law<N, S::Environment> for Less<S, I, B, Q, V>
+    Law<N, S::Environment> for FullWithout<S, I, B, Q, V>
 where
     S: Scene<B, Q, V, N>,
     Without<S::Effects, I>: Effect<f32, B, V>,

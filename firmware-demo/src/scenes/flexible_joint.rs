@@ -11,7 +11,7 @@ use dynamics_core::{Core, Engine};
 use motion_control::{Estimate, Gains, RestToRest, TrajectoryError, WayPoint, feedback};
 
 use crate::plant::FlexiblePlant;
-use crate::scene::{Less, Noise, OMEGA_N, PlantModel, Run, Scene, TICK, ZETA, name, speeds};
+use crate::scene::{Noise, OMEGA_N, PlantModel, Run, Scene, TICK, ZETA, speeds};
 use crate::trajectories::stop;
 use joint_drivers::Law;
 
@@ -59,10 +59,7 @@ impl Scene<7, 7, 7, 7> for CompliantArm {
     const BASELINES: &'static [Run<Self, 7, 7, 7, 7>] =
         &[Run::of::<RigidJoints>(PlantModel::Exact, "rigid-joints")];
     // Inverse dynamics of compliant joints needs `Inertia` and `Coriolis`.
-    const ABLATIONS: &'static [Run<Self, 7, 7, 7, 7>] = &[
-        Run::without::<Less<Self, 0, 7, 7, 7>>(name::<Gravity>),
-        Run::without::<Less<Self, 3, 7, 7, 7>>(name::<Viscous<f32, 7>>),
-    ];
+    const ABLATIONS: &'static [Run<Self, 7, 7, 7, 7>] = &[Run::without::<0>(), Run::without::<3>()];
 
     fn reference() -> Result<Self::Reference, TrajectoryError> {
         RestToRest::new(&SWING, TICK, &speeds(&Self::LIMITS, [8.0; 7]))

@@ -20,7 +20,7 @@ use motion_control::{
 
 use crate::plant::Plant;
 use crate::scene::{
-    Less, Name, Noise, PlantModel, Run, Scene, SimLoop, marked_tick, rigid, through,
+    FullWithout, Less, Noise, PlantModel, Run, Scene, SimLoop, marked_tick, rigid, through,
 };
 use crate::trajectories::{READY, stop};
 use joint_drivers::{Law, Telemetry};
@@ -125,8 +125,8 @@ impl Scene<7, 7, 7, 7> for Carry {
     const GAIN_POSE: [f32; 7] = READY;
     const GAIN_POSE_NAME: &'static str = "ready";
     const BASELINES: &'static [Run<Self, 7, 7, 7, 7>] = &[
-        Run::of::<Less<Self, LOAD, 7, 7, 7>>(PlantModel::Exact, "unknown-load"),
-        Run::of::<Less<Self, LOAD, 7, 7, 7>>(PlantModel::Mismatched, "unknown-load"),
+        Run::of::<FullWithout<Self, LOAD, 7, 7, 7>>(PlantModel::Exact, "unknown-load"),
+        Run::of::<FullWithout<Self, LOAD, 7, 7, 7>>(PlantModel::Mismatched, "unknown-load"),
         Impedance::run(PlantModel::Exact),
         Impedance::run(PlantModel::Mismatched),
     ];
@@ -198,9 +198,8 @@ struct Held<'a> {
 
 impl Impedance {
     const fn run(plant: PlantModel) -> Run<Carry, 7, 7, 7, 7> {
-        let law = Name::Of("impedance");
         let tick = Self::tick;
-        Run { plant, law, tick }
+        Run { plant, law: "impedance", less: Less::NOTHING, tick }
     }
 
     // Not inlined by force, and compiled with the program: the tick of the other laws is then the

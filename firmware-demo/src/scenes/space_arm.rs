@@ -10,7 +10,7 @@ use motion_control::{Trajectory, TrajectoryError, WayPoint};
 
 use crate::plant::{Floating, last};
 use crate::robots::SpaceArm;
-use crate::scene::{Less, Noise, PlantModel, Run, Scene, name, rigid, through};
+use crate::scene::{Noise, PlantModel, Run, Scene, rigid, through};
 use crate::trajectories::{STOWED, stop};
 use joint_drivers::Law;
 
@@ -56,12 +56,8 @@ impl Scene<7, 13, 12, 6> for ReachOut {
         Run::of::<FixedBase>(PlantModel::Mismatched, "fixed-base"),
     ];
     /// Nothing moves without `Inertia`.
-    const ABLATIONS: &'static [Run<Self, 7, 13, 12, 6>] = &[
-        Run::without::<Less<Self, 1, 7, 13, 12>>(name::<Coriolis>),
-        Run::without::<Less<Self, 2, 7, 13, 12>>(name::<Viscous<f32, 12>>),
-        Run::without::<Less<Self, 3, 7, 13, 12>>(name::<Coulomb<f32, 12>>),
-        Run::without::<Less<Self, 4, 7, 13, 12>>(name::<Armature<f32, 12>>),
-    ];
+    const ABLATIONS: &'static [Run<Self, 7, 13, 12, 6>] =
+        &[Run::without::<1>(), Run::without::<2>(), Run::without::<3>(), Run::without::<4>()];
 
     fn reference() -> Result<Self::Reference, TrajectoryError> {
         through(&REACH_OUT, &Self::LIMITS, [3.0; 6])

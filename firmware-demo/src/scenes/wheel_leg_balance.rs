@@ -22,7 +22,7 @@ use motion_control::{
 };
 
 use crate::robots::{Straight, WheelLeg};
-use crate::scene::limits_of;
+use crate::scene::{Less, limits_of};
 use crate::{marker, region};
 
 pub mod gains;
@@ -109,17 +109,12 @@ const TRACTION: f32 = 0.7;
 /// τ = −d q̇ of cranks and wheels while the robot sinks onto its skids, N·m·s/rad.
 const SINKING: [f32; 6] = [1.5, 1.5, 0.1, 1.5, 1.5, 0.1];
 
-/// The part that the law lacks.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Less {
-    Nothing,
-    /// u₀, the torque that carries the robot.
-    Gravity,
-    /// The schedule: the gains and u₀ are those of [`Order::STAND`].
-    Schedule,
-    /// The limit of a wheel's torque by the load of its leg.
-    Traction,
-}
+/// What the law can lack: u₀, the torque that carries the robot, the limit of a wheel's torque by
+/// the load of its leg, and the schedule, without which the gains and u₀ are those of
+/// [`Order::STAND`].
+pub const GRAVITY: Less = Less(0);
+pub const TRACTION_LIMIT: Less = Less(1);
+pub const SCHEDULE: Less = Less(2);
 
 /// The controller: references, law and gate.
 #[derive(Debug)]
@@ -267,16 +262,16 @@ fn law(
     pitch: &Pitch,
     less: Less,
 ) -> ([f32; 6], TablePlace) {
-    let length = if less == Less::Schedule { Order::STAND.length } else { order.length };
+    let length = if less == SCHEDULE { Order::STAND.length } else { order.length };
     let (gains, place) = gains::GAINS.at(length);
     let mut x = [0.0; 15];
-    (x[0], x[7], x[14]) = (pitch.angle, pitch.rate, if less == Less::Gravity { 0.0 } else { -1.0 });
+    (x[0], x[7], x[14]) = (pitch.angle, pitch.rate, if less == GRAVITY { 0.0 } else { -1.0 });
     for j in 0..6 {
         x[1 + j] = estimate.q[j] - reference.q[j];
         x[8 + j] = estimate.qd[j] - reference.qd[j];
     }
     let mut torque = gains.map(|row| -row.iter().zip(&x).map(|(k, x)| k * x).sum::<f32>());
-    if less != Less::Traction {
+    if less != TRACTION_LIMIT {
         let by_length = straight(order, 1.0)[2];
         let [rear, front, wheel, right @ ..] = &mut torque;
         let [right_rear, right_front, right_wheel] = right;

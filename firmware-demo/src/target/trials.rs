@@ -1,90 +1,96 @@
-//! Scenes that are trials, over and over, each tick sent from the loop that runs them: they have no
-//! interrupt and no timer.
+//! Trials that run to their end in one call, without an interrupt and a timer: one after the other
+//! with their figures in the log, or over and over with each tick sent.
 
-use cortex_m_semihosting::debug;
-use dynamics_core::model::{JointLimits, Robot};
-use dynamics_core::robots::OpenArm;
-use machine_link::{Axis, Message, Sample};
-use stm32f4xx_hal::pac;
-use stm32f4xx_hal::serial::Tx;
+#[cfg(not(feature = "telemetry"))]
+pub use log::scene;
+#[cfg(feature = "telemetry")]
+pub use watch::scene;
 
-use super::watch::{MACHINE, argument, port, send};
-use super::{fail, leave};
-use crate::scene::PlantModel;
-use crate::scenes::openarm_free_drive::trial::Seen;
-use crate::scenes::{openarm_free_drive, wheel_leg_balance};
-use crate::watched::{fill, machine_of};
+#[cfg(not(feature = "telemetry"))]
+mod log {
+    use cortex_m_semihosting::debug;
 
-/// The port, and what was sent over it.
-struct Sender<const N: usize> {
-    port: Tx<pac::USART1>,
-    constants: Message<N>,
-    sample: Sample<N>,
-    /// The tick after which the program ends; 0 for none.
-    last: u32,
+    use crate::scene::PlantModel::{self, Exact, Mismatched};
+    use crate::scene::{Batch, Less};
+    use crate::target::{SAMPLE, Words, begin, fail, figures, head, leave, stack_peak};
+
+    /// Runs the trials to their end and leaves the emulator.
+    pub fn scene<T: Batch<N>, const N: usize>() -> ! {
+        head::<T, N>(1, T::of_scene(Less::NOTHING, Exact).ticks());
+        for effect in T::TERMS {
+            defmt::println!("effect {=str} {=usize}", (effect.name)(), effect.bytes);
+        }
+        for plant in [Exact, Mismatched] {
+            for (law, less) in [("feedforward", Less::NOTHING), ("pd", T::BASELINE)] {
+                run(plant, less.name(&[], law), &T::of_scene(less, plant));
+            }
+        }
+        if let Some((law, trial)) = T::OTHER {
+            run(Exact, ["", law], &trial());
+        }
+        for less in (0..T::TERMS.len()).map(|term| Less(term as u8)) {
+            run(Exact, less.name(T::TERMS, ""), &T::of_scene(less, Exact));
+        }
+        defmt::println!("stack {=usize}", stack_peak());
+        defmt::println!("done");
+        leave(debug::EXIT_SUCCESS)
+    }
+
+    /// Runs a trial and logs its figures: of one error, as of one joint.
+    fn run<T: Batch<N>, const N: usize>(plant: PlantModel, law: [&str; 2], trial: &T) {
+        let see = |telemetry: &joint_drivers::Telemetry<N>, error: f32| {
+            if telemetry.tick.is_multiple_of(SAMPLE) {
+                let (reference, error) = (Words(&[0.0]), Words(core::slice::from_ref(&error)));
+                defmt::println!("sample {=u32}{}{}", telemetry.tick, reference, error);
+            }
+        };
+        begin(plant, law, T::tick_at(&see));
+        let Some(out) = trial.run(see) else {
+            fail("the simulated robot failed: it has no forward dynamics, or there is no such law");
+        };
+        let out = T::figures(&out);
+        figures(&[out.rms], &[out.max], out.rms, out.start, out.status);
+    }
 }
 
-impl<const N: usize> Sender<N> {
-    fn new(name: &str, tick: f32, limits: [JointLimits<f32>; N]) -> Self {
-        let Some(Ok(port)) = pac::Peripherals::take().map(port) else {
+#[cfg(feature = "telemetry")]
+mod watch {
+    use cortex_m_semihosting::debug;
+    use stm32f4xx_hal::pac;
+    use machine_link::{Axis, Message, Sample};
+
+    use crate::scene::{Batch, Less, PlantModel};
+    use crate::target::watch::{MACHINE, argument, port, send};
+    use crate::target::{fail, leave};
+    use crate::watched::{fill, machine_of};
+
+    /// Sends each tick, for as many as the command line says.
+    pub fn scene<T: Batch<N>, const N: usize>() -> ! {
+        let Some(Ok(mut port)) = pac::Peripherals::take().map(port) else {
             fail("the serial port is taken, or cannot have this rate");
         };
-        let axes = limits.into_iter().map(|limits| Axis { limits, prismatic: false });
-        let constants = Message::Machine(machine_of(name, tick, 0, axes));
+        let axes = T::LIMITS.into_iter().map(|limits| Axis { limits, prismatic: false });
+        let constants = Message::Machine(machine_of(T::NAME, T::TICK, 0, axes));
+        // Zero has no end.
         let last = argument(b"ticks").unwrap_or(0);
-        Self { port, constants, sample: Sample::default(), last }
-    }
-
-    /// Sends the sample.
-    fn send(&mut self) {
-        if self.sample.number.is_multiple_of(MACHINE) {
-            send(&self.constants, &mut self.port);
-        }
-        send(&Message::Tick(self.sample.message(0)), &mut self.port);
-        self.sample.number = self.sample.number.wrapping_add(1);
-        if self.sample.number == self.last {
-            defmt::println!("sent {=u32} of {=u32} ticks", self.last, self.last);
-            defmt::println!("done");
-            leave(debug::EXIT_SUCCESS);
-        }
-    }
-}
-
-/// The arm that a hand leads.
-pub fn openarm_free_drive() -> ! {
-    use openarm_free_drive::TICK;
-    use openarm_free_drive::trial::{Holds, Less, Trial};
-
-    let limits = OpenArm::MODEL.to_f32().links.map(|link| link.limits);
-    let mut sender = Sender::new("openarm_free_drive", TICK, limits);
-    let mut tick = |telemetry: &_| {
-        fill(&mut sender.sample, telemetry);
-        sender.send();
-    };
-    loop {
-        let trial = Trial::of_scene(Less::Nothing, PlantModel::Exact, Holds::PickedUp);
-        if trial.run(Seen::by(&mut tick)).is_none() {
-            fail("the simulated arm has no forward dynamics any more");
-        }
-    }
-}
-
-/// The robot that balances on its wheels; its motors have no reference.
-pub fn wheel_leg_balance() -> ! {
-    use wheel_leg_balance::trial::Trial;
-    use wheel_leg_balance::{LIMITS, Less, TICK};
-
-    let mut sender = Sender::new("wheel_leg_balance", TICK, LIMITS);
-    loop {
-        let trial = Trial::of_scene(Less::Nothing, PlantModel::Exact);
-        let seen = trial.run_watched(|tick, q, command, _| {
-            let sample = &mut sender.sample;
-            (sample.tick, sample.status) = (tick, command.status);
-            (sample.reference, sample.estimate, sample.torque) = (*q, *q, command.torque);
-            sender.send();
-        });
-        if seen.is_none() {
-            fail("the simulated robot has no forward dynamics any more");
+        let mut sample = Sample::<N>::default();
+        let mut see = |telemetry: &_, _| {
+            fill(&mut sample, telemetry);
+            if sample.number.is_multiple_of(MACHINE) {
+                send(&constants, &mut port);
+            }
+            send(&Message::Tick(sample.message(0)), &mut port);
+            sample.number = sample.number.wrapping_add(1);
+            if sample.number == last {
+                defmt::println!("sent {=u32} of {=u32} ticks", last, last);
+                defmt::println!("done");
+                leave(debug::EXIT_SUCCESS);
+            }
+        };
+        loop {
+            if T::of_scene(Less::NOTHING, PlantModel::Exact).run(&mut see).is_none() {
+                fail("the simulated robot has no forward dynamics any more");
+            }
         }
     }
 }

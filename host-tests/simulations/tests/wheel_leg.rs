@@ -1,9 +1,11 @@
 //! Claims about the scene `wheel_leg_balance`: it does not fall within its envelope, and beyond it
 //! the supervisor lowers it.
 
-use firmware_demo::scene::PlantModel;
-use firmware_demo::scenes::wheel_leg_balance::trial::{Outcome, Push, Trial};
-use firmware_demo::scenes::wheel_leg_balance::{Balance, Less, Order, Pitch};
+use firmware_demo::scene::{Batch, Less, PlantModel};
+use firmware_demo::scenes::wheel_leg_balance::trial::{Outcome, Push, Ride};
+use firmware_demo::scenes::wheel_leg_balance::{
+    Balance, GRAVITY, Order, Pitch, SCHEDULE, TRACTION_LIMIT,
+};
 use host_tests::everyday_or_full;
 use motion_control::{Fault, Mode, TablePlace};
 
@@ -20,9 +22,9 @@ const PUSHED: u32 = 50;
 const LOWERED: [f32; 3] = [0.8, 2.0, 0.2];
 
 /// The outcomes of some runs, on all cores; a robot without forward dynamics has fallen.
-fn outcomes(runs: u32, trial: impl Fn(u32) -> Trial + Sync) -> Vec<(u32, Outcome)> {
+fn outcomes(runs: u32, trial: impl Fn(u32) -> Ride + Sync) -> Vec<(u32, Outcome)> {
     let threads = std::thread::available_parallelism().map_or(1, |n| n.get() as u32);
-    let run = |seed| (seed, trial(seed).run().unwrap_or_default());
+    let run = |seed| (seed, trial(seed).run(|_, _| ()).unwrap_or_default());
     std::thread::scope(|scope| {
         let parts: Vec<_> = (0..threads)
             .map(|part| (part..runs).step_by(threads as usize))
@@ -47,19 +49,19 @@ fn lowered(out: &Outcome) -> bool {
 #[test]
 fn no_robot_falls_within_the_envelope() {
     let runs = runs();
-    let fallen = fallen(&outcomes(runs, |seed| Trial::drawn(seed, Less::Nothing)));
+    let fallen = fallen(&outcomes(runs, |seed| Ride::drawn(seed, Less::NOTHING)));
     assert!(fallen.is_empty(), "{} of {runs} have fallen: {fallen:?}", fallen.len());
 }
 
 #[test]
 fn wheels_that_spin_up_in_the_air_make_robots_fall() {
-    let fallen = fallen(&outcomes(40, |seed| Trial::drawn(seed, Less::Traction)));
+    let fallen = fallen(&outcomes(40, |seed| Ride::drawn(seed, TRACTION_LIMIT)));
     assert!(!fallen.is_empty(), "the limit of traction is worth nothing");
 }
 
 #[test]
 fn beyond_the_envelope_the_supervisor_lowers_it() {
-    let all = outcomes(PUSHED, |seed| Trial::pushed(seed, 4.0));
+    let all = outcomes(PUSHED, |seed| Ride::pushed(seed, 4.0));
     let mut sat = 0;
     for (seed, out) in &all {
         assert!(out.stands() || lowered(out), "run {seed}: {out:?}");
@@ -67,14 +69,15 @@ fn beyond_the_envelope_the_supervisor_lowers_it() {
     }
     assert!(sat > PUSHED / 10, "{sat} of {PUSHED} were lowered: the pushes are not beyond it");
     // Nor is every fall a lowering: harder pushes turn some over.
-    let over = outcomes(20, |seed| Trial::pushed(seed, 8.0));
+    let over = outcomes(20, |seed| Ride::pushed(seed, 8.0));
     assert!(over.iter().any(|(_, out)| !out.stands() && !lowered(out)));
 }
 
 #[test]
 fn the_scene_is_driven_to_its_end_and_its_parts_are_worth_it() {
-    let run = |less| Trial::of_scene(less, PlantModel::Exact).run().expect("forward dynamics");
-    let [all, gravity, traction] = [Less::Nothing, Less::Gravity, Less::Traction].map(run);
+    let run =
+        |less| Ride::of_scene(less, PlantModel::Exact).run(|_, _| ()).expect("forward dynamics");
+    let [all, gravity, traction] = [Less::NOTHING, GRAVITY, TRACTION_LIMIT].map(run);
     assert!(all.stands() && all.way > 1.5, "{all:?}");
     assert!(gravity.rms > 1.01 * all.rms && !traction.stands(), "{gravity:?} {traction:?}");
 }
@@ -83,7 +86,7 @@ fn the_scene_is_driven_to_its_end_and_its_parts_are_worth_it() {
 fn stand(less: Less, length: f32, push: f32) -> bool {
     let all = outcomes(6, |seed| {
         let mut trial =
-            Trial { kerb: [100.0, 0.0], heading: 0.0, ticks: 1200, ..Trial::drawn(seed, less) };
+            Ride { kerb: [100.0, 0.0], heading: 0.0, ticks: 1200, ..Ride::drawn(seed, less) };
         trial.course = [(0, Order { length, ..Order::STAND }); 8];
         trial.pushes = [[push, 0.0], [0.0; 2]].map(|force| Push { tick: 500, force });
         trial
@@ -94,14 +97,14 @@ fn stand(less: Less, length: f32, push: f32) -> bool {
 /// The gains of standing hold the shortest legs against harder pushes than their own do.
 #[test]
 fn the_schedule_is_worth_it_on_long_legs_and_not_on_short_ones() {
-    assert!(stand(Less::Nothing, 0.34, 105.0) && !stand(Less::Schedule, 0.34, 105.0));
-    assert!(!stand(Less::Nothing, 0.14, 105.0) && stand(Less::Schedule, 0.14, 105.0));
+    assert!(stand(Less::NOTHING, 0.34, 105.0) && !stand(SCHEDULE, 0.34, 105.0));
+    assert!(!stand(Less::NOTHING, 0.14, 105.0) && stand(SCHEDULE, 0.14, 105.0));
 }
 
 #[test]
 fn a_lost_sensor_ends_in_a_lowering_without_a_number_that_is_none() {
     for (measured, pitch) in [(true, f32::NAN), (false, 0.0)] {
-        let mut balance = Balance::new(Less::Nothing).expect("limits");
+        let mut balance = Balance::new(Less::NOTHING).expect("limits");
         let q = balance.standing();
         let order = Order::STAND;
         let full = balance.tick(Ok(&q), &Pitch::default(), &order);
@@ -118,7 +121,7 @@ fn a_lost_sensor_ends_in_a_lowering_without_a_number_that_is_none() {
 
 #[test]
 fn a_length_beyond_the_table_is_flagged() {
-    let mut balance = Balance::new(Less::Nothing).expect("limits");
+    let mut balance = Balance::new(Less::NOTHING).expect("limits");
     let q = balance.standing();
     for (length, place) in [(0.3, TablePlace::Within), (0.5, TablePlace::Above)] {
         for _ in 0..400 {

@@ -1,9 +1,9 @@
 //! A trial: a hand leads the arm, over the frames of its bus, lets it go, and it rests. It may pick
 //! a tool up then, be led once more, and rest again.
 
-use core::marker::PhantomData;
-
 use dynamics_core::effects::{Gravity, LoadFriction};
+use dynamics_core::model::{JointLimits, Robot};
+use dynamics_core::robots::OpenArm;
 use dynamics_core::state::State;
 use glam::Vec3;
 use joint_drivers::can::ClassicFrame;
@@ -17,14 +17,12 @@ use super::{
 };
 use crate::marker;
 use crate::region::{Marked, READ, TICK as WHOLE};
-use crate::scene::PlantModel;
+use crate::scene::{Batch, Figures, Less, PlantModel, Term, Trial, limits_of};
 
 /// The hand, N/m and N·s/m.
 const SPRING: [f32; 2] = [2000.0, 50.0];
 /// Its way, m.
 const WAY: f32 = 0.04;
-/// The largest distance of the tip from the place of the release in the scene, m.
-pub const BOUND: f32 = 2e-3;
 /// The distance of the grip from which on the arm moves, m.
 const MOVED: f32 = 2e-3;
 /// The ticks in which a gripper closes: the weight of the tool goes over to the hand evenly.
@@ -41,38 +39,19 @@ pub enum Holds {
     PickedUp,
 }
 
-/// The part that the law lacks.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Less {
-    Nothing,
-    /// All but gravity (and the tool).
-    AllButGravity,
-    Gravity,
-    Tool,
-    Friction,
-    Gears,
-    Push,
-    Dither,
-    /// Push and dither.
-    Breakaway,
-}
-
-impl Less {
-    /// The single parts, each with its name and the bytes of its value.
-    pub const PARTS: [(Self, &str, usize); 7] = [
-        (Self::Gravity, "Gravity", size_of::<Gravity>()),
-        (Self::Tool, "Payload", size_of::<Tool>()),
-        (Self::Friction, "friction", size_of::<Friction>()),
-        (Self::Gears, "LoadFriction", size_of::<LoadFriction<f32, 7>>()),
-        (Self::Push, "push", size_of::<f32>()),
-        (Self::Dither, "dither", size_of::<f32>()),
-        (Self::Breakaway, "Breakaway", size_of::<Breakaway<f32, 7>>()),
-    ];
-}
+/// What the law can lack: one of the terms, or all but gravity (and the tool).
+pub const GRAVITY: Less = Less(0);
+pub const PAYLOAD: Less = Less(1);
+pub const FRICTION: Less = Less(2);
+pub const GEAR_FRICTION: Less = Less(3);
+pub const PUSH: Less = Less(4);
+pub const DITHER: Less = Less(5);
+pub const PUSH_AND_DITHER: Less = Less(6);
+pub const ALL_BUT_GRAVITY: Less = Less(7);
 
 /// A trial.
 #[derive(Clone, Copy, Debug)]
-pub struct Trial {
+pub struct Guidance {
     /// The posture at the start, rad.
     pub posture: Q,
     /// The directions in which the hand leads the arm, the second one after the rest.
@@ -124,23 +103,23 @@ impl Outcome {
 
 fn law(less: Less) -> Option<FreeDrive> {
     let (mut guiding, mut breakaway) = (guiding().ok()?, breakaway());
-    if matches!(less, Less::Friction | Less::AllButGravity) {
+    if matches!(less, FRICTION | ALL_BUT_GRAVITY) {
         guiding.share = 0.0;
     }
-    if less == Less::AllButGravity {
+    if less == ALL_BUT_GRAVITY {
         guiding.damping = [0.0; 7];
     }
-    if matches!(less, Less::Push | Less::Breakaway | Less::AllButGravity) {
+    if matches!(less, PUSH | PUSH_AND_DITHER | ALL_BUT_GRAVITY) {
         breakaway.push = 0.0;
     }
-    if matches!(less, Less::Dither | Less::Breakaway | Less::AllButGravity) {
+    if matches!(less, DITHER | PUSH_AND_DITHER | ALL_BUT_GRAVITY) {
         breakaway.dither = 0.0;
     }
     let mut law = FreeDrive::new(guiding, breakaway).ok()?;
-    if less == Less::Gravity {
+    if less == GRAVITY {
         law.gravity = Gravity::new(0.0);
     }
-    if less == Less::Gears {
+    if less == GEAR_FRICTION {
         (law.friction.2.driving, law.friction.2.backdriving) = ([0.0; 7], [0.0; 7]);
     }
     Some(law)
@@ -166,9 +145,9 @@ fn direction(random: &mut Random) -> Vec3 {
 
 /// The markers of a tick whose frames are unpacked before the loop's own, as part of the reading,
 /// and who sees its record.
-struct Unpacked<'s>(Seen<'s>);
+struct Unpacked<'s, F>(&'s mut F);
 
-impl Probe<7> for Unpacked<'_> {
+impl<F: FnMut(&Telemetry<7>, f32)> Probe<7> for Unpacked<'_, F> {
     #[inline(always)]
     fn begin(&mut self, phase: Phase) {
         if !matches!(phase, Phase::Tick | Phase::Read) {
@@ -185,7 +164,7 @@ impl Probe<7> for Unpacked<'_> {
 
     #[inline(always)]
     fn record(&mut self, telemetry: &Telemetry<7>) {
-        self.0.record(telemetry);
+        (self.0)(telemetry, f32::NAN);
     }
 }
 
@@ -193,63 +172,25 @@ type Loop<'a> = ControlLoop<Kept<'a, &'a Joints>, &'a Joints, NoBrake, 7>;
 
 /// A tick from the frames that came to those that are sent, between the markers of its regions.
 #[inline(never)]
-fn marked_tick(
+fn marked_tick<F: FnMut(&Telemetry<7>, f32)>(
     control: &mut Loop<'_>,
     joints: &Joints,
     law: &FreeDrive,
     reference: &State<f32, 7, 7>,
     came: &Replies<ClassicFrame>,
-    seen: Seen<'_>,
+    see: &mut F,
 ) -> (Replies<ClassicFrame>, Status) {
     marker::start::<WHOLE>();
     marker::start::<READ>();
     came.iter().flatten().for_each(|frame| joints.receive(frame));
-    let status = control.tick_probed::<Free, _, _>(reference, law, &mut Unpacked(seen)).status;
+    let status = control.tick_probed::<Free, _, _>(reference, law, &mut Unpacked(see)).status;
     let commands = joints.commands();
     marker::stop::<WHOLE>();
     (commands, status)
 }
 
-/// The address of the function that is called each tick.
-pub fn tick_at() -> usize {
-    marked_tick as *const () as usize
-}
-
-/// Who sees the record of each tick: nobody where the program sends no telemetry.
-#[derive(Default)]
-pub struct Seen<'a>(
-    #[cfg(feature = "telemetry")] Option<&'a mut dyn FnMut(&Telemetry<7>)>,
-    PhantomData<&'a ()>,
-);
-
-impl<'a> Seen<'a> {
-    /// By a function.
-    #[cfg(feature = "telemetry")]
-    pub fn by(function: &'a mut dyn FnMut(&Telemetry<7>)) -> Self {
-        Self(Some(function), PhantomData)
-    }
-
-    #[inline(always)]
-    fn again(&mut self) -> Seen<'_> {
-        Seen(
-            #[cfg(feature = "telemetry")]
-            self.0.as_mut().map(|seen| &mut **seen as _),
-            PhantomData,
-        )
-    }
-
-    #[inline(always)]
-    #[cfg_attr(not(feature = "telemetry"), expect(unused_variables, reason = "nobody sees it"))]
-    fn record(&mut self, telemetry: &Telemetry<7>) {
-        #[cfg(feature = "telemetry")]
-        if let Some(seen) = &mut self.0 {
-            seen(telemetry);
-        }
-    }
-}
-
 /// The arm in its loop.
-struct Cell<'a, 's> {
+struct Cell<'a, F> {
     control: Loop<'a>,
     joints: &'a Joints,
     law: &'a FreeDrive,
@@ -261,10 +202,10 @@ struct Cell<'a, 's> {
     follows: bool,
     status: Option<Status>,
     out: Outcome,
-    seen: Seen<'s>,
+    see: F,
 }
 
-impl Cell<'_, '_> {
+impl<F: FnMut(&Telemetry<7>, f32)> Cell<'_, F> {
     /// The time until each drive has replied to zero torque: in a tick of the loop a lost frame
     /// would be a fault of the start, which stops the arm. Friction holds it.
     #[inline(never)]
@@ -277,10 +218,9 @@ impl Cell<'_, '_> {
 
     fn tick(&mut self) -> Option<()> {
         let Self {
-            control, joints, law, reference, replies, plant, status: last, out, seen, ..
+            control, joints, law, reference, replies, plant, status: last, out, see, ..
         } = self;
-        let (commands, status) =
-            marked_tick(control, joints, law, reference, replies, seen.again());
+        let (commands, status) = marked_tick(control, joints, law, reference, replies, see);
         if !last.is_some_and(|status| status.mode != Mode::Full) {
             *last = Some(status);
         }
@@ -368,22 +308,7 @@ fn ticks(seconds: f32) -> u32 {
     (seconds / TICK + 0.5) as u32
 }
 
-impl Trial {
-    /// The trial of the scene under a law that lacks a part. Of the axes of space, this way is the
-    /// one whose forces are nearest to the medians of [`Trial::drawn`].
-    pub fn of_scene(less: Less, plant: PlantModel, holds: Holds) -> Self {
-        Self {
-            posture: [0.5, 0.6, 0.2, 1.0, 0.1, -0.2, 0.3],
-            ways: [Vec3::Y, Vec3::NEG_Y],
-            random: Random::seeded(0),
-            holds,
-            plant,
-            less,
-            seconds: [0.5, 2.0, 0.5, 3.0],
-            again: Some(3.0),
-        }
-    }
-
+impl Guidance {
     /// A trial with a posture and ways of its own, of a plant that is off and rests for ten
     /// seconds.
     pub fn drawn(seed: u32, less: Less, tool: bool) -> Self {
@@ -394,16 +319,56 @@ impl Trial {
         let holds = if tool { Holds::Tool } else { Holds::Nothing };
         Self { posture, ways, random, holds, plant, less, seconds, again: Some(0.0) }
     }
+}
+
+impl Trial<7> for Guidance {
+    const NAME: &'static str = "openarm_free_drive";
+    const TICK: f32 = TICK;
+    /// The largest distance of the tip from the place of the release, m.
+    const BOUND: f32 = 2e-3;
+    const LIMITS: [JointLimits<f32>; 7] = limits_of(&OpenArm::MODEL, [0, 1, 2, 3, 4, 5, 6]);
+    const TERMS: &'static [Term] = &[
+        Term { name: || "Gravity", bytes: size_of::<Gravity>() },
+        Term { name: || "Payload", bytes: size_of::<Tool>() },
+        Term { name: || "friction", bytes: size_of::<Friction>() },
+        Term { name: || "LoadFriction", bytes: size_of::<LoadFriction<f32, 7>>() },
+        Term { name: || "push", bytes: size_of::<f32>() },
+        Term { name: || "dither", bytes: size_of::<f32>() },
+        Term { name: || "Breakaway", bytes: size_of::<Breakaway<f32, 7>>() },
+    ];
 
     /// The ticks to the end of the last rest.
-    pub fn ticks(&self) -> u32 {
+    fn ticks(&self) -> u32 {
         let [_, way, after, _] = self.seconds;
         let again = self.again.map(|rest| [way, after, rest]);
         self.seconds.into_iter().chain(again.into_iter().flatten()).map(ticks).sum()
     }
+}
 
-    /// Runs it; nothing if there were no such law, or if the arm had no forward dynamics.
-    pub fn run(&self, seen: Seen<'_>) -> Option<Outcome> {
+impl Batch<7> for Guidance {
+    type Outcome = Outcome;
+    const BASELINE: Less = ALL_BUT_GRAVITY;
+    const OTHER: Option<(&'static str, fn() -> Self)> = Some(("empty-hand", || Self {
+        holds: Holds::Nothing,
+        ..Self::of_scene(Less::NOTHING, PlantModel::Exact)
+    }));
+
+    /// Of the axes of space, this way is the one whose forces are nearest to the medians of
+    /// [`Self::drawn`].
+    fn of_scene(less: Less, plant: PlantModel) -> Self {
+        Self {
+            posture: [0.5, 0.6, 0.2, 1.0, 0.1, -0.2, 0.3],
+            ways: [Vec3::Y, Vec3::NEG_Y],
+            random: Random::seeded(0),
+            holds: Holds::PickedUp,
+            plant,
+            less,
+            seconds: [0.5, 2.0, 0.5, 3.0],
+            again: Some(3.0),
+        }
+    }
+
+    fn run<F: FnMut(&Telemetry<7>, f32)>(&self, see: F) -> Option<Outcome> {
         let (near, [way, back]) = (self.posture, self.ways);
         let plant = Plant::new(near, self.plant, self.random);
         let (law, joints) = (law(self.less)?, joints(&near).ok()?);
@@ -412,7 +377,7 @@ impl Trial {
         let control = ControlLoop::new(Kept(&joints, &law), &joints, NoBrake, gains, gate, ());
         let (joints, law, replies) = (&joints, &law, [const { None }; 7]);
         let (reference, seconds, out) = (State::at(near), self.seconds, Outcome::default());
-        let (follows, status) = (self.less != Less::Tool, None);
+        let (follows, status) = (self.less != PAYLOAD, None);
         let mut cell = Cell {
             control,
             joints,
@@ -424,7 +389,7 @@ impl Trial {
             follows,
             status,
             out,
-            seen,
+            see,
         };
         if self.holds == Holds::Tool {
             cell.close(CLOSING + LATE);
@@ -440,5 +405,14 @@ impl Trial {
             cell.rest(again, false)?;
         }
         Some(cell.out)
+    }
+
+    fn figures(out: &Outcome) -> Figures {
+        let &Outcome { rms, drift: max, status, .. } = out;
+        Figures { rms, max, start: Some(out.start.max(out.again)), status }
+    }
+
+    fn tick_at<F: FnMut(&Telemetry<7>, f32)>(_: &F) -> usize {
+        marked_tick::<F> as *const () as usize
     }
 }

@@ -1,18 +1,18 @@
 //! A trial: the robot follows orders, and is pushed.
 
+use dynamics_core::effects::Gravity;
+use dynamics_core::model::JointLimits;
 use glam::Vec3;
+use joint_drivers::Telemetry;
 use motion_control::{Command, Mode, Status};
 
 use super::plant::Plant;
-use super::{Balance, Less, Order};
+use super::{Balance, LIMITS, Order, SCHEDULE, TICK};
 use crate::marker;
 use crate::region;
 use crate::robots::WheelLeg;
-use crate::scene::PlantModel;
+use crate::scene::{Batch, Figures, Less, PlantModel, Term, Trial};
 use crate::scenes::openarm_free_drive::plant::Random;
-
-/// The largest pitch in the scene, rad.
-pub const BOUND: f32 = 0.3;
 
 /// A push from a tick on, for 100 ms.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,7 +28,7 @@ const PUSHED: u32 = 50;
 pub type Course = [(u32, Order); 8];
 
 #[derive(Clone, Copy, Debug)]
-pub struct Trial {
+pub struct Ride {
     pub plant: PlantModel,
     pub less: Less,
     pub random: Random,
@@ -98,21 +98,7 @@ fn marked_tick(
     })
 }
 
-/// The address of the function that is called each tick.
-pub fn tick_at() -> usize {
-    marked_tick as *const () as usize
-}
-
-impl Trial {
-    /// The scene's.
-    pub fn of_scene(less: Less, plant: PlantModel) -> Self {
-        let push = |tick, force| Push { tick, force };
-        let pushes = [push(2200, [60.0, 0.0]), push(2500, [0.0, 40.0])];
-        let random = Random::seeded(0);
-        let (kerb, heading) = ([1.0, 0.03], 0.0);
-        Self { plant, less, random, course: COURSE, pushes, kerb, heading, ticks: 2900 }
-    }
-
+impl Ride {
     /// A trial in the envelope: at 0.6 to 0.9 m/s over a kerb of up to 3 cm within 0.2 rad of
     /// square, a turn of up to 1 rad/s, other lengths of the legs from 0.16 to 0.3 m, and two
     /// pushes of 100 ms with up to 50 N forward or back and 30 N sideways, one of them in the
@@ -145,24 +131,44 @@ impl Trial {
 
     /// The same with pushes of so many times the force, and time to sit down.
     pub fn pushed(seed: u32, times: f32) -> Self {
-        let mut trial = Self::drawn(seed, Less::Nothing);
+        let mut trial = Self::drawn(seed, Less::NOTHING);
         for push in &mut trial.pushes {
             push.force = push.force.map(|force| times * force);
         }
         Self { ticks: 3500, ..trial }
     }
+}
 
-    /// Runs it; nothing if there were no such law, or if the robot had no forward dynamics.
-    pub fn run(&self) -> Option<Outcome> {
-        self.run_watched(|_, _, _, _| ())
+impl Trial<6> for Ride {
+    const NAME: &'static str = "wheel_leg_balance";
+    const TICK: f32 = TICK;
+    /// The largest pitch, rad.
+    const BOUND: f32 = 0.3;
+    const LIMITS: [JointLimits<f32>; 6] = LIMITS;
+    const TERMS: &'static [Term] = &[
+        Term { name: || "Gravity", bytes: size_of::<Gravity>() },
+        Term { name: || "traction", bytes: size_of::<f32>() },
+    ];
+
+    fn ticks(&self) -> u32 {
+        self.ticks
+    }
+}
+
+impl Batch<6> for Ride {
+    type Outcome = Outcome;
+    const BASELINE: Less = SCHEDULE;
+
+    fn of_scene(less: Less, plant: PlantModel) -> Self {
+        let push = |tick, force| Push { tick, force };
+        let pushes = [push(2200, [60.0, 0.0]), push(2500, [0.0, 40.0])];
+        let random = Random::seeded(0);
+        let (kerb, heading) = ([1.0, 0.03], 0.0);
+        Self { plant, less, random, course: COURSE, pushes, kerb, heading, ticks: 2900 }
     }
 
-    /// The same; `watch` sees the measured positions of the motors and the command of each tick, and
-    /// the pitch after it.
-    pub fn run_watched(
-        &self,
-        mut watch: impl FnMut(u32, &[f32; 6], &Command<f32, 6>, f32),
-    ) -> Option<Outcome> {
+    /// Sees the measured positions of the motors as reference and estimate, and the pitch.
+    fn run<F: FnMut(&Telemetry<6>, f32)>(&self, mut see: F) -> Option<Outcome> {
         let mut balance = Balance::new(self.less).ok()?;
         let mut plant = Plant::new(self.plant, self.kerb, self.heading, self.random);
         let mut out = Outcome::default();
@@ -179,7 +185,8 @@ impl Trial {
             plant.tick(&command.torque).ok()?;
             let y = plant.state();
             let pitch = y.q[WheelLeg::PITCH];
-            watch(tick, &measured.0, &command, pitch);
+            let (q, torque, status) = (measured.0, command.torque, command.status);
+            see(&Telemetry { tick, reference: q, estimate: q, torque, status }, pitch);
             out.pitch = out.pitch.max(pitch.abs());
             out.rms += pitch * pitch;
             let clearance = plant.clearance();
@@ -196,5 +203,13 @@ impl Trial {
         out.sat = balance.sits();
         out.rms = libm::sqrtf(out.rms / self.ticks as f32);
         Some(out)
+    }
+
+    fn figures(&Outcome { pitch, rms, status, .. }: &Outcome) -> Figures {
+        Figures { rms, max: pitch, start: None, status }
+    }
+
+    fn tick_at<F: FnMut(&Telemetry<6>, f32)>(_: &F) -> usize {
+        marked_tick as *const () as usize
     }
 }

@@ -4,9 +4,10 @@
 use std::sync::LazyLock;
 
 use dynamics_core::state::State;
-use firmware_demo::scene::PlantModel;
+use firmware_demo::scene::{Batch, Less, PlantModel, Trial};
 use firmware_demo::scenes::openarm_free_drive::trial::{
-    BOUND, CLOSING, Holds, Less, Outcome, Seen, Trial,
+    ALL_BUT_GRAVITY, CLOSING, FRICTION, GEAR_FRICTION, GRAVITY, Guidance, Outcome, PAYLOAD,
+    PUSH_AND_DITHER,
 };
 use firmware_demo::scenes::openarm_free_drive::{Free, FreeDrive, TOOL, borne, breakaway, guiding};
 use host_tests::everyday_or_full;
@@ -22,7 +23,7 @@ static RUNS: LazyLock<u32> = LazyLock::new(|| {
 const TABLE: u32 = everyday_or_full(5, 16);
 
 fn run(seed: u32, less: Less, tool: bool) -> Outcome {
-    Trial::drawn(seed, less, tool).run(Seen::default()).expect("a law and dynamics")
+    Guidance::drawn(seed, less, tool).run(|_, _| ()).expect("a law and dynamics")
 }
 
 fn median(mut of: Vec<f32>) -> f32 {
@@ -37,8 +38,7 @@ fn most(of: impl Iterator<Item = f32>) -> f32 {
 /// The outcomes of the full law and of gravity compensation alone, in each run; every other one
 /// with the tool.
 static PAIRS: LazyLock<Vec<[Outcome; 2]>> = LazyLock::new(|| {
-    let pair =
-        |seed| [Less::Nothing, Less::AllButGravity].map(|less| run(seed, less, seed % 2 == 1));
+    let pair = |seed| [Less::NOTHING, ALL_BUT_GRAVITY].map(|less| run(seed, less, seed % 2 == 1));
     (0..*RUNS).map(pair).collect()
 });
 
@@ -95,13 +95,13 @@ fn push_and_dither_keep_to_their_energy() {
 
 #[test]
 fn each_part_is_worth_something() {
-    let laws =
-        [Less::Nothing, Less::Gravity, Less::Tool, Less::Friction, Less::Gears, Less::Breakaway];
+    let laws = [Less::NOTHING, GRAVITY, PAYLOAD, FRICTION, GEAR_FRICTION, PUSH_AND_DITHER];
     let [all, gravity, tool, friction, gears, breakaway] = laws.map(|less| {
         let runs: Vec<_> = (0..TABLE).map(|seed| run(seed, less, true)).collect();
         let figures: [fn(&Outcome) -> f32; 3] = [|o| 1e3 * o.drift, |o| o.start, |o| o.drag];
         let of = figures.map(|of| median(runs.iter().map(of).collect())); // those out of bounds, too
-        println!("without {less:?}: drift, mm, start and way, N {of:.2?}");
+        let name = less.name(Guidance::TERMS, "the law").concat();
+        println!("{name}: drift, mm, start and way, N {of:.2?}");
         of
     });
     assert!(gravity[0] > 100.0 && tool[0] > 10.0 * all[0], "{gravity:?} {tool:?}");
@@ -112,8 +112,8 @@ fn each_part_is_worth_something() {
 
 #[test]
 fn a_tool_is_picked_up_without_a_step() {
-    let trial = |less| Trial::of_scene(less, PlantModel::Mismatched, Holds::PickedUp);
-    let [told, untold] = [Less::Nothing, Less::Tool].map(trial);
+    let trial = |less| Guidance::of_scene(less, PlantModel::Mismatched);
+    let [told, untold] = [Less::NOTHING, PAYLOAD].map(trial);
     let law = FreeDrive::new(guiding().expect("a law"), breakaway()).expect("a law");
     let torques = |ticks| {
         law.tool.set(borne(TOOL, ticks as f32 / CLOSING as f32));
@@ -125,7 +125,7 @@ fn a_tool_is_picked_up_without_a_step() {
         let [from, to] = [tick, tick + 1].map(torques);
         (0..7).map(move |i| (to[i] - from[i]).abs())
     }));
-    let [told, untold] = [told, untold].map(|trial| trial.run(Seen::default()).expect("dynamics"));
+    let [told, untold] = [told, untold].map(|trial| trial.run(|_, _| ()).expect("dynamics"));
     println!(
         "{weight:.2} N·m in steps of {step:.4}; drift {:.3} mm, {:.0} without the payload",
         1e3 * told.drift,
@@ -133,6 +133,9 @@ fn a_tool_is_picked_up_without_a_step() {
     );
     // A dither changes by some 0.2 N·m from tick to tick.
     assert!(weight > 2.0 && step <= 0.05, "{weight} {step}");
-    assert!(told.drift <= BOUND && !told.fault() && untold.drift > 0.1, "{told:?} {untold:?}");
+    assert!(
+        told.drift <= Guidance::BOUND && !told.fault() && untold.drift > 0.1,
+        "{told:?} {untold:?}"
+    );
     assert!(told.again < 2.0 * told.start, "{told:?}");
 }

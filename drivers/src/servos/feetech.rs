@@ -28,7 +28,7 @@ use crate::{
     MultiTurnEncoder,
 };
 
-#[cfg(any(test, feature = "async"))]
+#[cfg(feature = "async")]
 mod asynch;
 mod error;
 mod packet;

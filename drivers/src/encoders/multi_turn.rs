@@ -15,7 +15,7 @@ const CIRCLE: u32 = LOST - 1;
 
 /// The count before a reading.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Before(i32);
+pub(crate) struct PreviousCount(i32);
 
 /// The position of a joint from an absolute encoder of BITS bits (1 to 16), turns included.
 ///
@@ -91,12 +91,12 @@ impl<const BITS: u32> MultiTurnEncoder<BITS> {
     /// Takes a reading, and returns what was before it, and 0 if it follows that: then it needs no
     /// [`Self::examine`].
     #[inline(always)]
-    pub(crate) fn follow(&mut self, raw: u16) -> (Before, u32) {
+    pub(crate) fn follow(&mut self, raw: u16) -> (PreviousCount, u32) {
         let (before, missing) = (self.halves, self.missing);
         // Shifting out the turns leaves the difference modulo one turn, with its sign.
         let apart = (i32::from(raw) << 1).wrapping_sub(before);
         self.halves = before.wrapping_add(Self::within(apart));
-        (Before(before), missing)
+        (PreviousCount(before), missing)
     }
 
     /// Whether each reading says by itself where the joint is.
@@ -105,7 +105,7 @@ impl<const BITS: u32> MultiTurnEncoder<BITS> {
     }
 
     /// Takes back a reading that is none.
-    pub(crate) fn back(&mut self, before: Before) {
+    pub(crate) fn back(&mut self, before: PreviousCount) {
         self.halves = before.0;
     }
 

@@ -1,6 +1,5 @@
 //! Gaps in the readings of encoders whose count wraps.
 
-use std::boxed::Box;
 use std::rc::Rc;
 
 use motion_control::Fault;

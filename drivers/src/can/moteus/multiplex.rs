@@ -2,7 +2,7 @@
 //! of `docs/protocol/registers.md`.
 
 use super::{FAULT, MODE, POSITION, TORQUE, VELOCITY};
-use crate::can::CanError;
+use crate::can::frame::CanError;
 
 /// The subframe that is one byte of padding.
 pub(super) const NOP: u8 = 0x50;

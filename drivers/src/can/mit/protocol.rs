@@ -2,7 +2,7 @@
 
 use embedded_can::{Frame, Id, StandardId};
 
-use crate::can::{self, CanError};
+use crate::can::frame::{self, CanError};
 
 /// The protocol of a maker, with the identity of one drive.
 pub trait Protocol: Sized {
@@ -126,7 +126,7 @@ pub(super) fn is_standard(id: Id, own: u16) -> bool {
 
 /// A frame with an identifier of 11 bits.
 pub(super) fn standard<F: Frame>(id: u16, data: &[u8; 8]) -> Result<F, CanError> {
-    can::frame(StandardId::new(id).ok_or(CanError::Node)?, data)
+    frame::frame(StandardId::new(id).ok_or(CanError::Node)?, data)
 }
 
 /// 16, 12 and 12 bits, the high ones first.

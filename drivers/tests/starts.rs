@@ -5,19 +5,22 @@ use core::cell::Cell;
 use core::convert::Infallible;
 use core::f64::consts::TAU;
 use std::collections::VecDeque;
-use std::vec::Vec;
 
 use embedded_can::{ExtendedId, Frame, StandardId};
 
-use super::as5047p::As5047p;
-use super::as5600::As5600;
-use super::asynch::ready;
-use super::can::FdFrame;
-use super::feetech::{FeetechError, Servos};
-use super::incremental::{IncrementalEncoder, IncrementalError};
-use super::moteus::Moteus;
-use super::odrive::{ODrive, Reply};
-use super::*;
+use joint_drivers::as5047p::As5047p;
+use joint_drivers::as5600::As5600;
+use joint_drivers::can::FdFrame;
+use joint_drivers::feetech::{FeetechError, Servos};
+use joint_drivers::incremental::{IncrementalEncoder, IncrementalError};
+use joint_drivers::moteus::Moteus;
+use joint_drivers::odrive::{ODrive, Reply};
+use joint_drivers::{
+    Direction, EncoderMapping, EncoderType, JointMapping, JointRange, MappingError,
+    MultiTurnEncoder, Resolution,
+};
+
+use super::ready;
 
 mod devices;
 mod gaps;

@@ -9,95 +9,13 @@ use embedded_can::{Error as _, ErrorKind};
 use motion_control::PreviousTick;
 use nb::Error::{Other, WouldBlock};
 
-use crate::can::CanError;
-use crate::mit::protocol::Protocol;
-use crate::mit::robstride::RobStrideMit;
-use crate::mit::{Drive, SetpointAt};
-use crate::odrive::{AxisState, Reply};
-use crate::{EncoderType, JointDrives, JointEncoders, JointError, PdDrives, moteus, odrive};
-
-/// A motor controller on CAN that measures its joint and takes torques.
-pub trait CanJoint {
-    /// The frame of a torque, N·m or N at the joint; that of zero torque for NaN.
-    ///
-    /// # Errors
-    /// [`CanError::Length`].
-    fn command<F: embedded_can::Frame>(&self, torque: f32) -> Result<F, CanError>;
-
-    /// The joint's values from a frame.
-    ///
-    /// # Errors
-    /// [`CanError::Identifier`] for a frame of another joint; else the frame is wrong.
-    fn report<F: embedded_can::Frame>(&mut self, frame: &F) -> Result<Report, CanError>;
-
-    /// Takes a frame that is no joint's report, and returns whether it is one of this joint: the
-    /// value of a register.
-    fn learn<F: embedded_can::Frame>(&mut self, frame: &F) -> bool {
-        let _ = frame;
-        false
-    }
-}
-
-/// A motor controller on CAN with a spring and a damper of its own: [`crate::mit::Drive`].
-pub trait PdCanJoint: CanJoint {
-    /// The frame of a spring, a damper and the torque that makes their sum that of the setpoint.
-    ///
-    /// # Errors
-    /// [`CanError::Length`].
-    fn pd_command<F: embedded_can::Frame>(&self, setpoint: &SetpointAt) -> Result<F, CanError>;
-}
-
-/// A joint's values from a frame.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Report {
-    /// The joint's position, rad or m.
-    pub position: Option<f32>,
-    /// Whether the controller delivers torques, or why it does not: [`CanError::NotReady`],
-    /// [`CanError::Fault`] and others.
-    pub delivers: Option<Result<(), CanError>>,
-}
-
-impl CanJoint for moteus::Moteus {
-    fn command<F: embedded_can::Frame>(&self, torque: f32) -> Result<F, CanError> {
-        self.set_torque(torque)
-    }
-
-    fn report<F: embedded_can::Frame>(&mut self, frame: &F) -> Result<Report, CanError> {
-        let state = self.reply(frame)?;
-        Ok(Report {
-            position: Some(state.position),
-            delivers: Some(match state.mode {
-                moteus::Mode::Position => Ok(()),
-                moteus::Mode::Fault => Err(CanError::Fault(state.fault.into())),
-                _ => Err(CanError::NotReady),
-            }),
-        })
-    }
-}
-
-/// The axis is to send its estimates and its heartbeat by itself, at least once a tick and in its
-/// ride-through.
-impl CanJoint for odrive::ODrive {
-    fn command<F: embedded_can::Frame>(&self, torque: f32) -> Result<F, CanError> {
-        self.set_torque(torque)
-    }
-
-    fn report<F: embedded_can::Frame>(&mut self, frame: &F) -> Result<Report, CanError> {
-        let (mut position, mut delivers) = (None, None);
-        match self.reply(frame)? {
-            Reply::Estimates { position: at, .. } => position = Some(at),
-            Reply::Heartbeat { errors, state } => {
-                delivers = Some(match state {
-                    _ if errors != 0 => Err(CanError::Fault(errors)),
-                    AxisState::ClosedLoopControl => Ok(()),
-                    _ => Err(CanError::NotReady),
-                });
-            }
-            Reply::Torques { .. } => {}
-        }
-        Ok(Report { position, delivers })
-    }
-}
+use super::frame::CanError;
+use super::joint::{CanJoint, PdCanJoint};
+use super::mit::Drive;
+use super::mit::protocol::Protocol;
+use super::mit::robstride::RobStrideMit;
+use crate::drives::pd::{PdDrives, SetpointAt};
+use crate::joint::{EncoderType, JointDrives, JointEncoders, JointError};
 
 /// The joints on one bus. A [`ControlLoop`](crate::ControlLoop) takes a reference to it twice, as
 /// its encoders and its drives.
@@ -138,10 +56,10 @@ impl CanJoint for odrive::ODrive {
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
 #[derive(Debug)]
-pub struct CanJoints<Bus, Joint, const V: usize>(RefCell<State<Bus, Joint, V>>);
+pub struct CanJoints<Bus, Joint, const V: usize>(RefCell<Network<Bus, Joint, V>>);
 
 #[derive(Debug)]
-struct State<Bus, Joint, const V: usize> {
+struct Network<Bus, Joint, const V: usize> {
     bus: Bus,
     joints: [Joint; V],
     /// Why there is none: nothing has come since the last tick, or what has.
@@ -155,7 +73,7 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> CanJoints<Bus, Joint, V> {
     /// The joints, of which none has reported yet.
     pub const fn new(bus: Bus, joints: [Joint; V]) -> Self {
         let (positions, delivers) = ([Err(CanError::NoReply); V], [Ok(()); V]);
-        Self(RefCell::new(State { bus, joints, positions, delivers, next: 0 }))
+        Self(RefCell::new(Network { bus, joints, positions, delivers, next: 0 }))
     }
 
     /// Returns the bus to its owner.
@@ -265,7 +183,7 @@ impl<Bus: Can, Joint: CanJoint + AsRef<RobStrideMit>, const V: usize> CanJoints<
     }
 }
 
-impl<Bus: Can, Joint: CanJoint, const V: usize> State<Bus, Joint, V> {
+impl<Bus: Can, Joint: CanJoint, const V: usize> Network<Bus, Joint, V> {
     /// Takes the frames that have come: no more than four of each joint, so that a bus that is busy
     /// ends the tick.
     fn receive(&mut self) -> Result<(), CanError> {

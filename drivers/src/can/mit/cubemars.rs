@@ -28,7 +28,7 @@ use embedded_can::Frame;
 
 use super::protocol::{self, Feedback, Protocol};
 use super::{Drive, Scale};
-use crate::can::{CanError, Part};
+use crate::can::frame::{CanError, Component};
 
 /// ±50 rad/s, ±65 N·m.
 pub const AK10_9: Scale = scale(50.0, 65.0);
@@ -92,12 +92,12 @@ impl Protocol for Identity {
         let [.., temperature, error] = rest;
         let status = match error {
             0 => Ok(()),
-            1 => Err(CanError::OverTemperature(Part::Motor)),
+            1 => Err(CanError::OverTemperature(Component::Motor)),
             2 => Err(CanError::OverCurrent),
             3 => Err(CanError::OverVoltage),
             4 => Err(CanError::UnderVoltage),
             5 => Err(CanError::Encoder),
-            6 => Err(CanError::OverTemperature(Part::Drive)),
+            6 => Err(CanError::OverTemperature(Component::Drive)),
             7 => Err(CanError::Overload),
             other => Err(CanError::Fault(other.into())),
         };

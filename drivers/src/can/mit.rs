@@ -41,8 +41,8 @@ use core::f32::consts::TAU;
 
 use embedded_can::Frame;
 
-use crate::can::{self, CanError};
-use crate::can_joints::{CanJoint, PdCanJoint, Report};
+use super::frame::{self, CanError};
+use super::joint::{CanJoint, PdCanJoint, Report};
 use crate::encoder_mapping::within_turn;
 use crate::{EncoderMapping, MappingError};
 
@@ -51,6 +51,7 @@ pub mod damiao;
 pub(crate) mod protocol;
 pub mod robstride;
 
+pub use crate::drives::pd::{Setpoint, SetpointAt};
 use protocol::{Counts, Feedback, Protocol, Special};
 
 /// The greatest quantities that the counts of a drive stand for, at its output shaft.
@@ -75,55 +76,6 @@ pub struct Scale {
     pub kd: f32,
 }
 
-/// A spring, a damper and a torque, at the joint.
-///
-/// ```
-/// use joint_drivers::mit::Setpoint;
-/// // Only a torque: both gains are zero.
-/// let torque = Setpoint { torque: 2.0, ..Setpoint::default() };
-/// assert_eq!((torque.kp, torque.kd), (0.0, 0.0));
-/// ```
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Setpoint {
-    /// q_d, rad.
-    pub position: f32,
-    /// q̇_d, rad/s.
-    pub velocity: f32,
-    /// K_p, N·m/rad.
-    pub kp: f32,
-    /// K_d, N·m·s/rad.
-    pub kd: f32,
-    /// The torque, N·m.
-    pub torque: f32,
-}
-
-/// A setpoint whose torque is the sum of all three at a measured state: [`Drive::command_at`].
-///
-/// ```
-/// use joint_drivers::mit::{Setpoint, SetpointAt};
-/// let sum = Setpoint { position: 1.0, kp: 50.0, torque: 2.0, ..Setpoint::default() };
-/// // The spring has 50 × 0.1 N·m at 0.9 rad: −3 N·m are left for the feed-forward.
-/// let at = SetpointAt { sum, position: 0.9, velocity: 0.0 };
-/// assert!((at.feedforward() + 3.0).abs() < 1e-5);
-/// ```
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct SetpointAt {
-    /// The spring and the damper, and the torque of the sum.
-    pub sum: Setpoint,
-    /// q, rad.
-    pub position: f32,
-    /// q̇, rad/s.
-    pub velocity: f32,
-}
-
-impl SetpointAt {
-    /// The torque that the spring and the damper leave, N·m: τ − K_p (q_d − q) − K_d (q̇_d − q̇).
-    pub fn feedforward(&self) -> f32 {
-        let Setpoint { position, velocity, kp, kd, torque } = self.sum;
-        torque - kp * (position - self.position) - kd * (velocity - self.velocity)
-    }
-}
-
 /// The state of a drive, mapped to the joint.
 ///
 /// ```
@@ -139,7 +91,7 @@ impl SetpointAt {
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct State {
+pub struct DriveState {
     /// The position of the joint, rad.
     pub position: f32,
     /// The velocity of the joint, rad/s.
@@ -171,7 +123,7 @@ pub struct State {
 #[non_exhaustive]
 pub enum Reply {
     /// The feedback.
-    State(State),
+    State(DriveState),
     /// The faults alone.
     Status(Result<(), CanError>),
 }
@@ -202,19 +154,19 @@ pub struct Drive<P> {
     most: f32,
     mapping: EncoderMapping,
     /// The turns that the drive's count lacks.
-    whole: Option<f32>,
+    turn_offset: Option<f32>,
     /// The whole scales that the count lacks, of this many rad, and the last reply.
-    scales: f32,
+    wraps: f32,
     period: f32,
-    last: Option<Last>,
+    last: Option<Place>,
     /// How many registers of the scale are right, and whether the next one is not.
-    right: u8,
-    wrong: bool,
+    scales_checked: u8,
+    scale_differs: bool,
 }
 
 /// The place of the joint in the last reply.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Last {
+struct Place {
     /// rad or m at the joint.
     joint: f32,
     /// rad at the shaft, without and with the whole scales.
@@ -240,15 +192,27 @@ impl<P: Protocol> Drive<P> {
     ) -> Result<Self, CanError> {
         let protocol = P::new(id, host)?;
         let axes = Axes::new(&scale, P::TOP)?;
-        can::check_most(most, mapping.mapping())?;
+        frame::check_most(most, mapping.mapping())?;
         let at_shaft = mapping.mapping().shaft_torque(most).map_err(not_finite)?;
         // As much as rounding makes of a limit that is the scale's own.
         if at_shaft.abs() > scale.torque * (1.0 + 4.0 * f32::EPSILON) {
             return Err(CanError::Torque);
         }
         let period = P::PERIOD.unwrap_or(2.0 * scale.position);
-        let (whole, scales, last, right, wrong) = (None, 0.0, None, 0, false);
-        Ok(Self { protocol, axes, most, mapping, whole, scales, period, last, right, wrong })
+        let (turn_offset, wraps, last) = (None, 0.0, None);
+        let (scales_checked, scale_differs) = (0, false);
+        Ok(Self {
+            protocol,
+            axes,
+            most,
+            mapping,
+            turn_offset,
+            wraps,
+            period,
+            last,
+            scales_checked,
+            scale_differs,
+        })
     }
 
     /// Takes the joint to be at `position` rad or m: the next reply is within half a turn of the
@@ -258,7 +222,7 @@ impl<P: Protocol> Drive<P> {
     /// [`MappingError::Range`]; nothing is changed.
     pub fn place_near(&mut self, position: f32) -> Result<(), MappingError> {
         self.mapping = self.mapping.moved_near(position)?;
-        self.whole = None;
+        self.turn_offset = None;
         Ok(())
     }
 
@@ -359,7 +323,7 @@ impl<P: Protocol> Drive<P> {
         let torque = mapping.torque(self.axes.torque.value(torque)).map_err(not_finite)?;
         let (motor_temperature, drive_temperature, status) = feedback;
         let state =
-            State { position, velocity, torque, motor_temperature, drive_temperature, status };
+            DriveState { position, velocity, torque, motor_temperature, drive_temperature, status };
         Ok(Reply::State(state))
     }
 
@@ -378,8 +342,11 @@ impl<P: Protocol> Drive<P> {
     /// The next register of the scale to be asked for, with the reason.
     pub(crate) fn scale(&self) -> Result<(), (u8, CanError)> {
         let registers = P::SCALES.as_ref().map_or(&[][..], |registers| registers);
-        let Some(&next) = registers.get(usize::from(self.right)) else { return Ok(()) };
-        Err((next, if self.wrong { CanError::Scale(next) } else { CanError::Missing(next.into()) }))
+        let Some(&next) = registers.get(usize::from(self.scales_checked)) else { return Ok(()) };
+        Err((
+            next,
+            if self.scale_differs { CanError::Scale(next) } else { CanError::Missing(next.into()) },
+        ))
     }
 
     pub(crate) fn query<F: Frame>(&self, register: u8) -> Result<F, CanError> {
@@ -395,21 +362,21 @@ impl<P: Protocol> Drive<P> {
         let count = self.axes.position.value(count);
         let half = 0.5 * self.period;
         let scales = match self.last {
-            Some(last) if count - last.count > half => self.scales - 1.0,
-            Some(last) if count - last.count < -half => self.scales + 1.0,
-            _ => self.scales,
+            Some(last) if count - last.count > half => self.wraps - 1.0,
+            Some(last) if count - last.count < -half => self.wraps + 1.0,
+            _ => self.wraps,
         };
         let shaft = count + scales * self.period;
-        let joint = self.mapping.position_at(shaft * (1.0 / TAU), &mut self.whole);
+        let joint = self.mapping.position_at(shaft * (1.0 / TAU), &mut self.turn_offset);
         let joint = joint.map_err(not_finite)?;
-        self.scales = scales;
-        self.last = Some(Last { joint, count, shaft });
+        self.wraps = scales;
+        self.last = Some(Place { joint, count, shaft });
         Ok(joint)
     }
 
     /// The counts of a torque with zero gains.
     fn torque_alone(&self, torque: f32) -> Result<Counts, CanError> {
-        let torque = can::limit(torque, self.most);
+        let torque = frame::limit(torque, self.most);
         let at_shaft = self.mapping.mapping().shaft_torque(torque).map_err(not_finite)?;
         Ok(Counts {
             position: const { above_half(u16::MAX) },
@@ -451,7 +418,7 @@ impl<P: Protocol> Drive<P> {
     fn complete(&self, counts: Counts, setpoint: &SetpointAt) -> Option<Counts> {
         let Axes { position, velocity, torque, kp, kd } = &self.axes;
         let mapping = self.mapping.mapping();
-        let sum = mapping.shaft_torque(can::limit(setpoint.sum.torque, self.most)).ok()?;
+        let sum = mapping.shaft_torque(frame::limit(setpoint.sum.torque, self.most)).ok()?;
         let left = SetpointAt {
             sum: Setpoint {
                 position: position.value(counts.position),
@@ -506,8 +473,8 @@ impl<P: Protocol> CanJoint for Drive<P> {
             (self.scale(), checked)
             && next == register
         {
-            self.wrong = checked.is_err();
-            self.right += u8::from(!self.wrong);
+            self.scale_differs = checked.is_err();
+            self.scales_checked += u8::from(!self.scale_differs);
         }
         matches!(checked, Ok(_) | Err(CanError::Scale(_) | CanError::Missing(_)))
     }
@@ -553,7 +520,7 @@ impl Axis {
     fn count(&self, quantity: f32) -> u16 {
         // Within the range of u16: the conversion to u32 alone saturates in hardware, and makes zero
         // of what is below it.
-        (can::limit(quantity, self.most) * self.per_unit + (self.zero + 0.5)) as u32 as u16
+        (frame::limit(quantity, self.most) * self.per_unit + (self.zero + 0.5)) as u32 as u16
     }
 
     fn value(&self, count: u16) -> f32 {

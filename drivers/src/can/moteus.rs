@@ -19,7 +19,8 @@ use core::f32::consts::TAU;
 
 use embedded_can::{ExtendedId, Frame};
 
-use crate::can::{self, CanError};
+use super::frame::{self, CanError};
+use super::joint::{CanJoint, Report};
 use crate::{EncoderMapping, MappingError};
 
 mod multiplex;
@@ -40,7 +41,7 @@ const QUERY: [u8; 6] = [0x11, 0x00, 0x1f, 0x01, 0x11, 0x0f];
 pub enum Mode {
     /// No power to the motor; faults are cleared.
     Stopped,
-    /// No power to the motor until it was stopped, because of [`State::fault`].
+    /// No power to the motor until it was stopped, because of [`ControllerState::fault`].
     Fault,
     /// The mode in which torque is commanded.
     Position,
@@ -52,7 +53,7 @@ pub enum Mode {
 
 /// The reply of a controller, mapped to the joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct State {
+pub struct ControllerState {
     /// The mode of the controller.
     pub mode: Mode,
     /// The position of the joint, rad.
@@ -102,7 +103,7 @@ impl Moteus {
         if id == 0 || id > 127 || host > 127 {
             return Err(CanError::Node);
         }
-        can::check_most(most, mapping.mapping())?;
+        frame::check_most(most, mapping.mapping())?;
         Ok(Self { id, host, most, mapping, whole: None })
     }
 
@@ -128,7 +129,7 @@ impl Moteus {
     /// # Errors
     /// [`CanError::Length`]: the frame type is not CAN FD.
     pub fn set_torque<F: Frame>(&self, torque: f32) -> Result<F, CanError> {
-        let torque = can::limit(torque, self.most);
+        let torque = frame::limit(torque, self.most);
         let at_shaft = self.mapping.mapping().shaft_torque(torque);
         let [t0, t1, t2, t3] = at_shaft.map_err(|_| CanError::NotFinite)?.to_le_bytes();
         let [q0, q1, q2, q3, q4, q5] = QUERY;
@@ -170,8 +171,8 @@ impl Moteus {
     /// # Errors
     /// [`CanError`]: another node or host, a remote frame, a frame that is short or has an unknown
     /// subframe, a register that was refused or is missing, a quantity that is not finite.
-    pub fn reply<F: Frame>(&mut self, frame: &F) -> Result<State, CanError> {
-        if can::raw(frame.id()) != u32::from(self.id) << 8 | u32::from(self.host) {
+    pub fn reply<F: Frame>(&mut self, frame: &F) -> Result<ControllerState, CanError> {
+        if frame::raw(frame.id()) != u32::from(self.id) << 8 | u32::from(self.host) {
             return Err(CanError::Identifier);
         }
         if frame.is_remote_frame() {
@@ -180,7 +181,7 @@ impl Moteus {
         self.state(&Registers::of_reply(frame.data())?)
     }
 
-    fn state(&mut self, registers: &Registers) -> Result<State, CanError> {
+    fn state(&mut self, registers: &Registers) -> Result<ControllerState, CanError> {
         let not_finite = |_| CanError::NotFinite;
         let of = |value: Option<f32>, register| value.ok_or(CanError::Missing(register));
         let turns = of(registers.position, POSITION)?;
@@ -195,7 +196,7 @@ impl Moteus {
         };
         let position = self.mapping.position_at(turns, &mut self.whole);
         let mapping = self.mapping.mapping();
-        Ok(State {
+        Ok(ControllerState {
             mode,
             position: position.map_err(not_finite)?,
             velocity: mapping.velocity(per_second * TAU).map_err(not_finite)?,
@@ -207,7 +208,25 @@ impl Moteus {
     /// A frame to the controller that requests a reply.
     fn frame<F: Frame>(&self, data: &[u8]) -> Result<F, CanError> {
         let id = 0x8000 | u32::from(self.host) << 8 | u32::from(self.id);
-        can::frame(ExtendedId::new(id).ok_or(CanError::Node)?, data)
+        frame::frame(ExtendedId::new(id).ok_or(CanError::Node)?, data)
+    }
+}
+
+impl CanJoint for Moteus {
+    fn command<F: Frame>(&self, torque: f32) -> Result<F, CanError> {
+        self.set_torque(torque)
+    }
+
+    fn report<F: Frame>(&mut self, frame: &F) -> Result<Report, CanError> {
+        let state = self.reply(frame)?;
+        Ok(Report {
+            position: Some(state.position),
+            delivers: Some(match state.mode {
+                Mode::Position => Ok(()),
+                Mode::Fault => Err(CanError::Fault(state.fault.into())),
+                _ => Err(CanError::NotReady),
+            }),
+        })
     }
 }
 

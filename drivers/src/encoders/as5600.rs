@@ -18,7 +18,8 @@ use core::fmt;
 use embedded_hal::i2c::{Error, ErrorKind, I2c};
 use motion_control::{CurrentTick, Fault};
 
-use crate::{EncoderMapping, EncoderType, JointEncoder, LostTurn, MappingError, MultiTurnEncoder};
+use super::multi_turn::MultiTurnEncoder;
+use crate::{EncoderMapping, EncoderType, JointEncoder, LostTurn, MappingError};
 
 /// The 7-bit address of the device, which cannot be changed.
 pub const ADDRESS: u8 = 0x36;

@@ -13,8 +13,56 @@
 use dynamics_core::state::State;
 use motion_control::{Estimate, Gains};
 
-use crate::mit::{Setpoint, SetpointAt};
-use crate::{JointDrives, JointError};
+use crate::joint::{JointDrives, JointError};
+
+/// A spring, a damper and a torque, at the joint.
+///
+/// ```
+/// use joint_drivers::mit::Setpoint;
+/// // Only a torque: both gains are zero.
+/// let torque = Setpoint { torque: 2.0, ..Setpoint::default() };
+/// assert_eq!((torque.kp, torque.kd), (0.0, 0.0));
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Setpoint {
+    /// q_d, rad.
+    pub position: f32,
+    /// q̇_d, rad/s.
+    pub velocity: f32,
+    /// K_p, N·m/rad.
+    pub kp: f32,
+    /// K_d, N·m·s/rad.
+    pub kd: f32,
+    /// The torque, N·m.
+    pub torque: f32,
+}
+
+/// A setpoint whose torque is the sum of all three at a measured state: [`Drive::command_at`](crate::mit::Drive::command_at).
+///
+/// ```
+/// use joint_drivers::mit::{Setpoint, SetpointAt};
+/// let sum = Setpoint { position: 1.0, kp: 50.0, torque: 2.0, ..Setpoint::default() };
+/// // The spring has 50 × 0.1 N·m at 0.9 rad: −3 N·m are left for the feed-forward.
+/// let at = SetpointAt { sum, position: 0.9, velocity: 0.0 };
+/// assert!((at.feedforward() + 3.0).abs() < 1e-5);
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SetpointAt {
+    /// The spring and the damper, and the torque of the sum.
+    pub sum: Setpoint,
+    /// q, rad.
+    pub position: f32,
+    /// q̇, rad/s.
+    pub velocity: f32,
+}
+
+impl SetpointAt {
+    /// The torque that the spring and the damper leave, N·m: τ − K_p (q_d − q) − K_d (q̇_d − q̇).
+    pub fn feedforward(&self) -> f32 {
+        let Setpoint { position, velocity, kp, kd, torque } = self.sum;
+        torque - kp * (position - self.position) - kd * (velocity - self.velocity)
+    }
+}
 
 /// Drives of the `V` joints of a robot that have a spring and a damper of their own.
 ///

@@ -5,8 +5,9 @@ use std::rc::Rc;
 use embedded_hal::{i2c, spi};
 use embedded_io::ErrorType;
 
+use joint_drivers::as5047p::encode;
+
 use super::*;
-use crate::as5047p::encode;
 
 /// A count that a device reads while a test sets it.
 pub(super) type Count = Rc<Cell<u16>>;
@@ -18,6 +19,9 @@ pub(super) fn count(count: u16) -> Count {
 /// An AS5047P or an AS5600 whose magnet is at a count; without an answer at `GONE`.
 #[derive(Debug)]
 pub(super) struct Magnet(pub Count);
+
+/// The register of an AS5600 that says whether its magnet is well placed.
+const STATUS: u8 = 0x0b;
 
 /// The count of an encoder that does not answer.
 pub(super) const GONE: u16 = u16::MAX;
@@ -59,7 +63,7 @@ impl i2c::I2c for Magnet {
         for operation in all {
             match operation {
                 i2c::Operation::Write(bytes) => register = bytes[0],
-                i2c::Operation::Read(into) if register == as5600::STATUS => into[0] = 0x20,
+                i2c::Operation::Read(into) if register == STATUS => into[0] = 0x20,
                 i2c::Operation::Read(into) => into.copy_from_slice(&self.0.get().to_be_bytes()),
             }
         }

@@ -36,7 +36,7 @@ use embedded_can::{ExtendedId, Frame, Id};
 
 use super::protocol::{self, Counts, Feedback, Protocol, Special};
 use super::{Drive, Scale};
-use crate::can::{self, CanError, Part};
+use crate::can::frame::{self, CanError, Component};
 
 /// ±33 rad/s, ±14 N·m, gains to 500 and 5.
 pub const RS00: Scale = small(33.0, 14.0);
@@ -87,7 +87,7 @@ const PERIOD: Option<f32> = Some(8.0 * core::f32::consts::PI);
 /// assert_eq!(command.data(), [0x80, 0, 0x80, 0, 0, 0, 0, 0]);
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
-pub type RobStride = Drive<Own>;
+pub type RobStride = Drive<NativeProtocol>;
 
 /// A RobStride drive in MIT mode.
 ///
@@ -102,12 +102,12 @@ pub type RobStride = Drive<Own>;
 /// assert_eq!(command.data(), [0x80, 0, 0x80, 0, 0, 0, 0x0f, 0xff]);
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
-pub type RobStrideMit = Drive<Mit>;
+pub type RobStrideMit = Drive<MitProtocol>;
 
 /// The identifiers of a RobStride drive in its own protocol.
 #[doc(hidden)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Own {
+pub struct NativeProtocol {
     id: u8,
     host: u8,
 }
@@ -115,7 +115,7 @@ pub struct Own {
 /// The identifiers of a RobStride drive in MIT mode.
 #[doc(hidden)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Mit {
+pub struct MitProtocol {
     id: u8,
     host: u8,
 }
@@ -129,7 +129,7 @@ fn identity(id: u8, host: u16) -> Result<(u8, u8), CanError> {
 /// The first of the faults whose bits are set in a word.
 fn fault_of(word: u32) -> Result<(), CanError> {
     const FAULTS: [(u32, CanError); 6] = [
-        (1 << 0, CanError::OverTemperature(Part::Motor)),
+        (1 << 0, CanError::OverTemperature(Component::Motor)),
         (1 << 16 | 1 << 5 | 1 << 4, CanError::OverCurrent),
         (1 << 3, CanError::OverVoltage),
         (1 << 2, CanError::UnderVoltage),
@@ -152,17 +152,17 @@ fn celsius(high: u8, low: u8) -> Option<f32> {
     Some(f32::from(i16::from_be_bytes([high, low])) * 0.1)
 }
 
-impl Own {
+impl NativeProtocol {
     /// A message of this type, with 16 bits in the identifier.
     fn frame<F: Frame>(&self, kind: u32, middle: u16, data: &[u8; 8]) -> Result<F, CanError> {
         let id = kind << 24 | u32::from(middle) << 8 | u32::from(self.id);
-        can::frame(ExtendedId::new(id).ok_or(CanError::Node)?, data)
+        frame::frame(ExtendedId::new(id).ok_or(CanError::Node)?, data)
     }
 
     /// The faults in bits 21 to 16, and the mode in bits 23 and 22 of an identifier.
     fn status(raw: u32) -> Result<(), CanError> {
         const FAULTS: [(u32, CanError); 5] = [
-            (1 << 2, CanError::OverTemperature(Part::Motor)),
+            (1 << 2, CanError::OverTemperature(Component::Motor)),
             (1 << 1, CanError::OverCurrent),
             (1 << 0, CanError::UnderVoltage),
             (1 << 5 | 1 << 3, CanError::Encoder),
@@ -173,7 +173,7 @@ impl Own {
     }
 }
 
-impl Protocol for Own {
+impl Protocol for NativeProtocol {
     const TOP: u16 = u16::MAX;
     const PERIOD: Option<f32> = PERIOD;
 
@@ -203,7 +203,7 @@ impl Protocol for Own {
     }
 
     fn decode<F: Frame>(&self, frame: &F) -> Result<Feedback, CanError> {
-        let raw = can::raw(frame.id());
+        let raw = frame::raw(frame.id());
         let kind = raw >> 24;
         let of_us = u32::from(self.id) << 8 | u32::from(self.host);
         let is_own = matches!(frame.id(), Id::Extended(_))
@@ -233,7 +233,7 @@ impl RobStrideMit {
     }
 }
 
-impl Protocol for Mit {
+impl Protocol for MitProtocol {
     const PERIOD: Option<f32> = PERIOD;
 
     fn new(id: u8, host: u16) -> Result<Self, CanError> {

@@ -16,8 +16,8 @@ use core::fmt;
 use embedded_hal::spi::{Error, ErrorKind, SpiDevice};
 use motion_control::{Fault, PreviousTick};
 
-use crate::multi_turn::Before;
-use crate::{EncoderMapping, EncoderType, JointEncoder, LostTurn, MappingError, MultiTurnEncoder};
+use super::multi_turn::{MultiTurnEncoder, PreviousCount};
+use crate::{EncoderMapping, EncoderType, JointEncoder, LostTurn, MappingError};
 
 /// The number of counts in a turn of the shaft.
 pub const COUNTS: u16 = 1 << BITS;
@@ -118,7 +118,7 @@ impl<Spi> As5047p<Spi> {
         &mut self,
         sent: &Result<(), E>,
         frame: [u8; 2],
-    ) -> Result<(), Before> {
+    ) -> Result<(), PreviousCount> {
         let frame = u16::from_be_bytes(frame);
         // It is taken before it is examined: one branch for all checks, and both loads side by
         // side.
@@ -134,7 +134,7 @@ impl<Spi> As5047p<Spi> {
         &mut self,
         sent: Result<(), E>,
         frame: [u8; 2],
-        before: Before,
+        before: PreviousCount,
     ) -> Result<(), FrameError> {
         self.turns.back(before);
         let sent = sent.map_err(|error| FrameError::Bus(error.kind()));
@@ -187,7 +187,7 @@ impl<Spi: SpiDevice> As5047p<Spi> {
         &mut self,
         sent: Result<(), Spi::Error>,
         frame: [u8; 2],
-        before: Before,
+        before: PreviousCount,
     ) -> Result<(), FrameError> {
         let accepted = self.accept_otherwise(sent, frame, before);
         if !matches!(accepted, Ok(()) | Err(FrameError::LostTurn)) {

@@ -33,7 +33,7 @@ use embedded_can::Frame;
 
 use super::protocol::{self, Feedback, Protocol};
 use super::{Drive, Scale};
-use crate::can::{CanError, Part};
+use crate::can::frame::{CanError, Component};
 
 /// ±30 rad/s, ±10 N·m. The 48 V variant has ±50 rad/s.
 pub const DM4310: Scale = scale(30.0, 10.0);
@@ -157,8 +157,8 @@ impl Protocol for Identity {
             0x8 => Err(CanError::OverVoltage),
             0x9 => Err(CanError::UnderVoltage),
             0xa => Err(CanError::OverCurrent),
-            0xb => Err(CanError::OverTemperature(Part::Drive)),
-            0xc => Err(CanError::OverTemperature(Part::Motor)),
+            0xb => Err(CanError::OverTemperature(Component::Drive)),
+            0xc => Err(CanError::OverTemperature(Component::Motor)),
             0xd => Err(CanError::LostCommunication),
             0xe => Err(CanError::Overload),
             other => Err(CanError::Fault(other.into())),

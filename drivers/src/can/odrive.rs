@@ -17,7 +17,8 @@ use core::f32::consts::TAU;
 
 use embedded_can::{Frame, Id, StandardId};
 
-use crate::can::{self, CanError};
+use super::frame::{self, CanError};
+use super::joint::{CanJoint, Report};
 use crate::{EncoderMapping, MappingError};
 
 const HEARTBEAT: u16 = 0x01;
@@ -122,7 +123,7 @@ impl ODrive {
         if node > 0x3f {
             return Err(CanError::Node);
         }
-        can::check_most(most, mapping.mapping())?;
+        frame::check_most(most, mapping.mapping())?;
         Ok(Self { node, most, mapping, whole: None })
     }
 
@@ -143,7 +144,7 @@ impl ODrive {
     /// # Errors
     /// [`CanError::Length`].
     pub fn set_torque<F: Frame>(&self, torque: f32) -> Result<F, CanError> {
-        let torque = can::limit(torque, self.most);
+        let torque = frame::limit(torque, self.most);
         let at_motor = self.mapping.mapping().shaft_torque(torque);
         let at_motor = at_motor.map_err(|_| CanError::NotFinite)?;
         self.frame(SET_INPUT_TORQUE, &at_motor.to_le_bytes())
@@ -215,10 +216,10 @@ impl ODrive {
             return Err(CanError::Remote);
         }
         let data = frame.data();
-        let floats = || Ok([can::float(data, 0)?, can::float(data, 4)?]);
+        let floats = || Ok([frame::float(data, 0)?, frame::float(data, 4)?]);
         let reply = match id.as_raw() & 0x1f {
             HEARTBEAT => {
-                let [e0, e1, e2, e3, state, _, _, _] = can::bytes::<LENGTH>(data, 0)?;
+                let [e0, e1, e2, e3, state, _, _, _] = frame::bytes::<LENGTH>(data, 0)?;
                 return Ok(Reply::Heartbeat {
                     errors: u32::from_le_bytes([e0, e1, e2, e3]),
                     state: AxisState::from_number(state),
@@ -240,7 +241,7 @@ impl ODrive {
     }
 
     fn frame<F: Frame>(&self, command: u16, data: &[u8]) -> Result<F, CanError> {
-        can::frame(self.id(command)?, data)
+        frame::frame(self.id(command)?, data)
     }
 
     fn remote<F: Frame>(&self, command: u16) -> Result<F, CanError> {
@@ -249,5 +250,29 @@ impl ODrive {
 
     fn id(&self, command: u16) -> Result<StandardId, CanError> {
         StandardId::new(u16::from(self.node) << 5 | command).ok_or(CanError::Node)
+    }
+}
+
+/// The axis is to send its estimates and its heartbeat by itself, at least once a tick and in its
+/// ride-through.
+impl CanJoint for ODrive {
+    fn command<F: Frame>(&self, torque: f32) -> Result<F, CanError> {
+        self.set_torque(torque)
+    }
+
+    fn report<F: Frame>(&mut self, frame: &F) -> Result<Report, CanError> {
+        let (mut position, mut delivers) = (None, None);
+        match self.reply(frame)? {
+            Reply::Estimates { position: at, .. } => position = Some(at),
+            Reply::Heartbeat { errors, state } => {
+                delivers = Some(match state {
+                    _ if errors != 0 => Err(CanError::Fault(errors)),
+                    AxisState::ClosedLoopControl => Ok(()),
+                    _ => Err(CanError::NotReady),
+                });
+            }
+            Reply::Torques { .. } => {}
+        }
+        Ok(Report { position, delivers })
     }
 }

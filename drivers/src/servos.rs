@@ -1,0 +1,3 @@
+//! Servos that share a serial bus.
+
+pub mod feetech;

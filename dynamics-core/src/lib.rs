@@ -48,7 +48,6 @@ extern crate self as dynamics_core;
 
 pub mod advice;
 pub mod algorithms;
-mod chains;
 pub mod clusters;
 #[cfg(feature = "defmt")]
 mod defmt_form;

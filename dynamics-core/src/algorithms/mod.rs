@@ -17,7 +17,6 @@ pub(crate) mod mass_matrix;
 mod momentum;
 mod operational_space;
 pub(crate) mod pivot_check;
-pub(crate) mod prescribed;
 mod regressor;
 pub(crate) mod rnea;
 mod rnea_two_velocities;

@@ -10,8 +10,8 @@ use heapless::Vec;
 
 use super::across::{Across, AcrossZ};
 use crate::algorithms::NotPositiveDefinite;
+use crate::algorithms::aba::JointFactor;
 use crate::algorithms::pivot_check::{Magnitude, PivotCheck};
-use crate::algorithms::prescribed::JointFactor;
 use crate::algorithms::rnea::external_force;
 use crate::algorithms::rotors::with_rotor;
 use crate::algorithms::tree_pass::per_body;
@@ -99,7 +99,7 @@ where
         let u_a = ia.along(&s);
         let mut d = s.dot(u_a);
         add_inertia(effects, i, &mut d);
-        PivotCheck::of(magnitude).check((&link, 0), turns, (u_a, d), i)?;
+        PivotCheck::of(magnitude).check(&link, 0, turns, u_a, d)?;
         let d_inv = R::ONE / d;
         let tau = transmitted(effects, i, joint_state(&link, state, i), entry(tau, i));
         let u = tau - joint_torque(effects, &link, state, i) - s.dot(pa);

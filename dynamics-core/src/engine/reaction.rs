@@ -24,7 +24,7 @@ use crate::state::{Configuration, RobotState, State};
 use crate::trig::Kernel;
 
 /// The wrenches that a recursion keeps: none, or those in the joints of a list of bodies.
-pub(crate) trait Reactions<Scalar: Real, Tree: Compiled> {
+pub(crate) trait Reactions<R: Real, T: Compiled> {
     /// The bodies.
     const BODIES: &'static [usize] = &[];
     /// Whether there are some. A recursion without them makes no call of this trait: an empty one
@@ -36,75 +36,75 @@ pub(crate) trait Reactions<Scalar: Real, Tree: Compiled> {
     const NOTHING: Self::Sums;
 
     /// Adds what joint J returns.
-    fn add<const J: usize>(sums: &mut Self::Sums, returned: &Wrench<Scalar>);
+    fn add<const J: usize>(sums: &mut Self::Sums, returned: &Wrench<R>);
 
     /// Keeps the wrenches of the bodies that move with joint I, which carries `total`, in axes that
     /// `turn` is still to turn.
-    fn keep<Effects, const I: usize, const B: usize, const Q: usize, const V: usize>(
+    fn keep<E, const I: usize, const B: usize, const Q: usize, const V: usize>(
         &mut self,
-        call: Call<'_, Scalar, Tree, Effects, B, Q, V>,
-        field: &AccelerationField<Scalar>,
-        total: &Wrench<Scalar>,
+        call: Call<'_, R, T, E, B, Q, V>,
+        field: &AccelerationField<R>,
+        total: &Wrench<R>,
         sums: &Self::Sums,
-        turn: Option<JointCoordinate<Scalar>>,
+        turn: Option<JointCoordinate<R>>,
     ) where
-        Effects: Effect<Scalar, B, V>;
+        E: Effect<R, B, V>;
 }
 
-impl<Scalar: Real, Tree: Compiled> Reactions<Scalar, Tree> for () {
+impl<R: Real, T: Compiled> Reactions<R, T> for () {
     type Sums = ();
     const NOTHING: () = ();
 
     #[cfg_attr(optimised, inline(always))]
-    fn add<const J: usize>((): &mut (), _: &Wrench<Scalar>) {}
+    fn add<const J: usize>((): &mut (), _: &Wrench<R>) {}
 
     #[cfg_attr(optimised, inline(always))]
-    fn keep<Effects, const I: usize, const B: usize, const Q: usize, const V: usize>(
+    fn keep<E, const I: usize, const B: usize, const Q: usize, const V: usize>(
         &mut self,
-        _: Call<'_, Scalar, Tree, Effects, B, Q, V>,
-        _: &AccelerationField<Scalar>,
-        _: &Wrench<Scalar>,
+        _: Call<'_, R, T, E, B, Q, V>,
+        _: &AccelerationField<R>,
+        _: &Wrench<R>,
         (): &(),
-        _: Option<JointCoordinate<Scalar>>,
+        _: Option<JointCoordinate<R>>,
     ) where
-        Effects: Effect<Scalar, B, V>,
+        E: Effect<R, B, V>,
     {
     }
 }
 
 /// The wrenches of a list of N bodies, each in its body's own frame.
-pub(crate) struct Kept<Scalar: Real, List, const N: usize>([Force<Scalar>; N], PhantomData<List>);
+pub(crate) struct Kept<R: Real, List, const N: usize>([Force<R>; N], PhantomData<List>);
 
-impl<Scalar: Real, Tree: Compiled, List: Bodies<N>, const N: usize> Reactions<Scalar, Tree>
-    for &mut Kept<Scalar, List, N>
+impl<R: Real, T: Compiled, List: Bodies<N>, const N: usize> Reactions<R, T>
+    for &mut Kept<R, List, N>
 {
     const BODIES: &'static [usize] = &List::NUMBERS;
-    type Sums = [Wrench<Scalar>; N];
+    type Sums = [Wrench<R>; N];
     const NOTHING: Self::Sums = [Wrench::ZERO; N];
 
     #[cfg_attr(optimised, inline(always))]
-    fn add<const J: usize>(sums: &mut Self::Sums, returned: &Wrench<Scalar>) {
+    fn add<const J: usize>(sums: &mut Self::Sums, returned: &Wrench<R>) {
         for_each_joint!(K, {
-            if Cut::<Tree, List, N, J, K>::CARRIES_JOINT {
+            if Cut::<T, List, N, J, K>::CARRIES_JOINT {
                 sums[K] = sums[K] + *returned;
             }
         });
     }
 
     #[cfg_attr(optimised, inline(always))]
-    fn keep<Effects, const I: usize, const B: usize, const Q: usize, const V: usize>(
+    fn keep<E, const I: usize, const B: usize, const Q: usize, const V: usize>(
         &mut self,
-        call: Call<'_, Scalar, Tree, Effects, B, Q, V>,
-        field: &AccelerationField<Scalar>,
-        total: &Wrench<Scalar>,
+        call: Call<'_, R, T, E, B, Q, V>,
+        field: &AccelerationField<R>,
+        total: &Wrench<R>,
         sums: &Self::Sums,
-        turn: Option<JointCoordinate<Scalar>>,
+        turn: Option<JointCoordinate<R>>,
     ) where
-        Effects: Effect<Scalar, B, V>,
+        E: Effect<R, B, V>,
     {
         for_each_joint!(
             K,
-            Cut::<Tree, List, N, I, K>::IS_ON_JOINT,
+            Cut::<T, List, N, I, K>::IS_ON_JOINT,
             beyond = Call::beyond::<List, N, I, K> as fn(_, &_, &_, &_, _) -> _,
             {
                 self.0[K] = beyond(call, field, total, &sums[K], turn);
@@ -113,38 +113,34 @@ impl<Scalar: Real, Tree: Compiled, List: Bodies<N>, const N: usize> Reactions<Sc
     }
 }
 
-impl<Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize>
-    Call<'_, Scalar, Tree, Effects, B, Q, V>
+impl<R, T, E, const B: usize, const Q: usize, const V: usize> Call<'_, R, T, E, B, Q, V>
 where
-    Scalar: Real,
-    Tree: Compiled,
-    Effects: Effect<Scalar, B, V>,
+    R: Real,
+    T: Compiled,
+    E: Effect<R, B, V>,
 {
     /// The recursion of inverse dynamics, which also keeps the wrenches of some bodies; `tau` holds
     /// zeros.
     #[cfg_attr(optimised, inline(always))]
     fn write_torques_and<List: Bodies<N>, const N: usize>(
         self,
-        back: &[JointCoordinate<Scalar>; Q],
-        state: &State<Scalar, Q, V>,
-        tau: &mut [Scalar; V],
-        seen: &mut Kept<Scalar, List, N>,
+        back: &[JointCoordinate<R>; Q],
+        state: &State<R, Q, V>,
+        tau: &mut [R; V],
+        seen: &mut Kept<R, List, N>,
     ) {
         let (base, mut carried) = (self.base(), [Wrench::ZERO; N]);
         let mut task = Task { call: self, back, state, tau, seen };
         for_each_joint!(
             J,
-            CompiledJoint::<Tree, J>::IS_ON_BASE,
-            visit = Task::visit::<J> as fn(&mut _, &_) -> Wrench<Scalar>,
+            CompiledJoint::<T, J>::IS_ON_BASE,
+            visit = Task::visit::<J> as fn(&mut _, &_) -> Wrench<R>,
             {
                 let returned = visit(&mut task, &base);
-                <&mut Kept<Scalar, List, N> as Reactions<Scalar, Tree>>::add::<J>(
-                    &mut carried,
-                    &returned,
-                );
+                <&mut Kept<R, List, N> as Reactions<R, T>>::add::<J>(&mut carried, &returned);
             }
         );
-        task.seen.keep::<Effects, BASE, B, Q, V>(self, &base, &Wrench::ZERO, &carried, None);
+        task.seen.keep::<E, BASE, B, Q, V>(self, &base, &Wrench::ZERO, &carried, None);
     }
 
     /// The wrench in the joint of the K-th body of the list, which moves with joint I: `total` is
@@ -152,31 +148,31 @@ where
     #[cfg_attr(optimised, inline(always))]
     fn beyond<List: Bodies<N>, const N: usize, const I: usize, const K: usize>(
         self,
-        field: &AccelerationField<Scalar>,
-        total: &Wrench<Scalar>,
-        carried: &Wrench<Scalar>,
-        turn: Option<JointCoordinate<Scalar>>,
-    ) -> Force<Scalar> {
-        let place = Cut::<Tree, List, N, I, K>::PLACE;
-        let (p, length_inv) = (Vec3::constant(place.pos), Folded::constant(Tree::LENGTH_INV));
-        let wrench = if Cut::<Tree, List, N, I, K>::IS_WHOLE {
-            let Inertia { mass, moment, .. } = constant(Cut::<Tree, List, N, I, K>::PASSED);
+        field: &AccelerationField<R>,
+        total: &Wrench<R>,
+        carried: &Wrench<R>,
+        turn: Option<JointCoordinate<R>>,
+    ) -> Force<R> {
+        let place = Cut::<T, List, N, I, K>::PLACE;
+        let (p, length_inv) = (Vec3::constant(place.pos), Folded::constant(T::LENGTH_INV));
+        let wrench = if Cut::<T, List, N, I, K>::IS_WHOLE {
+            let Inertia { mass, moment, .. } = constant(Cut::<T, List, N, I, K>::PASSED);
             let (mass, moment) = (mass * length_inv, moment.scale(length_inv));
             let passed = field.wrench(&Inertia { mass, moment, second: Sym3::ZERO });
-            let about = field.wrench(&constant(Cut::<Tree, List, N, I, K>::PASSED_ABOUT_BODY));
+            let about = field.wrench(&constant(Cut::<T, List, N, I, K>::PASSED_ABOUT_BODY));
             let n = total.n - p.cross(total.f) + about.n;
             Wrench { f: total.f.scale(length_inv) + passed.f, n }
         } else {
-            let mut inertia = constant(Cut::<Tree, List, N, I, K>::CARRIED);
+            let mut inertia = constant(Cut::<T, List, N, I, K>::CARRIED);
             let mut sum = *carried;
             for_each_joint!(M, {
-                if JointPair::<Tree, I, M>::HAS_BODY {
-                    let (body, place) = JointPair::<Tree, I, M>::BODY;
-                    if Cut::<Tree, List, N, I, K>::is_beyond(*body) {
-                        if Effects::PAYLOAD[*body] {
+                if JointPair::<T, I, M>::HAS_BODY {
+                    let (body, place) = JointPair::<T, I, M>::BODY;
+                    if Cut::<T, List, N, I, K>::is_beyond(*body) {
+                        if E::PAYLOAD[*body] {
                             inertia = self.with_load(*body, place, inertia);
                         }
-                        if Effects::WRENCH {
+                        if E::WRENCH {
                             let fx = self.exerted(*body, place, field);
                             sum = Wrench { f: sum.f - fx.f, n: sum.n - fx.n };
                         }
@@ -194,7 +190,7 @@ where
 
 /// A vector in the axes of a body that this turn is still to turn, if any.
 #[cfg_attr(optimised, inline(always))]
-fn turned<Scalar: Real>(v: Vec3<Scalar>, turn: Option<JointCoordinate<Scalar>>) -> Vec3<Scalar> {
+fn turned<R: Real>(v: Vec3<R>, turn: Option<JointCoordinate<R>>) -> Vec3<R> {
     match turn {
         Some(turn) => v.turn_back(Folded::runtime(turn.sin), Folded::runtime(turn.cos)),
         None => v,
@@ -203,7 +199,7 @@ fn turned<Scalar: Real>(v: Vec3<Scalar>, turn: Option<JointCoordinate<Scalar>>) 
 
 /// Parameters that are known while compiling.
 #[cfg_attr(optimised, inline(always))]
-fn constant<Scalar: Real>(of: &Distribution) -> Inertia<Scalar> {
+fn constant<R: Real>(of: &Distribution) -> Inertia<R> {
     Inertia {
         mass: Folded::constant(of.mass),
         moment: Vec3::constant(of.moment),
@@ -211,7 +207,7 @@ fn constant<Scalar: Real>(of: &Distribution) -> Inertia<Scalar> {
     }
 }
 
-impl<Arm, Sines> Engine<Arm, Sines> {
+impl<T, K> Engine<T, K> {
     /// The torques of [`Engine::rnea`] and, beside them, the wrenches fᵢ in the joints of some
     /// bodies: what the parent exerts on body i through its joint, N·m and N, in the body's own
     /// frame and about its origin, as [`crate::algorithms::rnea_and_wrenches`] computes it.
@@ -246,38 +242,37 @@ impl<Arm, Sines> Engine<Arm, Sines> {
     #[inline(never)]
     #[must_use]
     pub fn rnea_and_wrenches<
-        Scalar: Real,
-        Effects,
+        R: Real,
+        E,
         List,
         const N: usize,
         const B: usize,
         const Q: usize,
         const V: usize,
     >(
-        state: impl RobotState<Scalar, Q, V>,
-        effects: &Effects,
+        state: impl RobotState<R, Q, V>,
+        effects: &E,
         bodies: List,
-    ) -> TorquesAndWrenches<Scalar, V, N>
+    ) -> TorquesAndWrenches<R, V, N>
     where
-        Arm: Robot<B, Q, V>,
-        Sines: Kernel<Scalar>,
-        Effects: Effect<Scalar, B, V>,
+        T: Robot<B, Q, V>,
+        K: Kernel<R>,
+        E: Effect<R, B, V>,
         List: Bodies<N>,
     {
         scene_is_taken!();
         const {
             assert!(
-                Effects::BASE_PARAMETERS == 0,
+                E::BASE_PARAMETERS == 0,
                 "wrenches in joints do not follow from base parameters"
             );
         }
         let _ = bodies;
         let trig = state.configuration().trig_or(Self::trig_source());
         let trig = trig.borrow();
-        let mut kept = Kept::<Scalar, List, N>([Force::ZERO; N], PhantomData);
-        let mut tau = const { [Scalar::ZERO; V] };
-        let call: Call<'_, Scalar, CompiledRobot<Arm, B, Q, V>, _, B, Q, V> =
-            Self::call(trig, effects);
+        let mut kept = Kept::<R, List, N>([Force::ZERO; N], PhantomData);
+        let mut tau = const { [R::ZERO; V] };
+        let call: Call<'_, R, CompiledRobot<T, B, Q, V>, _, B, Q, V> = Self::call(trig, effects);
         let back = loaded_again(&state, trig);
         call.write_torques_and(&back.coordinates, state.state(), &mut tau, &mut kept);
         TorquesAndWrenches { tau, wrenches: kept.0 }

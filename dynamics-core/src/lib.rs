@@ -55,7 +55,6 @@ pub mod drivetrain;
 pub mod effects;
 mod engine;
 pub mod flexible;
-mod forms;
 pub mod loops;
 mod math;
 pub mod model;

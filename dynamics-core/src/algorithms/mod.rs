@@ -8,6 +8,7 @@ mod crba_jacobian;
 mod derivatives;
 mod energy;
 mod error;
+mod forms;
 mod forward_dynamics;
 mod forward_error;
 mod hybrid_dynamics;
@@ -34,6 +35,7 @@ pub use derivatives::{
 };
 pub use energy::{kinetic_energy, potential_energy};
 pub use error::NotPositiveDefinite;
+pub use forms::{aba, crba, rnea};
 pub use forward_dynamics::forward_dynamics;
 pub use forward_error::{EstimatedAcceleration, acceleration_error, forward_dynamics_with_error};
 pub use hybrid_dynamics::hybrid_dynamics;
@@ -67,5 +69,3 @@ pub use rnea_two_velocities::rnea_two_velocities;
 pub use transmitted::{motor_torque, transmitted_torque};
 pub(crate) use tree_pass::{inward, per_body};
 pub use wrenches::{TorquesAndWrenches, rnea_and_wrenches};
-
-pub use crate::forms::{aba, crba, rnea};

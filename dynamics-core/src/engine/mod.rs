@@ -124,6 +124,7 @@ mod rotors;
 mod subtree;
 mod torque_rates;
 mod totals;
+mod wrenches;
 
 use core::borrow::Borrow;
 use core::hint::black_box;
@@ -138,9 +139,8 @@ pub(crate) use bending::{BendingLink, BendingMode, Bends, MODES};
 pub(crate) use call::{Call, joint_state};
 pub(crate) use compile::{
     BendingTree, BodyPlacement, Compiled, CompiledJoint, CompiledRobot, Joint, JointMotion,
-    compile_bending, mat_add, outer, support,
+    compile_bending, has_subtree_functions, mat_add, outer, support,
 };
-pub(crate) use subtree::has_subtree_functions;
 
 /// The algorithms specialised at compile time for the robot `T`; sines and cosines by the kernel
 /// `K`.

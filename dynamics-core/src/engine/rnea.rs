@@ -4,7 +4,8 @@
 use super::acceleration_field::{AccelerationField, Inertia, Wrench, along_z};
 use super::call::Call;
 use super::compile::{
-    BodyPlacement, Compiled, CompiledJoint, JointPair, are_whole, last, load, loads, place,
+    BodyPlacement, Compiled, CompiledJoint, JointPair, are_whole, has_subtree_functions, last,
+    load, loads, place,
 };
 use super::displacement::Displacement;
 use super::folding::Folded;
@@ -12,7 +13,6 @@ use super::folding::{Mat3, Sym3, Vec3};
 use super::joint_rates::{JointRates, SeveralRates, Twist};
 use super::only_if;
 use super::reaction::Reactions;
-use super::subtree::has_subtree_functions;
 use crate::effects::{
     BodyState, Declared, Effect, RegroupedInertia, call_hook, hook, load_friction,
 };

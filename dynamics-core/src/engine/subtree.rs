@@ -7,7 +7,7 @@
 //! in each function.
 
 use super::acceleration_field::{AccelerationField, Wrench};
-use super::compile::{Compiled, is_parent, last};
+use super::compile::{Compiled, has_subtree_functions, is_parent, last};
 use super::folding::Folded;
 use super::folding::{Mat3, Vec3};
 use super::pose::Pose;
@@ -15,21 +15,6 @@ use super::reaction::Reactions;
 use super::rnea::Task;
 use crate::effects::{Declared, Effect};
 use crate::scalar::{Real, Vector};
-
-/// Robots of up to this number of joints are one function.
-const WHOLE: usize = 16;
-
-/// Whether a robot is split, in a scene with wrenches on bodies or without.
-pub(crate) const fn has_subtree_functions<T: Compiled>(wrench: bool) -> bool {
-    let (mut joints, mut i) = (0, 0);
-    while i < T::JOINTS.len() {
-        if T::JOINTS[i].first == i {
-            joints += 1;
-        }
-        i += 1;
-    }
-    wrench && joints > WHOLE
-}
 
 /// Whether joint `i` of a large robot is the parent of several others.
 const fn is_subtree_root<T: Compiled>(i: usize, wrench: bool) -> bool {

@@ -370,3 +370,18 @@ impl<T: Compiled, const I: usize, const BODY: usize> JointAndBody<T, I, BODY> {
     /// Whether the joint moves the body.
     pub(crate) const SUPPORTS: bool = supports::<T>(I, Self::PLACE.joint);
 }
+
+/// Robots of up to this number of joints are one function.
+const WHOLE: usize = 16;
+
+/// Whether a robot is split, in a scene with wrenches on bodies or without.
+pub(crate) const fn has_subtree_functions<T: Compiled>(wrench: bool) -> bool {
+    let (mut joints, mut i) = (0, 0);
+    while i < T::JOINTS.len() {
+        if T::JOINTS[i].first == i {
+            joints += 1;
+        }
+        i += 1;
+    }
+    wrench && joints > WHOLE
+}

@@ -1,5 +1,5 @@
-//! Files and folders of one folder that use each other in a circle; a folder and what is in it are
-//! not counted.
+//! Files and folders of one folder that use each other in a circle. A folder and the files in it are
+//! not counted, nor are tests.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::read_to_string;
@@ -7,170 +7,112 @@ use std::path::Path;
 
 use crate::files::{files, root};
 
-/// They are named in ARCHITECTURE.md.
+/// ARCHITECTURE.md names those that are left.
 const MOST: usize = 4;
 
-/// The path of a module in its crate.
-type Module = Vec<String>;
-
-/// A file: the paths that it names, and those that it imports, by the name that an import has.
-#[derive(Default)]
-struct File {
-    named: Vec<Module>,
-    imports: BTreeMap<String, Module>,
-}
+/// The path of a module or an item in its crate.
+type Names = Vec<String>;
+type Files<T> = BTreeMap<Names, T>;
 
 /// Words and signs, without comments, strings and modules of tests.
 fn tokens(source: &str) -> Vec<String> {
-    let mut text = String::new();
-    for line in source.split("#[cfg(test)]\nmod tests {").next().unwrap_or_default().lines() {
-        text += line.split("//").next().unwrap_or_default();
-        text.push('\n');
-    }
-    let text = text.replace("'\"'", "").replace("\\\"", "");
-    let code: String = text.split('"').step_by(2).collect::<Vec<_>>().join(" ");
-    let mut tokens: Vec<String> = Vec::new();
-    let mut is_word = false;
-    for c in code.chars() {
-        let word = c.is_alphanumeric() || c == '_';
-        match tokens.last_mut() {
-            Some(last) if is_word && word || last == ":" && c == ':' => last.push(c),
-            _ if c.is_whitespace() => {}
-            _ => tokens.push(c.to_string()),
-        }
-        is_word = word;
-    }
-    tokens
+    let source = source.split("#[cfg(test)]\nmod tests {").next().unwrap_or_default();
+    let lines = source.lines().map(|line| line.split("//").next().unwrap_or_default());
+    let text = lines.collect::<Vec<_>>().join("\n").replace("'\"'", "").replace("\\\"", "");
+    let code = text.split('"').step_by(2).collect::<Vec<_>>().join(" ").replace("::", "·");
+    let is_word = |c: char| c.is_alphanumeric() || c == '_';
+    let spaced = |c: char| if is_word(c) { c.to_string() } else { format!(" {c} ") };
+    let spaced: String = code.chars().map(spaced).collect();
+    spaced.split_whitespace().map(str::to_owned).collect()
 }
 
-/// Adds the paths of the tree at the start of `tokens`, which may have braces, and returns the rest.
-fn paths<'a>(
-    mut tokens: &'a [String],
-    mut path: Module,
-    file: &mut File,
-    used: bool,
-) -> &'a [String] {
+/// Adds the paths of the tree with which `tokens` begin, below `path`, and returns the rest.
+fn paths<'a>(mut tokens: &'a [String], mut path: Names, all: &mut Vec<Names>) -> &'a [String] {
     while let [first, rest @ ..] = tokens {
         tokens = rest;
-        if first == "{" {
-            while !tokens.is_empty() && tokens[0] != "}" {
-                tokens = paths(tokens, path.clone(), file, used);
-                tokens = tokens.strip_prefix(&[",".to_owned()]).unwrap_or(tokens);
-            }
-            return tokens.get(1..).unwrap_or_default();
-        }
         match first.as_str() {
+            "{" => {
+                while tokens.first().is_some_and(|next| next != "}") {
+                    tokens = paths(tokens, path.clone(), all);
+                }
+                return tokens.get(1..).unwrap_or_default();
+            }
+            "," => return tokens,
             "super" => drop(path.pop()),
             "self" | "crate" => {}
             _ => path.push(first.clone()),
         }
-        let [colons, next, ..] = tokens else { break };
-        if colons != "::"
-            || next != "{" && !next.starts_with(|c: char| c.is_alphabetic() || c == '_')
-        {
-            break;
+        match tokens {
+            [sign, next, ..] if sign == "·" && next != "<" => tokens = &tokens[1..],
+            _ => break,
         }
-        tokens = &tokens[1..];
     }
-    let mut name = path.last().cloned().unwrap_or_default();
-    if let [word, alias, rest @ ..] = tokens
-        && word == "as"
-    {
-        (name, tokens) = (alias.clone(), rest);
-    }
-    if used {
-        file.imports.insert(name, path.clone());
-    }
-    file.named.push(path);
+    all.push(path);
     tokens
 }
 
-fn read(module: &Module, source: &str, is_module: impl Fn(&Module) -> bool) -> File {
-    let (tokens, mut file) = (tokens(source), File::default());
+/// The paths that a file names.
+fn named(module: &Names, source: &str, sources: &Files<String>) -> Vec<Names> {
+    let (tokens, mut all) = (tokens(source), Vec::new());
     let mut rest = tokens.as_slice();
-    while let [word, after @ ..] = rest {
-        let used = word == "use";
-        let first = if used { after.first() } else { Some(word) };
-        let child = || [module.as_slice(), &[first.cloned().unwrap_or_default()]].concat();
-        let start = match first.map(String::as_str) {
-            Some("crate") => Some(Vec::new()),
-            Some("super" | "self") => Some(module.clone()),
-            _ => (used && is_module(&child())).then(|| module.clone()),
+    while let [first, after @ ..] = rest {
+        let child = || sources.contains_key(&[module.as_slice(), &[first.clone()]].concat());
+        let start = match first.as_str() {
+            _ if after.first().is_none_or(|next| next != "·") => None,
+            "crate" => Some(Vec::new()),
+            "super" | "self" => Some(module.clone()),
+            _ => child().then(|| module.clone()),
         };
-        let is_path = used || after.first().is_some_and(|next| next == "::");
-        rest = match start.filter(|_| is_path) {
-            Some(start) => paths(if used { after } else { rest }, start, &mut file, used),
-            None => after,
-        };
+        rest = start.map_or(after, |start| paths(rest, start, &mut all));
     }
-    file
+    all
 }
 
-/// The module in which what a path names is defined, through the imports on its way.
-fn defined(path: &Module, all: &BTreeMap<Module, File>, depth: usize) -> Module {
-    let mut at = Vec::new();
-    for (i, name) in path.iter().enumerate() {
-        at.push(name.clone());
-        if all.contains_key(&at) {
-            continue;
-        }
-        at.pop();
-        return match all.get(&at).and_then(|file| file.imports.get(name)) {
-            Some(import) if depth > 0 && import != path => {
-                defined(&[import, &path[i + 1..]].concat(), all, depth - 1)
-            }
-            _ => at,
-        };
+/// The module that defines what a path names, through the imports on its way.
+fn defined(path: &[String], all: &Files<Vec<Names>>, depth: usize) -> Names {
+    let known = (0..=path.len()).rev().find(|&n| all.contains_key(&path[..n])).unwrap_or(0);
+    let (module, rest) = path.split_at(known);
+    let import = rest.first().and_then(|name| {
+        let mut imports = all.get(module)?.iter();
+        imports.find(|import| import.last() == Some(name) && import.as_slice() != path)
+    });
+    match import {
+        Some(import) if depth > 0 => defined(&[import, &rest[1..]].concat(), all, depth - 1),
+        _ => module.to_owned(),
     }
-    at
 }
 
-/// The circles of a crate whose files have these sources.
-fn circles(sources: &BTreeMap<Module, String>) -> BTreeSet<BTreeSet<String>> {
-    let all: BTreeMap<Module, File> = sources
-        .iter()
-        .map(|(module, source)| {
-            (module.clone(), read(module, source, |module| sources.contains_key(module)))
-        })
-        .collect();
+/// The circles of the crate with these sources.
+fn circles(sources: &Files<String>) -> BTreeSet<BTreeSet<String>> {
+    let named = |(module, text): (&Names, &String)| (module.clone(), named(module, text, sources));
+    let all: Files<Vec<Names>> = sources.iter().map(named).collect();
     let mut uses: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
-    for (module, file) in &all {
-        for path in &file.named {
-            let to = defined(path, &all, 8);
-            let common = module.iter().zip(&to).take_while(|(a, b)| a == b).count();
-            if common < module.len() && common < to.len() {
-                let end = |of: &Module| of[..=common].join("::");
-                uses.entry(end(module)).or_default().insert(end(&to));
-            }
+    for (module, path) in all.iter().flat_map(|(m, named)| named.iter().map(move |p| (m, p))) {
+        let to = defined(path, &all, 8);
+        let common = module.iter().zip(&to).take_while(|(a, b)| a == b).count();
+        if let (Some(from), Some(to)) = (module.get(..=common), to.get(..=common)) {
+            uses.entry(from.join("::")).or_default().insert(to.join("::"));
         }
     }
-    loop {
-        let before: usize = uses.values().map(BTreeSet::len).sum();
-        let known = uses.clone();
-        for reached in uses.values_mut() {
-            for at in reached.clone() {
-                reached.extend(known.get(&at).cloned().unwrap_or_default());
-            }
-        }
-        if uses.values().map(BTreeSet::len).sum::<usize>() == before {
-            break;
+    for over in uses.keys().cloned().collect::<Vec<_>>() {
+        let beyond = uses[&over].clone();
+        for reached in uses.values_mut().filter(|reached| reached.contains(&over)) {
+            reached.extend(beyond.clone());
         }
     }
-    let mutual = |a: &String| {
-        let back = |b: &&String| uses.get(*b).is_some_and(|reached| reached.contains(a));
-        uses[a].iter().filter(back).cloned().collect::<BTreeSet<_>>()
+    let back = |a: &String, b: &String| uses.get(b).is_some_and(|reached| reached.contains(a));
+    let mutual = |(a, reached): (&String, &BTreeSet<String>)| -> BTreeSet<String> {
+        reached.iter().filter(|b| back(a, b)).cloned().collect()
     };
-    uses.keys().map(mutual).filter(|circle| circle.len() > 1).collect()
+    uses.iter().map(mutual).filter(|circle| circle.len() > 1).collect()
 }
 
-/// The sources of a crate by the paths of their modules; programs beside it have none.
-fn sources(src: &Path) -> BTreeMap<Module, String> {
+/// The sources of a crate by the paths of their modules, without programs beside it.
+fn sources(src: &Path) -> Files<String> {
     let modules = files(src, "rs").into_iter().filter_map(|path| {
         let inside = path.strip_prefix(src).ok()?.with_extension("");
-        let mut module: Module = inside.iter().map(|part| part.to_string_lossy().into()).collect();
-        if matches!(module.last()?.as_str(), "mod" | "lib" | "main") {
-            module.pop();
-        }
+        let mut module: Names = inside.iter().map(|part| part.to_string_lossy().into()).collect();
+        module.pop_if(|file| matches!(file.as_str(), "mod" | "lib" | "main"));
         let counts = !module.iter().any(|part| part == "tests" || part == "bin");
         counts.then(|| (module, read_to_string(&path).expect("a file")))
     });
@@ -179,33 +121,26 @@ fn sources(src: &Path) -> BTreeMap<Module, String> {
 
 #[test]
 fn at_most_four_circles_of_files_are_left() {
-    let roots = files(&root(), "rs")
-        .into_iter()
-        .filter(|path| path.ends_with("src/lib.rs") || path.ends_with("src/main.rs"));
+    let is_root = |path: &Path| path.ends_with("src/lib.rs") || path.ends_with("src/main.rs");
+    let roots = files(&root(), "rs").into_iter().filter(|path| is_root(path));
     let folders: BTreeSet<_> = roots.filter_map(|path| Some(path.parent()?.to_owned())).collect();
-    let found: Vec<String> = folders
-        .iter()
-        .flat_map(|src| {
-            let name = src.strip_prefix(root()).unwrap_or(src).display();
-            circles(&sources(src)).into_iter().map(move |circle| format!("{name}: {circle:?}"))
-        })
-        .collect();
+    let found = folders.iter().flat_map(|src| {
+        circles(&sources(src))
+            .into_iter()
+            .map(move |circle| format!("{}: {circle:?}", src.display()))
+    });
+    let found: Vec<String> = found.collect();
     assert!(found.len() <= MOST, "{} circles of files:\n{}", found.len(), found.join("\n"));
 }
 
 #[test]
 fn a_circle_through_an_export_is_found() {
     let of = |c: &str| {
-        let files = [
-            ("", "pub use b::{B, c::C};"),
-            ("a", "use crate::B;"),
-            ("b", "pub mod c; use self::c::C;"),
-            ("b::c", c),
-        ];
-        let module = |path: &str| {
-            path.split("::").filter(|part| !part.is_empty()).map(str::to_owned).collect()
-        };
-        circles(&files.map(|(path, source)| (module(path), source.to_owned())).into())
+        let files = [("", "pub use b::{B, c::C};"), ("a", "use crate::B;"), ("b::c", c)];
+        let files = [files.as_slice(), &[("b", "mod c; pub use c::{X as Y, C};")]].concat();
+        let names =
+            |path: &str| path.split("::").filter(|x| !x.is_empty()).map(str::to_owned).collect();
+        circles(&files.iter().map(|(path, text)| (names(path), text.to_string())).collect())
     };
     assert_eq!(of("use super::B; // use crate::a::A;"), BTreeSet::new());
     assert_eq!(of("fn f() -> crate::a::A { \"\" }").len(), 1);

@@ -70,7 +70,7 @@ impl<T, K> Engine<T, K> {
             body.size = size;
         }
         for (i, by) in CompiledRobot::<T, B, Q, V>::JOINTS.iter().enumerate().rev() {
-            let Some(&Carried { x, inertia, parent }) = joints.get(i) else {
+            let Some(&JointBodies { x, inertia, parent }) = joints.get(i) else {
                 continue;
             };
             if by.first != i {
@@ -107,7 +107,7 @@ fn joint_of<R: Real>(link: &LinkView<'_, R>) -> usize {
 
 /// A joint's frame, and the inertia of the bodies that move with it as one.
 #[derive(Clone, Copy)]
-struct Carried<R: Real> {
+struct JointBodies<R: Real> {
     /// From the frame of the parent joint.
     x: Xform<R>,
     inertia: CompositeInertia<R>,
@@ -119,14 +119,14 @@ struct Carried<R: Real> {
 fn joints_of<R: Real, T, E, const B: usize, const Q: usize, const V: usize>(
     robot: &Calibrated<T, R, B, Q, V>,
     effects: &E,
-) -> Result<[Carried<R>; V], ModelError>
+) -> Result<[JointBodies<R>; V], ModelError>
 where
     T: Robot<B, Q, V>,
     E: Effect<R, B, V>,
 {
     let nothing = CompositeInertia::from(SpatialInertia::ZERO);
     let at_base = Xform::IDENTITY;
-    let mut joints = [Carried { x: at_base, inertia: nothing, parent: BASE }; V];
+    let mut joints = [JointBodies { x: at_base, inertia: nothing, parent: BASE }; V];
     // The joint that each body moves with, and its frame relative to that joint's.
     let mut places = [(BASE, at_base); B];
     let described = &model::<R, T, B, Q, V>().links;
@@ -153,7 +153,7 @@ where
 /// Writes the coordinates that move a body, whose frame is `place`; returns the one that carries
 /// it, and its frame there.
 fn attach<R: Real>(
-    joints: &mut [Carried<R>],
+    joints: &mut [JointBodies<R>],
     link: &LinkView<'_, R>,
     (parent, frame): (usize, Xform<R>),
 ) -> (usize, Xform<R>) {
@@ -189,7 +189,7 @@ fn attach<R: Real>(
 /// Moves the frame of joint `i` along its axis z to where the offset from the parent is
 /// perpendicular to it; returns the way back.
 fn along_axis<R: Real>(
-    joints: &mut [Carried<R>],
+    joints: &mut [JointBodies<R>],
     i: usize,
     parent: usize,
     Xform { rot, pos }: Xform<R>,

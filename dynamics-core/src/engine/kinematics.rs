@@ -11,7 +11,7 @@ use super::acceleration_field::AccelerationField;
 use super::call::Call;
 use super::compile::{BodyPlacement, Compiled};
 use super::folding::{Folded, Mat3, Vec3};
-use super::named::{AllBodies, Named, joints};
+use super::named::{AllBodies, ListedBody, joints};
 use super::pass::{Motions, Nothing, Pass, sweep};
 use crate::algorithms::{Frame, Kinematics, Pose};
 use crate::effects::Effect;
@@ -311,10 +311,10 @@ where
     /// the base.
     #[cfg_attr(optimised, inline(always))]
     fn see<const I: usize>(&mut self, field: &AccelerationField<R>) {
-        const { Named::<T, List, N, I, 0>::ARE_FEW };
+        const { ListedBody::<T, List, N, I, 0>::ARE_FEW };
         for_each_joint!(K, {
-            if Named::<T, List, N, I, K>::IS_SOME {
-                let (at, place) = Named::<T, List, N, I, K>::BODY;
+            if ListedBody::<T, List, N, I, K>::IS_SOME {
+                let (at, place) = ListedBody::<T, List, N, I, K>::BODY;
                 let (pose, v, a) = motion_of(field, place, T::LENGTH);
                 self.found.poses[*at] = pose;
                 if RATES {

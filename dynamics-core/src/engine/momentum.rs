@@ -152,7 +152,7 @@ struct Task<'a, R: Real, T, E, const B: usize, const Q: usize, const V: usize> {
 /// The momentum of a body and its descendants, and the wrench that carries their weight less those
 /// of the environment.
 #[derive(Clone, Copy)]
-struct Carried<R> {
+struct MomentumAndLoad<R> {
     h: Wrench<R>,
     load: Wrench<R>,
 }
@@ -169,21 +169,21 @@ where
     fn visit<const DRIFT: bool, const I: usize>(
         &mut self,
         parent: &AccelerationField<R>,
-    ) -> Carried<R> {
+    ) -> MomentumAndLoad<R> {
         let at = self.call.displacement::<I>();
         let mut body = Self::across::<I>(parent, &at, &self.state.qd);
         if DRIFT && E::BODY_POSE {
             body.pose = parent.pose.transformed_by(&at);
         }
 
-        let mut inner = Carried { h: Wrench::ZERO, load: Wrench::ZERO };
+        let mut inner = MomentumAndLoad { h: Wrench::ZERO, load: Wrench::ZERO };
         for_each_joint!(
             J,
             JointPair::<T, I, J>::IS_CHILD,
-            visit = Self::visit::<DRIFT, J> as fn(&mut _, &_) -> Carried<R>,
+            visit = Self::visit::<DRIFT, J> as fn(&mut _, &_) -> MomentumAndLoad<R>,
             {
                 let child = visit(self, &body);
-                inner = Carried { h: inner.h + child.h, load: inner.load + child.load };
+                inner = MomentumAndLoad { h: inner.h + child.h, load: inner.load + child.load };
             }
         );
 
@@ -221,7 +221,7 @@ where
         let at = at.with_turn(turn);
         let spin = self.call.coupling::<I>() * Folded::runtime(self.state.qd[I]);
         let h = self.call.borne(h, along_z(spin));
-        Carried { h: h.to_parent(&at), load: load.to_parent(&at) }
+        MomentumAndLoad { h: h.to_parent(&at), load: load.to_parent(&at) }
     }
 
     /// The velocities of the body behind joint I.

@@ -22,12 +22,12 @@ impl<const N: usize> Bodies<N> for AllBodies {
 }
 
 /// The K-th of the bodies of the list that move with joint I, or stand on the base.
-pub(super) struct Named<T, List, const N: usize, const I: usize, const K: usize>(
+pub(super) struct ListedBody<T, List, const N: usize, const I: usize, const K: usize>(
     PhantomData<(T, List)>,
 );
 
 impl<T: Compiled, List: Bodies<N>, const N: usize, const I: usize, const K: usize>
-    Named<T, List, N, I, K>
+    ListedBody<T, List, N, I, K>
 {
     /// Fails to compile if these are more bodies than one function can visit.
     pub(super) const ARE_FEW: () = assert!(

@@ -6,7 +6,7 @@
 
 use super::for_each_mode;
 use super::motion::Mode;
-use super::table::{Bends, Bent, HasMode, MODES};
+use super::table::{BendingBody, Bends, HasMode, MODES};
 use crate::engine::acceleration_field::{AccelerationField, Wrench, u_of};
 use crate::engine::folding::{Folded, Mat3, Vec3};
 use crate::scalar::Real;
@@ -65,7 +65,7 @@ impl<R: Real> End<R> {
         let [mut bend, mut velocity, mut products, mut accel] = [Sum::ZERO; 4];
         for_each_mode!(K, {
             if HasMode::<T, I, K>::IS {
-                let (mode, of) = (const { &Bent::<T, I, MOVES>::LINK.modes[K] }, bent[K]);
+                let (mode, of) = (const { &BendingBody::<T, I, MOVES>::LINK.modes[K] }, bent[K]);
                 let (shift, turn) = (Vec3::constant(mode.shift), Vec3::constant(mode.half_turn));
                 bend = bend.plus(shift, turn, of.eta);
                 velocity = velocity.plus(shift, turn, of.velocity);
@@ -74,12 +74,12 @@ impl<R: Real> End<R> {
             }
         });
         let mut scale = Folded::constant(2.0);
-        if Bent::<T, I, MOVES>::TURNS {
+        if BendingBody::<T, I, MOVES>::TURNS {
             let square = bend.g.dot(bend.g).get();
             scale = Folded::runtime(R::from_f64(2.0) / (R::ONE + square));
         }
         let end = Self {
-            point: Vec3::constant(Bent::<T, I, MOVES>::LINK.end) + bend.shift,
+            point: Vec3::constant(BendingBody::<T, I, MOVES>::LINK.end) + bend.shift,
             g: bend.g,
             scale,
         };
@@ -93,11 +93,11 @@ impl<R: Real> End<R> {
         &self,
         along: &AccelerationField<R>,
     ) -> Stand<R> {
-        if !Bent::<T, I, MOVES>::ADDS_TO_ANGLES {
+        if !BendingBody::<T, I, MOVES>::ADDS_TO_ANGLES {
             return Stand::rigid(self.turned::<T, I, MOVES>(along));
         }
         let mut stand = Stand::rigid(*along);
-        if Bent::<T, I, MOVES>::TURNS {
+        if BendingBody::<T, I, MOVES>::TURNS {
             stand.sin = self.g.scale(self.scale);
             stand.cos = self.scale - Folded::ONE;
         }
@@ -138,7 +138,7 @@ impl<R: Real> End<R> {
         &self,
         field: &AccelerationField<R>,
     ) -> AccelerationField<R> {
-        if !Bent::<T, I, MOVES>::TURNS {
+        if !BendingBody::<T, I, MOVES>::TURNS {
             return *field;
         }
         let axes = self.axes();
@@ -178,7 +178,7 @@ impl<R: Real> End<R> {
         &self,
         load: Wrench<R>,
     ) -> Wrench<R> {
-        if !Bent::<T, I, MOVES>::TURNS {
+        if !BendingBody::<T, I, MOVES>::TURNS {
             return load;
         }
         let axes = self.axes();
@@ -196,7 +196,7 @@ impl<R: Real> End<R> {
         let couple = (load.n - self.g.cross(load.n)).scale(self.scale);
         for_each_mode!(K, {
             if HasMode::<T, I, K>::IS {
-                let mode = const { &Bent::<T, I, MOVES>::LINK.modes[K] };
+                let mode = const { &BendingBody::<T, I, MOVES>::LINK.modes[K] };
                 forces[K] = forces[K]
                     + Vec3::constant(mode.shift).dot(load.f)
                     + Vec3::constant(mode.half_turn).dot(couple);

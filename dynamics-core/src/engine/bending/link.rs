@@ -9,7 +9,7 @@
 
 use super::for_each_mode;
 use super::motion::Mode;
-use super::table::{Bends, Bent, HasMode, MODES, axial, trace};
+use super::table::{BendingBody, Bends, HasMode, MODES, axial, trace};
 use crate::engine::acceleration_field::{AccelerationField, Inertia, Wrench};
 use crate::engine::folding::{Folded, Mat3, Sym3, Vec3};
 use crate::scalar::Real;
@@ -35,21 +35,23 @@ where
     let (mut drifts, mut drift_trace, mut couple) = (Mat3::ZERO, Folded::ZERO, Vec3::ZERO);
     for_each_mode!(K, {
         if HasMode::<T, I, K>::IS {
-            let mode = const { &Bent::<T, I, MOVES>::LINK.modes[K] };
+            let mode = const { &BendingBody::<T, I, MOVES>::LINK.modes[K] };
             let (momentum, own) = (Vec3::constant(mode.momentum), bent[K]);
             let rest = Mat3::constant(&mode.moments);
             let (mut moments, mut force) = (rest, momentum.dot(field.a));
             let mut swing =
-                Vec3::constant(const { axial(&Bent::<T, I, MOVES>::LINK.modes[K].moments) });
-            let mut spread =
-                Folded::constant(const { trace(&Bent::<T, I, MOVES>::LINK.modes[K].moments) });
+                Vec3::constant(const { axial(&BendingBody::<T, I, MOVES>::LINK.modes[K].moments) });
+            let mut spread = Folded::constant(
+                const { trace(&BendingBody::<T, I, MOVES>::LINK.modes[K].moments) },
+            );
             for_each_mode!(L, {
                 if HasMode::<T, I, L>::IS {
                     let (other, product) = (bent[L], Mat3::constant(&mode.products[L]));
                     let across = Vec3::constant(
-                        const { axial(&Bent::<T, I, MOVES>::LINK.modes[K].products[L]) },
+                        const { axial(&BendingBody::<T, I, MOVES>::LINK.modes[K].products[L]) },
                     );
-                    let along = const { trace(&Bent::<T, I, MOVES>::LINK.modes[K].products[L]) };
+                    let along =
+                        const { trace(&BendingBody::<T, I, MOVES>::LINK.modes[K].products[L]) };
                     moments = moments + scaled(product, other.eta);
                     swing = swing + across.scale(other.eta);
                     spread = spread + Folded::constant(along) * other.eta;

@@ -13,9 +13,9 @@ use core::marker::PhantomData;
 
 use end::{End, Stand};
 use link::bent_wrench;
-use motion::{Measured, Mode, Moves, Of, Unit};
+use motion::{Measured, Mode, Moves, SceneType, Unit};
+use table::{BendingBody, Ends, HasMode};
 pub(crate) use table::{BendingLink, BendingMode, Bends, MODES};
-use table::{Bent, Ends, HasMode};
 
 use super::acceleration_field::{AccelerationField, Wrench};
 use super::call::Call;
@@ -68,7 +68,7 @@ where
         joints: &State<R, Q, V>,
         modes: &State<R, M, M>,
     ) -> ([R; V], [R; M]) {
-        let moves = Measured { joints, modes, effects: PhantomData::<Of<E, B>> };
+        let moves = Measured { joints, modes, effects: PhantomData::<SceneType<E, B>> };
         self.swept(joints, moves, &self.base())
     }
 
@@ -163,7 +163,7 @@ where
         let mut bent = Mode::NO_MODES;
         for_each_mode!(K, {
             if HasMode::<T, I, K>::IS {
-                bent[K] = self.moves.mode(const { Bent::<T, I, true>::LINK.first + K });
+                bent[K] = self.moves.mode(const { BendingBody::<T, I, true>::LINK.first + K });
             }
         });
         let at = self.stood::<I>(on);
@@ -183,10 +183,10 @@ where
         if const { Course::ALL && E::WRENCH } {
             total = self.rigid.call.environment::<I>(&field, total);
         }
-        if !Bent::<T, I, true>::IS {
+        if !BendingBody::<T, I, true>::IS {
             let load = self.children::<I>(&Stand::rigid(field));
             total = total + load;
-        } else if !Bent::<T, I, true>::IS_LAST {
+        } else if !BendingBody::<T, I, true>::IS_LAST {
             total = total
                 + if moves {
                     self.beyond::<I, true>(&field, &bent, &mut forces)
@@ -196,7 +196,7 @@ where
         }
         for_each_mode!(K, {
             if HasMode::<T, I, K>::IS {
-                self.forces[const { Bent::<T, I, true>::LINK.first + K }] = forces[K].get();
+                self.forces[const { BendingBody::<T, I, true>::LINK.first + K }] = forces[K].get();
             }
         });
         if Course::ALL {
@@ -219,10 +219,10 @@ where
         let (end, along) = End::of::<T, I, MOVES>(field, bent);
         let stand = end.stand::<T, I, MOVES>(&along);
         let mut load = self.children::<I>(&stand);
-        if !Bent::<T, I, MOVES>::ADDS_TO_ANGLES {
+        if !BendingBody::<T, I, MOVES>::ADDS_TO_ANGLES {
             load = end.turned_back::<T, I, MOVES>(load);
         }
-        if Bent::<T, I, MOVES>::HAS_BODY_ON_END {
+        if BendingBody::<T, I, MOVES>::HAS_BODY_ON_END {
             let at = end.turned::<T, I, MOVES>(&along);
             let ends =
                 Call::<R, Ends<T>, E, B, Q, V>::new(self.rigid.call.turns, self.rigid.call.effects);

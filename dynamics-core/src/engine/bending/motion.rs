@@ -51,10 +51,10 @@ pub(crate) struct Measured<'a, R, E, const Q: usize, const V: usize, const M: us
 }
 
 /// The effects of a type, on a robot of B bodies.
-pub(crate) struct Of<E, const B: usize>(PhantomData<E>);
+pub(crate) struct SceneType<E, const B: usize>(PhantomData<E>);
 
 impl<R: Real, E, const B: usize, const Q: usize, const V: usize, const M: usize> Moves<R>
-    for Measured<'_, R, Of<E, B>, Q, V, M>
+    for Measured<'_, R, SceneType<E, B>, Q, V, M>
 where
     E: Effect<R, B, V>,
 {

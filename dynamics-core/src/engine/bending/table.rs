@@ -196,9 +196,9 @@ pub(super) const fn axial(m: &DMat3) -> DVec3 {
 }
 
 /// The body of joint I, on a base that moves or at rest.
-pub(super) struct Bent<T, const I: usize, const MOVES: bool>(PhantomData<T>);
+pub(super) struct BendingBody<T, const I: usize, const MOVES: bool>(PhantomData<T>);
 
-impl<T: Bends, const I: usize, const MOVES: bool> Bent<T, I, MOVES> {
+impl<T: Bends, const I: usize, const MOVES: bool> BendingBody<T, I, MOVES> {
     pub(super) const LINK: &'static BendingLink = {
         let links = if MOVES { T::MOVING } else { T::AT_REST };
         if I < links.len() { &links[I] } else { &BendingLink::RIGID }
@@ -240,5 +240,5 @@ impl<T: Bends, const I: usize, const MOVES: bool> Bent<T, I, MOVES> {
 pub(super) struct HasMode<T, const I: usize, const K: usize>(PhantomData<T>);
 
 impl<T: Bends, const I: usize, const K: usize> HasMode<T, I, K> {
-    pub(super) const IS: bool = K < Bent::<T, I, true>::LINK.count;
+    pub(super) const IS: bool = K < BendingBody::<T, I, true>::LINK.count;
 }

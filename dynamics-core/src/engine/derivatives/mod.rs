@@ -106,8 +106,8 @@ struct Task<'a, R: Real, T, E, const B: usize, const Q: usize, const V: usize> {
     call: Call<'a, R, T, E, B, Q, V>,
     state: &'a State<R, Q, V>,
     /// The parts of the changes by each joint of one coordinate, and by others.
-    kept: [Kept<R>; V],
-    carried: [several::Kept<R>; V],
+    kept: [StoredField<R>; V],
+    carried: [several::StoredTerms<R>; V],
     gradient: &'a mut TorqueGradient<R, V>,
 }
 
@@ -120,7 +120,7 @@ where
     #[cfg_attr(optimised, inline(always))]
     fn torque_gradient(self, state: &State<R, Q, V>, gradient: &mut TorqueGradient<R, V>) {
         let base = self.base();
-        let (kept, carried) = ([Kept::default(); V], [several::Kept::default(); V]);
+        let (kept, carried) = ([StoredField::default(); V], [several::StoredTerms::default(); V]);
         let mut task = Task { call: self, state, kept, carried, gradient };
         for_each_joint!(
             J,
@@ -157,7 +157,7 @@ where
         let offset = Vec3::constant(joint.pos) + at.shift();
         let own = at.leave(self.velocity::<I>().lin);
         let step = parent.omega_products.cross(offset) + rotate_to_parent::<R, T, I>(own);
-        self.kept[I] = Kept::of(&field, step);
+        self.kept[I] = StoredField::of(&field, step);
 
         let inertia = self.call.inertia::<I>(E::BASE_MOTION);
         let mut all = Composite::of(inertia, &field);
@@ -288,7 +288,7 @@ where
 
 /// The field of a joint's body as far as the joints beyond it need it, in memory.
 #[derive(Clone, Copy, Default)]
-struct Kept<R> {
+struct StoredField<R> {
     /// ω × z and a × z, without their z.
     turning: [R; 2],
     accel: [R; 2],
@@ -298,7 +298,7 @@ struct Kept<R> {
     step: [R; 3],
 }
 
-impl<R: Real> Kept<R> {
+impl<R: Real> StoredField<R> {
     #[cfg_attr(optimised, inline(always))]
     fn of(field: &AccelerationField<R>, step: Vec3<R>) -> Self {
         let ([wx, wy, _], [ax, ay, _]) = (field.omega_products.0, field.a.0);

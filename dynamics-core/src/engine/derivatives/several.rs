@@ -26,12 +26,12 @@ use crate::engine::joint_rates::{SeveralRates, Twist};
 use crate::model::BASE;
 use crate::scalar::Real;
 
-/// The vectors of [`Carried`], in memory.
+/// The vectors of [`ChangeTerms`], in memory.
 #[derive(Clone, Copy, Default)]
-pub(super) struct Kept<R>([[R; 3]; 5]);
+pub(super) struct StoredTerms<R>([[R; 3]; 5]);
 
 /// The quantities of which the changes by a joint are made, along the axes of its body.
-struct Carried<R> {
+struct ChangeTerms<R> {
     /// A.
     accel: Vec3<R>,
     /// α_λ and ω_λ.
@@ -43,7 +43,7 @@ struct Carried<R> {
     v: Vec3<R>,
 }
 
-impl<R: Real> Carried<R> {
+impl<R: Real> ChangeTerms<R> {
     /// U_λ x.
     #[cfg_attr(optimised, inline(always))]
     fn field(&self, x: Vec3<R>) -> Vec3<R> {
@@ -85,7 +85,7 @@ where
         let (rot, p) = (Mat3::constant(&joint.rot), Vec3::constant(joint.pos) + at.shift());
         let omega = at.enter(&rot, parent.omega_products);
         let numbers = |v: Vec3<R>| v.0.map(Folded::get);
-        self.carried[I] = Kept([
+        self.carried[I] = StoredTerms([
             numbers(at.enter(&rot, parent.a + parent.u.mul(p))),
             numbers(at.enter(&rot, parent.alpha)),
             numbers(omega),
@@ -97,11 +97,11 @@ where
 
     /// The motion that carries the joint of this first coordinate, from memory.
     #[cfg_attr(optimised, inline(always))]
-    fn carried(&self, first: &Joint) -> Carried<R> {
+    fn carried(&self, first: &Joint) -> ChangeTerms<R> {
         let moves = Self::moves(first);
         let load = |needed: bool, v: [R; 3]| Vec3(v.map(|x| Folded::runtime_if(needed, x)));
-        let Kept([accel, alpha, omega, both, v]) = self.carried[first.first];
-        Carried {
+        let StoredTerms([accel, alpha, omega, both, v]) = self.carried[first.first];
+        ChangeTerms {
             accel: load(true, accel),
             alpha: load(moves, alpha),
             omega: load(moves && E::VELOCITY_PRODUCTS, omega),
@@ -181,7 +181,7 @@ where
         [unit, scale]: [Folded<R>; 2],
     ) {
         self.write_column(first, c, wrenches, unit);
-        let Carried { accel, alpha, omega, both, v } = self.carried(first);
+        let ChangeTerms { accel, alpha, omega, both, v } = self.carried(first);
         let Wrench { f, n } = felt.unit;
         let along = scale * Folded::constant(T::LENGTH_INV);
         let swung = v.cross(f);

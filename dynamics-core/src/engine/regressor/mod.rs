@@ -17,7 +17,7 @@ use super::call::Call;
 use super::compile::{Compiled, CompiledJoint, JointPair};
 use super::folding::Folded;
 use super::joint_rates::Twist;
-use super::named::{AllBodies, Named, joints};
+use super::named::{AllBodies, ListedBody, joints};
 use super::pass::{Motions, Nothing, Pass, sweep};
 use super::{Engine, only_if};
 use crate::effects::Effect;
@@ -204,11 +204,11 @@ where
                 body.by[K] = parent.by[K].carried(&at);
             }
         });
-        const { Named::<T, List, N, I, 0>::ARE_FEW };
+        const { ListedBody::<T, List, N, I, 0>::ARE_FEW };
         for_each_joint!(N_TH, {
             if let Some(see) = const {
                 only_if(
-                    Named::<T, List, N, I, N_TH>::IS_SOME,
+                    ListedBody::<T, List, N, I, N_TH>::IS_SOME,
                     Self::see::<I, N_TH> as fn(&mut _, &_),
                 )
             } {
@@ -234,7 +234,7 @@ where
     /// Writes the columns of the K-th of the bodies of the list that move with joint I.
     #[cfg_attr(optimised, inline(always))]
     fn see<const I: usize, const K: usize>(y: &mut [[[R; 10]; N]; V], body: &Moving<R, V>) {
-        let (at, place) = Named::<T, List, N, I, K>::BODY;
+        let (at, place) = ListedBody::<T, List, N, I, K>::BODY;
         let power = BodyPower::of(&body.field, place, T::LENGTH);
         for_each_joint!(J, {
             if JointPair::<T, I, J>::IS_COORDINATE || JointPair::<T, J, I>::IS_ANCESTOR {

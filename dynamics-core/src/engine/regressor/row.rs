@@ -9,7 +9,7 @@ use crate::engine::call::Call;
 use crate::engine::compile::{Compiled, CompiledJoint, JointPair};
 use crate::engine::folding::Folded;
 use crate::engine::joint_rates::Twist;
-use crate::engine::named::{AllBodies, Named};
+use crate::engine::named::{AllBodies, ListedBody};
 use crate::engine::pass::{Nothing, Pass, sweep};
 use crate::engine::{Engine, only_if};
 use crate::model::Robot;
@@ -136,11 +136,11 @@ where
             }
         });
         let body = Moving { field, by };
-        const { Named::<T, AllBodies, B, I, 0>::ARE_FEW };
+        const { ListedBody::<T, AllBodies, B, I, 0>::ARE_FEW };
         for_each_joint!(N_TH, {
             if let Some(see) = const {
                 only_if(
-                    Named::<T, AllBodies, B, I, N_TH>::IS_SOME,
+                    ListedBody::<T, AllBodies, B, I, N_TH>::IS_SOME,
                     see::<R, T, B, I, N_TH> as See<R, B>,
                 )
             } {
@@ -165,7 +165,7 @@ fn see<R: Real, T: Compiled, const B: usize, const I: usize, const K: usize>(
     bodies: &[bool; B],
     body: &Moving<R>,
 ) {
-    let (at, place) = Named::<T, AllBodies, B, I, K>::BODY;
+    let (at, place) = ListedBody::<T, AllBodies, B, I, K>::BODY;
     if bodies[*at] {
         y[*at] = BodyPower::of(&body.field, place, T::LENGTH).per_parameter(&body.by);
     }

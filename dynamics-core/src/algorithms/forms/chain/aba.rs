@@ -27,7 +27,7 @@ use crate::state::{JointTrig, State, entry};
 
 /// The result of the first pass for a body: its part of X, c, and pᴬ of the body alone.
 struct Body<R: Real, X: Across<R>> {
-    x: X::Kept,
+    x: X::Memo,
     c: AcrossZ<R>,
     pa: Force<R>,
 }
@@ -161,7 +161,7 @@ fn outward_velocities<X: Across<R>, R: Real, D, E, const B: usize, const Q: usiz
             let couple = gyroscopic(effects, &link, v.ang, rate, R::ZERO);
             parent.pa.ang += link.xform(turns).rot.transpose_mul(couple);
         }
-        let (x, c) = (x.kept(), AcrossZ::of(c));
+        let (x, c) = (x.memo(), AcrossZ::of(c));
         if bodies.push(Body { x, c, pa }).is_err() {
             break;
         }

@@ -48,7 +48,6 @@ extern crate self as dynamics_core;
 
 pub mod advice;
 pub mod algorithms;
-mod chains;
 pub mod clusters;
 #[cfg(feature = "defmt")]
 mod defmt_form;
@@ -56,7 +55,6 @@ pub mod drivetrain;
 pub mod effects;
 mod engine;
 pub mod flexible;
-mod forms;
 pub mod loops;
 mod math;
 pub mod model;

@@ -59,7 +59,7 @@ where
             let bodies = s.dot(u_a);
             let mut d = bodies;
             add_inertia(effects, joint, &mut d);
-            pivots.check((&link, k), turns, (u_a, d), joint)?;
+            pivots.check(&link, k, turns, u_a, d)?;
             let d_inv = R::ONE / d;
             let armature_share = (d - bodies) * d_inv;
             ia = ia.minus_outer(u_a, d_inv);

@@ -81,8 +81,6 @@ impl<R: Real> Magnitude<R> {
         match s {
             MotionSubspace::RevoluteZ => self.second,
             MotionSubspace::PrismaticZ => self.mass,
-            MotionSubspace::Unit(0..3) => self.second,
-            MotionSubspace::Unit(_) => self.mass,
             MotionSubspace::General(s) => {
                 s.ang.dot(s.ang) * self.second + s.lin.dot(s.lin) * self.mass
             }
@@ -112,22 +110,23 @@ impl<R: Real> PivotCheck<R> {
         Self { magnitude, inherited }
     }
 
-    /// Whether `d`, the pivot of coordinate `k` of the joint, which is coordinate `joint` of the
-    /// robot, is not NaN and exceeds rounding errors.
+    /// Whether `d`, the pivot of coordinate `k` of the link's joint, is not NaN and exceeds rounding
+    /// errors.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn check(
         &mut self,
-        (link, k): (&LinkView<'_, R>, usize),
+        link: &LinkView<'_, R>,
+        k: usize,
         turns: &[JointCoordinate<R>],
-        (u_a, d): (Force<R>, R),
-        joint: usize,
+        u_a: Force<R>,
+        d: R,
     ) -> Result<(), NotPositiveDefinite> {
         let inherited = self.inherited.get(k).copied().unwrap_or_default();
-        let size = self.magnitude.along(&link.unit_subspace(turns, k)) + inherited;
-        exceeds(d, size * (R::EPSILON * R::from_f64(ROUNDINGS)), joint)?;
+        let size = self.magnitude.along(&link.subspace(turns, k)) + inherited;
+        exceeds(d, size * (R::EPSILON * R::from_f64(ROUNDINGS)), link.idx_v() + k)?;
         let d_inv = R::ONE / d;
         for (l, inherited) in self.inherited.iter_mut().enumerate().take(k) {
-            let multiplier = link.unit_subspace(turns, l).dot(u_a) * d_inv;
+            let multiplier = link.subspace(turns, l).dot(u_a) * d_inv;
             *inherited += multiplier * multiplier * size;
         }
         Ok(())

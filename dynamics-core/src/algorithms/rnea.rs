@@ -14,20 +14,20 @@
 use heapless::Vec;
 
 use super::rotors::rotor;
-use super::tree_pass::{PerBody, Topology, inward, over_children, per_body};
+use super::tree_pass::{PerBody, Topology, inward, per_body};
 use crate::effects::{
     Declared, Effect, base_motion, body_inertia, body_wrench, joint_torques, load_frictions,
 };
 use crate::model::{JointCoordinate, LinkView, RobotModel};
 use crate::scalar::{Matrix, Real};
 use crate::spatial::{Force, Motion, Xform};
-use crate::state::{JointTrig, State, entry};
+use crate::state::{JointTrig, State};
 
 /// The results of the outward pass for the inward one.
-#[derive(Clone, Copy)]
 struct Body<R: Real> {
-    rot: R::Mat3,
+    x: Xform<R>,
     f: Force<R>,
+    rotor_tau: R,
 }
 
 /// τ by the two passes, each fᵢ of which `transmitted` sees.
@@ -45,61 +45,47 @@ where
 {
     let turns = &trig.coordinates;
     let (v_0, a_0) = base_motion(effects);
-    // With one pattern for both, or with `v.push` after (5) or `a.push` before it, the A1 takes 2 %
-    // more cycles.
-    let mut v = per_body(robot, v_0);
-    let mut a = per_body(robot, a_0);
+    let (mut v, mut a) = (per_body(robot, v_0), per_body(robot, a_0));
     let mut poses = per_body(robot, Xform::IDENTITY);
     let mut bodies: Vec<Body<R>, B> = Vec::new();
-    let mut rotor_tau = [R::ZERO; V];
-    for i in 0..B {
-        let Some(link) = robot.link(i) else {
-            break;
-        };
+    for (i, link) in robot.links().enumerate() {
         let x = link.xform(turns);
         let v_i = velocity(effects, &link, x * v.parent(&link), turns, state); // (3)
-        v.push(v_i);
         let a_parent = x * a.parent(&link);
         let a_i = acceleration(effects, &link, a_parent, v_i, turns, state); // (4)
-        let mut f_i = net_force(effects, i, &link, a_i, v_i); // (5)
-        f_i -= external_force(effects, i, &link, &x, &mut poses, v_i); // (6)
+        let mut f = net_force(effects, i, &link, a_i, v_i); // (5)
+        f -= external_force(effects, i, &link, &x, &mut poses, v_i); // (6)
+        let mut rotor_tau = R::ZERO;
         if E::GYROSCOPIC_ROTORS {
             let (couple, tau) = rotor(effects, &link, a_parent, v_i, state);
             if let Some(parent) = bodies.get_mut(link.parent) {
                 parent.f.ang += x.rot.transpose_mul(couple);
             }
-            if let Some(rotor_tau) = rotor_tau.get_mut(link.idx_v()) {
-                *rotor_tau = tau;
-            }
+            rotor_tau = tau;
         }
+        v.push(v_i);
         a.push(a_i);
-        let _ = bodies.push(Body { rot: x.rot, f: f_i });
+        let _ = bodies.push(Body { x, f, rotor_tau });
     }
 
     let mut tau = [R::ZERO; V];
-    let mut children = over_children(robot, Force::ZERO);
     let mut bodies = inward(&mut bodies);
     while let Some((body, inner)) = bodies.next() {
         let Some(link) = robot.link(inner.len()) else {
             break;
         };
-        let f_i = children.onto(&body.f);
-        transmitted(inner.len(), f_i);
-        link.project(turns, f_i, &mut tau); // (8)
+        transmitted(inner.len(), body.f);
+        link.project(turns, body.f, &mut tau); // (8)
         joint_torques(effects, &link, state, &mut tau);
         if E::GYROSCOPIC_ROTORS
             && let Some(tau) = tau.get_mut(link.idx_v())
         {
-            *tau += entry(&rotor_tau, link.idx_v());
+            *tau += body.rotor_tau;
         }
         load_frictions(effects, &link, state, &mut tau);
-        if inner.is_empty() {
-            break; // the first body stands on the base
+        if let Some(parent) = inner.get_mut(link.parent) {
+            parent.f += body.x.transpose_mul(body.f); // (7)
         }
-        // The origin is a constant of most joints, so that storing it costs more than computing it.
-        let (rot, pos) = (body.rot, link.origin(turns));
-        let f_parent = Xform { rot, pos }.transpose_mul(f_i); // (7)
-        children.add(&link, inner, |parent| &mut parent.f, f_parent);
     }
     tau
 }

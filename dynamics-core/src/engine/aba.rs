@@ -23,7 +23,7 @@ use crate::scalar::{Real, Vector};
 use crate::state::{Configuration, RobotState, State};
 use crate::trig::Kernel;
 
-impl<Arm, Sines> Engine<Arm, Sines> {
+impl<T, K> Engine<T, K> {
     /// The acceleration of each joint, q̈ = FD(q, q̇, τ), as by [`Engine::forward_dynamics`], with
     /// articulated bodies.
     ///
@@ -41,20 +41,20 @@ impl<Arm, Sines> Engine<Arm, Sines> {
     #[doc(alias = "ABI")]
     #[doc(alias = "FD")]
     #[inline(never)]
-    pub fn aba<Scalar: Real, Effects, const B: usize, const Q: usize, const V: usize>(
-        state: impl RobotState<Scalar, Q, V>,
-        tau: &[Scalar; V],
-        effects: &Effects,
-    ) -> Result<[Scalar; V], NotPositiveDefinite>
+    pub fn aba<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        tau: &[R; V],
+        effects: &E,
+    ) -> Result<[R; V], NotPositiveDefinite>
     where
-        Arm: Robot<B, Q, V>,
-        Sines: Kernel<Scalar>,
-        Effects: Effect<Scalar, B, V>,
+        T: Robot<B, Q, V>,
+        K: Kernel<R>,
+        E: Effect<R, B, V>,
     {
         scene_is_taken!();
         const {
             assert!(
-                !Effects::GYROSCOPIC_ROTORS,
+                !E::GYROSCOPIC_ROTORS,
                 "the engine's articulated bodies carry no rotors that spin as bodies; use `forward_dynamics`"
             )
         };
@@ -62,40 +62,39 @@ impl<Arm, Sines> Engine<Arm, Sines> {
         let call = Call {
             turns: &trig.borrow().coordinates,
             effects,
-            robot: PhantomData::<CompiledRobot<Arm, B, Q, V>>,
+            robot: PhantomData::<CompiledRobot<T, B, Q, V>>,
         };
         call.accelerations_by_bodies(state.state(), tau)
     }
 }
 
 /// The results of the inward pass for the outward pass.
-struct Task<'a, Scalar: Real, Tree, Effects, const B: usize, const Q: usize, const V: usize> {
-    call: Call<'a, Scalar, Tree, Effects, B, Q, V>,
+struct Task<'a, R: Real, T, E, const B: usize, const Q: usize, const V: usize> {
+    call: Call<'a, R, T, E, B, Q, V>,
     /// U = Iᴬ S: couple and force.
-    u: &'a mut [[Scalar; 6]; V],
-    d_inv: &'a mut [Scalar; V],
+    u: &'a mut [[R; 6]; V],
+    d_inv: &'a mut [R; V],
     singular: Singular,
     /// The torques without the bias forces of the descendants; then the accelerations.
-    x: &'a mut [Scalar; V],
+    x: &'a mut [R; V],
 }
 
-impl<Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize>
-    Call<'_, Scalar, Tree, Effects, B, Q, V>
+impl<R, T, E, const B: usize, const Q: usize, const V: usize> Call<'_, R, T, E, B, Q, V>
 where
-    Scalar: Real,
-    Tree: Compiled,
-    Effects: Effect<Scalar, B, V>,
+    R: Real,
+    T: Compiled,
+    E: Effect<R, B, V>,
 {
     #[cfg_attr(optimised, inline(always))]
     fn accelerations_by_bodies(
         self,
-        state: &State<Scalar, Q, V>,
-        tau: &[Scalar; V],
-    ) -> Result<[Scalar; V], NotPositiveDefinite> {
+        state: &State<R, Q, V>,
+        tau: &[R; V],
+    ) -> Result<[R; V], NotPositiveDefinite> {
         // One phase after the other: as one block they would need more registers than there are.
         let mut x = self.remaining(state, tau);
         black_box(&mut x);
-        let (mut u, mut d_inv) = ([[Scalar::ZERO; 6]; V], [Scalar::ZERO; V]);
+        let (mut u, mut d_inv) = ([[R::ZERO; 6]; V], [R::ZERO; V]);
         let mut task = Task {
             call: self,
             u: &mut u,
@@ -105,7 +104,7 @@ where
         };
         for_each_joint!(
             J,
-            CompiledJoint::<Tree, J>::IS_ON_BASE,
+            CompiledJoint::<T, J>::IS_ON_BASE,
             inward = Task::inward::<J> as fn(&mut _) -> _,
             {
                 let _ = inward(&mut task);
@@ -114,40 +113,39 @@ where
         task.singular.outermost()?;
         for_each_joint!(
             J,
-            CompiledJoint::<Tree, J>::IS_ON_BASE,
+            CompiledJoint::<T, J>::IS_ON_BASE,
             outward = Task::outward::<J> as fn(&mut _, _),
             {
-                outward(&mut task, [Scalar::Vec3::ZERO; 2]);
+                outward(&mut task, [R::Vec3::ZERO; 2]);
             }
         );
         Ok(x)
     }
 }
 
-impl<Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize>
-    Task<'_, Scalar, Tree, Effects, B, Q, V>
+impl<R, T, E, const B: usize, const Q: usize, const V: usize> Task<'_, R, T, E, B, Q, V>
 where
-    Scalar: Real,
-    Tree: Compiled,
-    Effects: Effect<Scalar, B, V>,
+    R: Real,
+    T: Compiled,
+    E: Effect<R, B, V>,
 {
     /// The inward pass: the articulated inertia of joint I and its bias force, in the parent's
     /// frame.
     #[cfg_attr(optimised, inline(always))]
-    fn inward<const I: usize>(&mut self) -> (Articulated<Scalar>, Wrench<Scalar>) {
-        let joint = CompiledJoint::<Tree, I>::JOINT;
-        let length_inv = Folded::constant(Tree::LENGTH_INV);
+    fn inward<const I: usize>(&mut self) -> (Articulated<R>, Wrench<R>) {
+        let joint = CompiledJoint::<T, I>::JOINT;
+        let length_inv = Folded::constant(T::LENGTH_INV);
         let mut ia = Articulated::of(&Inertia::NONE);
-        if let Some(inertia) = const {
-            only_if(CompiledJoint::<Tree, I>::LAST == I, Call::inertia::<I> as fn(_, _) -> _)
-        } {
+        if let Some(inertia) =
+            const { only_if(CompiledJoint::<T, I>::LAST == I, Call::inertia::<I> as fn(_, _) -> _) }
+        {
             ia = Articulated::of(&inertia(self.call, false));
         }
         let mut push = Wrench { f: Vec3::ZERO, n: Vec3::ZERO };
         for_each_joint!(
             J,
-            JointPair::<Tree, I, J>::IS_PARENT,
-            inward = Self::inward::<J> as fn(&mut _) -> (Articulated<Scalar>, Wrench<Scalar>),
+            JointPair::<T, I, J>::IS_PARENT,
+            inward = Self::inward::<J> as fn(&mut _) -> (Articulated<R>, Wrench<R>),
             {
                 let (inertia, wrench) = inward(self);
                 ia = ia + inertia;
@@ -159,8 +157,8 @@ where
         let mut d = own.along(joint, length_inv).get();
         add_inertia(self.call.effects, I, &mut d);
         let noise = self.call.pivot_noise::<I>();
-        self.singular.note::<Scalar, I>(d, noise);
-        let d_inv = Scalar::ONE / d;
+        self.singular.note::<R, I>(d, noise);
+        let d_inv = R::ONE / d;
         let rest = Folded::runtime(self.x[I]) - push.along(joint, length_inv);
         let ([nx, ny, nz], [fx, fy, fz]) = (n.0, f.0);
         self.u[I] = [nx.get(), ny.get(), nz.get(), fx.get(), fy.get(), fz.get()];
@@ -175,12 +173,12 @@ where
 
     /// The outward pass: the acceleration of joint I, from its parent's α and a.
     #[cfg_attr(optimised, inline(always))]
-    fn outward<const I: usize>(&mut self, [alpha, a]: [Scalar::Vec3; 2]) {
-        let joint = CompiledJoint::<Tree, I>::JOINT;
-        let length_inv = Folded::constant(Tree::LENGTH_INV);
+    fn outward<const I: usize>(&mut self, [alpha, a]: [R::Vec3; 2]) {
+        let joint = CompiledJoint::<T, I>::JOINT;
+        let length_inv = Folded::constant(T::LENGTH_INV);
         let (rot, mut p) = (Mat3::constant(&joint.rot), Vec3::constant(joint.pos));
         let at = self.call.displacement::<I>();
-        if CompiledJoint::<Tree, I>::SHIFTS {
+        if CompiledJoint::<T, I>::SHIFTS {
             p = p + at.shift();
         }
         // Plain numbers: what is known of them ends with the first joints, which are at rest.
@@ -204,7 +202,7 @@ where
         }
         for_each_joint!(
             J,
-            JointPair::<Tree, I, J>::IS_PARENT,
+            JointPair::<T, I, J>::IS_PARENT,
             outward = Self::outward::<J> as fn(&mut _, _),
             {
                 outward(self, [alpha.get(), a.get()]);

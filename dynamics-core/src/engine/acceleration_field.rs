@@ -25,44 +25,44 @@ use crate::scalar::Real;
 
 /// The acceleration field of a body, in its frame.
 #[derive(Clone, Copy)]
-pub(crate) struct AccelerationField<Scalar> {
+pub(crate) struct AccelerationField<R> {
     /// ω, for effects that read the body's velocity.
-    pub(crate) omega: Vec3<Scalar>,
+    pub(crate) omega: Vec3<R>,
     /// ω in the velocity products: zero unless an effect needs them.
-    pub(crate) omega_products: Vec3<Scalar>,
+    pub(crate) omega_products: Vec3<R>,
     /// α.
-    pub(crate) alpha: Vec3<Scalar>,
+    pub(crate) alpha: Vec3<R>,
     /// U = \[α\]× + \[ω\]×\[ω\]×.
-    pub(crate) u: Mat3<Scalar>,
+    pub(crate) u: Mat3<R>,
     /// Acceleration of the origin, in units of length.
-    pub(crate) a: Vec3<Scalar>,
+    pub(crate) a: Vec3<R>,
     /// Velocity of the origin, in units of length; zero unless an effect reads it.
-    pub(crate) v: Vec3<Scalar>,
+    pub(crate) v: Vec3<R>,
     /// Pose of the body; unknown unless an effect reads it.
-    pub(crate) pose: Pose<Scalar>,
+    pub(crate) pose: Pose<R>,
 }
 
 /// The base parameters of a body, or of a body and its descendants: m, h and Σ, in units of length.
 #[derive(Clone, Copy)]
-pub(crate) struct Inertia<Scalar> {
-    pub(crate) mass: Folded<Scalar>,
-    pub(crate) moment: Vec3<Scalar>,
-    pub(crate) second: Sym3<Scalar>,
+pub(crate) struct Inertia<R> {
+    pub(crate) mass: Folded<R>,
+    pub(crate) moment: Vec3<R>,
+    pub(crate) second: Sym3<R>,
 }
 
 /// A force f at the origin and a couple n.
 #[derive(Clone, Copy)]
-pub(crate) struct Wrench<Scalar> {
-    pub(crate) f: Vec3<Scalar>,
-    pub(crate) n: Vec3<Scalar>,
+pub(crate) struct Wrench<R> {
+    pub(crate) f: Vec3<R>,
+    pub(crate) n: Vec3<R>,
 }
 
-impl<Scalar: Real> Wrench<Scalar> {
+impl<R: Real> Wrench<R> {
     pub(crate) const ZERO: Self = Self { f: Vec3::ZERO, n: Vec3::ZERO };
 
     /// The component along a joint's coordinate at the origin: N·m about its axis, or N along it.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn along(&self, joint: &Joint, length_inv: Folded<Scalar>) -> Folded<Scalar> {
+    pub(crate) fn along(&self, joint: &Joint, length_inv: Folded<R>) -> Folded<R> {
         if joint.prismatic {
             self.f.along_axis(joint.axis) * length_inv
         } else if matches!(joint.motion, JointMotion::Screw) {
@@ -74,37 +74,34 @@ impl<Scalar: Real> Wrench<Scalar> {
 
     /// The same in the frame of joint I's parent and about its origin.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn to_parent<Tree, const I: usize>(self, at: &Displacement<Scalar, Tree, I>) -> Self
+    pub(crate) fn to_parent<T, const I: usize>(self, at: &Displacement<R, T, I>) -> Self
     where
-        Tree: Compiled,
+        T: Compiled,
     {
         self.turned(at).turned_to_parent(at)
     }
 
     /// The same in the joint's frame.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn turned<Tree, const I: usize>(self, at: &Displacement<Scalar, Tree, I>) -> Self
+    pub(crate) fn turned<T, const I: usize>(self, at: &Displacement<R, T, I>) -> Self
     where
-        Tree: Compiled,
+        T: Compiled,
     {
         Self { f: at.leave(self.f), n: at.leave(self.n) }
     }
 
     /// The same in the frame of joint I's parent and about its origin, from the joint's frame.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn turned_to_parent<Tree, const I: usize>(
-        self,
-        at: &Displacement<Scalar, Tree, I>,
-    ) -> Self
+    pub(crate) fn turned_to_parent<T, const I: usize>(self, at: &Displacement<R, T, I>) -> Self
     where
-        Tree: Compiled,
+        T: Compiled,
     {
-        let f = rotate_to_parent::<Scalar, Tree, I>(self.f);
-        Self { f, n: rotate_to_parent::<Scalar, Tree, I>(self.n) + offset_cross(f, at) }
+        let f = rotate_to_parent::<R, T, I>(self.f);
+        Self { f, n: rotate_to_parent::<R, T, I>(self.n) + offset_cross(f, at) }
     }
 }
 
-impl<Scalar: Real> Add for Wrench<Scalar> {
+impl<R: Real> Add for Wrench<R> {
     type Output = Self;
     #[cfg_attr(optimised, inline(always))]
     fn add(self, o: Self) -> Self {
@@ -112,14 +109,14 @@ impl<Scalar: Real> Add for Wrench<Scalar> {
     }
 }
 
-impl<Scalar: Real> Inertia<Scalar> {
+impl<R: Real> Inertia<R> {
     /// No body.
     pub(crate) const NONE: Self =
         Self { mass: Folded::ZERO, moment: Vec3::ZERO, second: Sym3::ZERO };
 
     /// The wrench of a unit acceleration along a joint's coordinate.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn wrench_of(&self, joint: &Joint, length_inv: Folded<Scalar>) -> Wrench<Scalar> {
+    pub(crate) fn wrench_of(&self, joint: &Joint, length_inv: Folded<R>) -> Wrench<R> {
         let (zero, [hx, hy, hz], s) = (Folded::ZERO, self.moment.0, &self.second);
         if joint.prismatic {
             let (m, x, y, z) =
@@ -171,7 +168,7 @@ impl<Scalar: Real> Inertia<Scalar> {
     /// The inertia that loaded base parameters leave to a body, which coordinate `by` moves; what
     /// is zero of every robot is a known zero.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn loaded(body: &RegroupedInertia<Scalar>, by: &Joint, base_moves: bool) -> Self {
+    pub(crate) fn loaded(body: &RegroupedInertia<R>, by: &Joint, base_moves: bool) -> Self {
         let ([x, y, z], [xx, xy, xz, yy, yz]) =
             (body.moment.map(Folded::runtime), body.second.map(Folded::runtime));
         let (zero, mut second) = (Folded::ZERO, Sym3::ZERO);
@@ -201,18 +198,18 @@ impl<Scalar: Real> Inertia<Scalar> {
 
     /// The same in the frame of joint I's parent and about its origin.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn to_parent<Tree, const I: usize>(self, at: &Displacement<Scalar, Tree, I>) -> Self
+    pub(crate) fn to_parent<T, const I: usize>(self, at: &Displacement<R, T, I>) -> Self
     where
-        Tree: Compiled,
+        T: Compiled,
     {
         self.turned(at).turned_to_parent(at)
     }
 
     /// The same in the frame of joint I.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn turned<Tree, const I: usize>(self, at: &Displacement<Scalar, Tree, I>) -> Self
+    pub(crate) fn turned<T, const I: usize>(self, at: &Displacement<R, T, I>) -> Self
     where
-        Tree: Compiled,
+        T: Compiled,
     {
         Self {
             mass: self.mass,
@@ -223,20 +220,17 @@ impl<Scalar: Real> Inertia<Scalar> {
 
     /// The same in the frame of joint I's parent and about its origin, from the joint's frame.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn turned_to_parent<Tree, const I: usize>(
-        self,
-        at: &Displacement<Scalar, Tree, I>,
-    ) -> Self
+    pub(crate) fn turned_to_parent<T, const I: usize>(self, at: &Displacement<R, T, I>) -> Self
     where
-        Tree: Compiled,
+        T: Compiled,
     {
-        let joint = CompiledJoint::<Tree, I>::JOINT;
+        let joint = CompiledJoint::<T, I>::JOINT;
         let mut p = Vec3::constant(joint.pos);
-        if CompiledJoint::<Tree, I>::SHIFTS {
+        if CompiledJoint::<T, I>::SHIFTS {
             p = p + at.shift();
         }
-        let h = rotate_to_parent::<Scalar, Tree, I>(self.moment);
-        let second = rotate_symmetric_to_parent::<Scalar, Tree, I>(self.second);
+        let h = rotate_to_parent::<R, T, I>(self.moment);
+        let second = rotate_symmetric_to_parent::<R, T, I>(self.second);
         Self {
             mass: self.mass,
             moment: h + p.scale(self.mass),
@@ -245,7 +239,7 @@ impl<Scalar: Real> Inertia<Scalar> {
     }
 }
 
-impl<Scalar: Real> Add for Inertia<Scalar> {
+impl<R: Real> Add for Inertia<R> {
     type Output = Self;
     #[cfg_attr(optimised, inline(always))]
     fn add(self, o: Self) -> Self {
@@ -257,7 +251,7 @@ impl<Scalar: Real> Add for Inertia<Scalar> {
     }
 }
 
-impl<Scalar: Real> AccelerationField<Scalar> {
+impl<R: Real> AccelerationField<R> {
     /// The field of a base at rest, in its pose.
     pub(crate) const RESTING: Self = Self {
         omega: Vec3::ZERO,
@@ -271,13 +265,13 @@ impl<Scalar: Real> AccelerationField<Scalar> {
 
     /// The field of a child behind joint I of one coordinate.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn across<Tree: Compiled, const I: usize>(
+    pub(crate) fn across<T: Compiled, const I: usize>(
         &self,
-        at: &Displacement<Scalar, Tree, I>,
-        rates: JointRates<Scalar>,
+        at: &Displacement<R, T, I>,
+        rates: JointRates<R>,
     ) -> Self {
-        let joint = CompiledJoint::<Tree, I>::JOINT;
-        match CompiledJoint::<Tree, I>::MOTION {
+        let joint = CompiledJoint::<T, I>::JOINT;
+        match CompiledJoint::<T, I>::MOTION {
             JointMotion::Slide => self.across_prismatic(joint, at.slide, rates),
             JointMotion::Screw => self.across_screw(joint, at, rates),
             _ => self.across_revolute::<true>(joint, at.turn, rates),
@@ -290,36 +284,31 @@ impl<Scalar: Real> AccelerationField<Scalar> {
     pub(crate) fn across_revolute<const TURNED: bool>(
         &self,
         joint: &Joint,
-        turn: JointCoordinate<Scalar>,
-        rates: JointRates<Scalar>,
+        turn: JointCoordinate<R>,
+        rates: JointRates<R>,
     ) -> Self {
         let (rot, p) = (Mat3::constant(&joint.rot), Vec3::constant(joint.pos));
-        let omega_products = enter::<Scalar, TURNED>(&rot, turn, self.omega_products)
-            + along_z(rates.omega_products);
+        let omega_products =
+            enter::<R, TURNED>(&rot, turn, self.omega_products) + along_z(rates.omega_products);
         let az = rot.transpose_mul(self.alpha).0[2] + rates.accel;
         // Points on the joint's axis move with both links: U's column along it is the parent's.
-        let along = enter::<Scalar, TURNED>(&rot, turn, self.u.mul(rot.0[2]));
-        let a = enter::<Scalar, TURNED>(&rot, turn, self.a + self.u.mul(p));
+        let along = enter::<R, TURNED>(&rot, turn, self.u.mul(rot.0[2]));
+        let a = enter::<R, TURNED>(&rot, turn, self.a + self.u.mul(p));
         let (ax, ay, u) = complete(omega_products, az, along);
         Self {
-            omega: enter::<Scalar, TURNED>(&rot, turn, self.omega) + along_z(rates.velocity),
+            omega: enter::<R, TURNED>(&rot, turn, self.omega) + along_z(rates.velocity),
             omega_products,
             alpha: Vec3([ax, ay, az]),
             u,
             a,
-            v: enter::<Scalar, TURNED>(&rot, turn, self.v + self.omega.cross(p)),
+            v: enter::<R, TURNED>(&rot, turn, self.v + self.omega.cross(p)),
             pose: Pose::UNKNOWN,
         }
     }
 
     /// The field of a child behind a prismatic joint at q, in units of length.
     #[cfg_attr(optimised, inline(always))]
-    fn across_prismatic(
-        &self,
-        joint: &Joint,
-        q: Folded<Scalar>,
-        rates: JointRates<Scalar>,
-    ) -> Self {
+    fn across_prismatic(&self, joint: &Joint, q: Folded<R>, rates: JointRates<R>) -> Self {
         let rot = Mat3::constant(&joint.rot);
         let p = Vec3::constant(joint.pos) + rot.0[2].scale(q);
         let omega_products = rot.transpose_mul(self.omega_products);
@@ -344,11 +333,11 @@ impl<Scalar: Real> AccelerationField<Scalar> {
 
     /// The field of a child behind a screw joint: a rotation, then a translation that it drives.
     #[cfg_attr(optimised, inline(always))]
-    fn across_screw<Tree, const I: usize>(
+    fn across_screw<T, const I: usize>(
         &self,
         joint: &Joint,
-        at: &Displacement<Scalar, Tree, I>,
-        rates: JointRates<Scalar>,
+        at: &Displacement<R, T, I>,
+        rates: JointRates<R>,
     ) -> Self {
         let turned = self.across_revolute::<true>(joint, at.turn, rates);
         let pitch = Folded::constant(joint.pitch);
@@ -367,12 +356,12 @@ impl<Scalar: Real> AccelerationField<Scalar> {
     /// the body in the joint's frame, by the body's axes, so that α = E α_λ + ω̇_J + E ω_λ × ω_J
     /// and a = E a_λ(p) + v̇_J + (ω + E ω_λ) × v_J.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn across_several<Tree: Compiled, const I: usize>(
+    pub(crate) fn across_several<T: Compiled, const I: usize>(
         &self,
-        at: &Displacement<Scalar, Tree, I>,
-        rates: &SeveralRates<Scalar>,
+        at: &Displacement<R, T, I>,
+        rates: &SeveralRates<R>,
     ) -> Self {
-        let joint = CompiledJoint::<Tree, I>::JOINT;
+        let joint = CompiledJoint::<T, I>::JOINT;
         let rot = Mat3::constant(&joint.rot);
         let p = Vec3::constant(joint.pos) + at.shift();
         let carried = at.enter(&rot, self.omega_products);
@@ -395,7 +384,7 @@ impl<Scalar: Real> AccelerationField<Scalar> {
     /// The wrench that accelerates the body's inertia: f = m a + U h, n = h × a + axial(U Σ − Σ
     /// Uᵀ).
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn wrench(&self, body: &Inertia<Scalar>) -> Wrench<Scalar> {
+    pub(crate) fn wrench(&self, body: &Inertia<R>) -> Wrench<R> {
         let (mass, h) = (body.mass, body.moment);
         let ([x, y, z], [wx, wy, wz]) = (self.u.0, self.omega_products.0);
         let (sxx, sxy, sxz) = (body.second.xx, body.second.xy, body.second.xz);
@@ -413,7 +402,7 @@ impl<Scalar: Real> AccelerationField<Scalar> {
 
 /// U = \[α\]× + \[ω\]×\[ω\]×.
 #[cfg_attr(optimised, inline(always))]
-pub(super) fn u_of<Scalar: Real>(alpha: Vec3<Scalar>, omega: Vec3<Scalar>) -> Mat3<Scalar> {
+pub(super) fn u_of<R: Real>(alpha: Vec3<R>, omega: Vec3<R>) -> Mat3<R> {
     let ([ax, ay, az], [wx, wy, wz]) = (alpha.0, omega.0);
     let (xz, yz, xy) = (wx * wz, wy * wz, wx * wy);
     let (xx, yy, zz) = (wx * wx, wy * wy, wz * wz);
@@ -426,11 +415,11 @@ pub(super) fn u_of<Scalar: Real>(alpha: Vec3<Scalar>, omega: Vec3<Scalar>) -> Ma
 
 /// α_x, α_y and U from ω, α_z and U's z column.
 #[cfg_attr(optimised, inline(always))]
-fn complete<Scalar: Real>(
-    omega: Vec3<Scalar>,
-    az: Folded<Scalar>,
-    along: Vec3<Scalar>,
-) -> (Folded<Scalar>, Folded<Scalar>, Mat3<Scalar>) {
+fn complete<R: Real>(
+    omega: Vec3<R>,
+    az: Folded<R>,
+    along: Vec3<R>,
+) -> (Folded<R>, Folded<R>, Mat3<R>) {
     let ([wx, wy, wz], [uxz, uyz, uzz]) = (omega.0, along.0);
     let (xz, yz, xy) = (wx * wz, wy * wz, wx * wy);
     let (xx, yy, zz) = (wx * wx, wy * wy, wz * wz);
@@ -446,17 +435,17 @@ fn complete<Scalar: Real>(
 /// Rz(q)ᵀ Rᵀ v: from the parent's frame into the body's, or Rᵀ v. A function, not a closure:
 /// closures are inlined too late for the tags to fold.
 #[cfg_attr(optimised, inline(always))]
-pub(crate) fn enter<Scalar: Real, const TURNED: bool>(
-    rot: &Mat3<Scalar>,
-    turn: JointCoordinate<Scalar>,
-    v: Vec3<Scalar>,
-) -> Vec3<Scalar> {
+pub(crate) fn enter<R: Real, const TURNED: bool>(
+    rot: &Mat3<R>,
+    turn: JointCoordinate<R>,
+    v: Vec3<R>,
+) -> Vec3<R> {
     let v = rot.transpose_mul(v);
     if TURNED { v.turn_back(Folded::runtime(turn.sin), Folded::runtime(turn.cos)) } else { v }
 }
 
 /// A vector along the joint's axis.
 #[cfg_attr(optimised, inline(always))]
-pub(crate) fn along_z<Scalar: Real>(z: Folded<Scalar>) -> Vec3<Scalar> {
+pub(crate) fn along_z<R: Real>(z: Folded<R>) -> Vec3<R> {
     Vec3([Folded::ZERO, Folded::ZERO, z])
 }

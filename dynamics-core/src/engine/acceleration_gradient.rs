@@ -13,7 +13,7 @@ use crate::scalar::Real;
 use crate::state::{Configuration, RobotState, State};
 use crate::trig::Kernel;
 
-impl<Arm, Sines> Engine<Arm, Sines> {
+impl<T, K> Engine<T, K> {
     /// ∂q̈/∂q and ∂q̈/∂q̇ of forward dynamics q̈ = FD(q, q̇, τ), 1/s² and 1/s between revolute
     /// joints, with q̈ itself and the factors of M for ∂q̈/∂τ = M⁻¹.
     ///
@@ -46,22 +46,22 @@ impl<Arm, Sines> Engine<Arm, Sines> {
     #[doc(alias = "computeABADerivatives")]
     #[inline(never)]
     pub fn forward_dynamics_derivatives<
-        Scalar: Real,
-        Effects,
+        R: Real,
+        E,
         const B: usize,
         const Q: usize,
         const V: usize,
     >(
-        state: impl RobotState<Scalar, Q, V>,
-        tau: &[Scalar; V],
-        effects: &Effects,
-    ) -> Result<AccelerationGradient<Scalar, V>, NotPositiveDefinite>
+        state: impl RobotState<R, Q, V>,
+        tau: &[R; V],
+        effects: &E,
+    ) -> Result<AccelerationGradient<R, V>, NotPositiveDefinite>
     where
-        Arm: Robot<B, Q, V>,
-        Sines: Kernel<Scalar>,
-        Effects: Effect<Scalar, B, V>,
+        T: Robot<B, Q, V>,
+        K: Kernel<R>,
+        E: Effect<R, B, V>,
     {
-        const { assert!(Effects::ACCELERATIONS, "forward dynamics needs `Inertia` in the scene") };
+        const { assert!(E::ACCELERATIONS, "forward dynamics needs `Inertia` in the scene") };
         let trig = state.configuration().trig_or(Self::trig_source());
         let (trig, state) = (trig.borrow(), state.state());
         let bias = Self::rnea(trig.with(state), &Bias(effects));

@@ -18,16 +18,16 @@ use crate::scalar::Real;
 
 /// The three blocks.
 #[derive(Clone, Copy)]
-pub(crate) struct Articulated<Scalar> {
-    pub(crate) ang: Sym3<Scalar>,
-    pub(crate) coupling: Mat3<Scalar>,
-    pub(crate) lin: Sym3<Scalar>,
+pub(crate) struct Articulated<R> {
+    pub(crate) ang: Sym3<R>,
+    pub(crate) coupling: Mat3<R>,
+    pub(crate) lin: Sym3<R>,
 }
 
-impl<Scalar: Real> Articulated<Scalar> {
+impl<R: Real> Articulated<R> {
     /// A rigid body's: I = tr Σ 1 − Σ, H = \[h\]×, A = m 1.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn of(body: &Inertia<Scalar>) -> Self {
+    pub(crate) fn of(body: &Inertia<R>) -> Self {
         let (s, m, zero) = (body.second, body.mass, Folded::ZERO);
         let [x, y, z] = body.moment.0;
         Self {
@@ -46,7 +46,7 @@ impl<Scalar: Real> Articulated<Scalar> {
 
     /// The wrench of a unit acceleration along a joint's coordinate: the column of its axis.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn wrench_of(&self, joint: &Joint, length_inv: Folded<Scalar>) -> Wrench<Scalar> {
+    pub(crate) fn wrench_of(&self, joint: &Joint, length_inv: Folded<R>) -> Wrench<R> {
         let axis = joint.axis;
         if joint.prismatic {
             return Wrench {
@@ -69,12 +69,7 @@ impl<Scalar: Real> Articulated<Scalar> {
 
     /// The inertia with a joint free: minus U Uᵀ/d.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn minus_joint(
-        self,
-        n: Vec3<Scalar>,
-        f: Vec3<Scalar>,
-        d_inv: Folded<Scalar>,
-    ) -> Self {
+    pub(crate) fn minus_joint(self, n: Vec3<R>, f: Vec3<R>, d_inv: Folded<R>) -> Self {
         let ([fx, fy, fz], minus) = (f.scale(d_inv).0, -d_inv);
         let [hx, hy, hz] = self.coupling.0;
         Self {
@@ -86,17 +81,17 @@ impl<Scalar: Real> Articulated<Scalar> {
 
     /// The same in the frame of joint I's parent and about its origin; RBDA (2.66).
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn to_parent<Tree, const I: usize>(self, at: &Displacement<Scalar, Tree, I>) -> Self
+    pub(crate) fn to_parent<T, const I: usize>(self, at: &Displacement<R, T, I>) -> Self
     where
-        Tree: Compiled,
+        T: Compiled,
     {
         let turned = Self {
             ang: at.leave_symmetric(self.ang),
             coupling: at.leave_matrix(&self.coupling),
             lin: at.leave_symmetric(self.lin),
         };
-        let lin = rotate_symmetric_to_parent::<Scalar, Tree, I>(turned.lin);
-        let here = rotate_matrix_to_parent::<Scalar, Tree, I>(&turned.coupling);
+        let lin = rotate_symmetric_to_parent::<R, T, I>(turned.lin);
+        let here = rotate_matrix_to_parent::<R, T, I>(&turned.coupling);
         // H′ = H + [p]× A; I′ = I + [p]× Hᵀ + ([p]× H′ᵀ)ᵀ.
         let coupling = here + cross_offset(Mat3(lin.columns()), at);
         let Mat3([lx, ly, lz]) = cross_offset(Mat3(here.rows()), at);
@@ -109,16 +104,12 @@ impl<Scalar: Real> Articulated<Scalar> {
             yz: lz.0[1] + ry.0[2],
             zz: lz.0[2] + rz.0[2],
         };
-        Self {
-            ang: rotate_symmetric_to_parent::<Scalar, Tree, I>(turned.ang) + shift,
-            coupling,
-            lin,
-        }
+        Self { ang: rotate_symmetric_to_parent::<R, T, I>(turned.ang) + shift, coupling, lin }
     }
 }
 
 #[cfg_attr(optimised, inline(always))]
-fn column<Scalar: Real>([x, y, z]: [Vec3<Scalar>; 3], axis: usize) -> Vec3<Scalar> {
+fn column<R: Real>([x, y, z]: [Vec3<R>; 3], axis: usize) -> Vec3<R> {
     match axis {
         0 => x,
         1 => y,
@@ -126,7 +117,7 @@ fn column<Scalar: Real>([x, y, z]: [Vec3<Scalar>; 3], axis: usize) -> Vec3<Scala
     }
 }
 
-impl<Scalar: Real> Add for Articulated<Scalar> {
+impl<R: Real> Add for Articulated<R> {
     type Output = Self;
     #[cfg_attr(optimised, inline(always))]
     fn add(self, o: Self) -> Self {

@@ -10,22 +10,21 @@ use crate::effects::{Declared, Effect, Scene, base_given, call_hook, field_axes}
 use crate::scalar::{Real, Vector};
 use crate::spatial::Motion;
 
-impl<Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize>
-    Call<'_, Scalar, Tree, Effects, B, Q, V>
+impl<R, T, E, const B: usize, const Q: usize, const V: usize> Call<'_, R, T, E, B, Q, V>
 where
-    Scalar: Real,
-    Tree: Compiled,
-    Effects: Effect<Scalar, B, V>,
+    R: Real,
+    T: Compiled,
+    E: Effect<R, B, V>,
 {
     /// The base without its acceleration: a = −g, its velocity if it moves, and its pose, in units
     /// of length; all other values are known zeros.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn unaccelerated(self) -> AccelerationField<Scalar> {
-        let length = Tree::LENGTH;
-        const { Scene::<Scalar, Effects, B, V>::MEANING };
-        let mut g = Scalar::Vec3::ZERO;
-        call_hook!(Effects::GRAVITY_FIELD.add, self.effects, &mut g);
-        let (g, [x, y, z]) = (g.array(), const { field_axes::<Scalar, Effects, B, V>() });
+    pub(crate) fn unaccelerated(self) -> AccelerationField<R> {
+        let length = T::LENGTH;
+        const { Scene::<R, E, B, V>::MEANING };
+        let mut g = R::Vec3::ZERO;
+        call_hook!(E::GRAVITY_FIELD.add, self.effects, &mut g);
+        let (g, [x, y, z]) = (g.array(), const { field_axes::<R, E, B, V>() });
         let up = Folded::constant(-1.0 / length);
         let weight = Vec3([
             Folded::runtime_if(x, g[0]) * up,
@@ -41,12 +40,12 @@ where
             v: Vec3::ZERO,
             pose: Pose::UNKNOWN,
         };
-        if Effects::BODY_POSE {
+        if E::BODY_POSE {
             field.pose = Pose::BASE;
         }
-        if Effects::BASE_MOTION {
+        if E::BASE_MOTION {
             let (mut velocity, mut acceleration) = (Motion::ZERO, Motion::ZERO);
-            call_hook!(Effects::BASE.add, self.effects, &mut velocity, &mut acceleration);
+            call_hook!(E::BASE.add, self.effects, &mut velocity, &mut acceleration);
             field.omega = Vec3::runtime(velocity.ang);
             field.v = Vec3::runtime(velocity.lin).scale(Folded::constant(1.0 / length));
         }
@@ -55,13 +54,13 @@ where
     /// The motion of the base: a = −g plus its own acceleration, in units of length. If it is at
     /// rest, all other values are known zeros.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn base(self) -> AccelerationField<Scalar> {
-        let length = Tree::LENGTH;
+    pub(crate) fn base(self) -> AccelerationField<R> {
+        let length = T::LENGTH;
         let mut field = self.unaccelerated();
-        if Effects::BASE_MOTION {
+        if E::BASE_MOTION {
             let (_, a) = base_given(self.effects);
-            field = accelerated(field, a, Effects::VELOCITY_PRODUCTS, length);
-            if !Effects::BODY_VELOCITY {
+            field = accelerated(field, a, E::VELOCITY_PRODUCTS, length);
+            if !E::BODY_VELOCITY {
                 (field.omega, field.v) = (Vec3::ZERO, Vec3::ZERO);
             }
         }
@@ -69,10 +68,10 @@ where
     }
     /// The motion of the base without gravity, and its pose: all of it, whatever the effects need.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn carried(self) -> AccelerationField<Scalar> {
-        let length = Tree::LENGTH;
+    pub(crate) fn carried(self) -> AccelerationField<R> {
+        let length = T::LENGTH;
         let mut field = AccelerationField::RESTING;
-        if Effects::BASE_MOTION {
+        if E::BASE_MOTION {
             let (v, a) = base_given(self.effects);
             field.omega = Vec3::runtime(v.ang);
             field.v = Vec3::runtime(v.lin).scale(Folded::constant(1.0 / length));
@@ -85,12 +84,12 @@ where
 /// The field of a base of the velocity of `field`, with its spatial acceleration, and with the
 /// products of its velocity if they are asked for.
 #[cfg_attr(optimised, inline(always))]
-fn accelerated<Scalar: Real>(
-    mut field: AccelerationField<Scalar>,
-    a: Motion<Scalar>,
+fn accelerated<R: Real>(
+    mut field: AccelerationField<R>,
+    a: Motion<R>,
     products: bool,
     length: f64,
-) -> AccelerationField<Scalar> {
+) -> AccelerationField<R> {
     let (omega, velocity, alpha) = (field.omega, field.v, Vec3::runtime(a.ang));
     let ([ax, ay, az], zero) = (alpha.0, Folded::ZERO);
     field.alpha = alpha;

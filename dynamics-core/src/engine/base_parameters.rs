@@ -17,7 +17,7 @@ use crate::spatial::inertia::CompositeInertia;
 use crate::spatial::{SpatialInertia, Xform};
 use crate::state::{all_finite, entry};
 
-impl<Arm, Sines> Engine<Arm, Sines> {
+impl<T, K> Engine<T, K> {
     /// The base parameters of a calibrated robot with the payloads of `effects`, for the scenes of
     /// the engine.
     ///
@@ -53,24 +53,24 @@ impl<Arm, Sines> Engine<Arm, Sines> {
     /// # Source
     /// Khalil & Dombre (2002), chapter 9.
     #[inline(never)]
-    pub fn base_parameters<Scalar: Real, Effects, const B: usize, const Q: usize, const V: usize>(
-        robot: &Calibrated<Arm, Scalar, B, Q, V>,
-        effects: &Effects,
-    ) -> Result<BaseParameters<Arm, Scalar, B, Q, V>, ModelError>
+    pub fn base_parameters<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+        robot: &Calibrated<T, R, B, Q, V>,
+        effects: &E,
+    ) -> Result<BaseParameters<T, R, B, Q, V>, ModelError>
     where
-        Arm: Robot<B, Q, V>,
-        Effects: Effect<Scalar, B, V>,
+        T: Robot<B, Q, V>,
+        E: Effect<R, B, V>,
     {
         let mut joints = joints_of(robot, effects)?;
-        let sizes = sizes::<Scalar, Arm, Effects, B, Q, V>(robot, effects);
-        let length = Scalar::from_f64(CompiledRobot::<Arm, B, Q, V>::LENGTH);
+        let sizes = sizes::<R, T, E, B, Q, V>(robot, effects);
+        let length = R::from_f64(CompiledRobot::<T, B, Q, V>::LENGTH);
         let mut set =
             BaseParameters { joints: [RegroupedInertia::default(); V], robot: PhantomData };
         for (body, size) in set.joints.iter_mut().zip(sizes) {
             body.size = size;
         }
-        for (i, by) in CompiledRobot::<Arm, B, Q, V>::JOINTS.iter().enumerate().rev() {
-            let Some(&Carried { x, inertia, parent }) = joints.get(i) else {
+        for (i, by) in CompiledRobot::<T, B, Q, V>::JOINTS.iter().enumerate().rev() {
+            let Some(&JointBodies { x, inertia, parent }) = joints.get(i) else {
                 continue;
             };
             if by.first != i {
@@ -87,7 +87,7 @@ impl<Arm, Sines> Engine<Arm, Sines> {
                 let mut links = robot.links();
                 let moved = links.find(|link| link.coordinates().any(|k| k == i));
                 return Err(moved.map_or(
-                    ModelError { body: Arm::MODEL.name, problem: Problem::NotFinite },
+                    ModelError { body: T::MODEL.name, problem: Problem::NotFinite },
                     |link| error(&link, Problem::NotFinite),
                 ));
             }
@@ -101,35 +101,35 @@ impl<Arm, Sines> Engine<Arm, Sines> {
 
 /// The number of a body's joint, its first coordinate, or [`BASE`] of a body that is fixed to its
 /// parent.
-fn joint_of<Scalar: Real>(link: &LinkView<'_, Scalar>) -> usize {
+fn joint_of<R: Real>(link: &LinkView<'_, R>) -> usize {
     link.coordinates().next().unwrap_or(BASE)
 }
 
 /// A joint's frame, and the inertia of the bodies that move with it as one.
 #[derive(Clone, Copy)]
-struct Carried<Scalar: Real> {
+struct JointBodies<R: Real> {
     /// From the frame of the parent joint.
-    x: Xform<Scalar>,
-    inertia: CompositeInertia<Scalar>,
+    x: Xform<R>,
+    inertia: CompositeInertia<R>,
     /// The parent joint, or [`BASE`].
     parent: usize,
 }
 
 /// The joints with what they carry, before regrouping.
-fn joints_of<Scalar: Real, Arm, Effects, const B: usize, const Q: usize, const V: usize>(
-    robot: &Calibrated<Arm, Scalar, B, Q, V>,
-    effects: &Effects,
-) -> Result<[Carried<Scalar>; V], ModelError>
+fn joints_of<R: Real, T, E, const B: usize, const Q: usize, const V: usize>(
+    robot: &Calibrated<T, R, B, Q, V>,
+    effects: &E,
+) -> Result<[JointBodies<R>; V], ModelError>
 where
-    Arm: Robot<B, Q, V>,
-    Effects: Effect<Scalar, B, V>,
+    T: Robot<B, Q, V>,
+    E: Effect<R, B, V>,
 {
     let nothing = CompositeInertia::from(SpatialInertia::ZERO);
     let at_base = Xform::IDENTITY;
-    let mut joints = [Carried { x: at_base, inertia: nothing, parent: BASE }; V];
+    let mut joints = [JointBodies { x: at_base, inertia: nothing, parent: BASE }; V];
     // The joint that each body moves with, and its frame relative to that joint's.
     let mut places = [(BASE, at_base); B];
-    let described = &model::<Scalar, Arm, B, Q, V>().links;
+    let described = &model::<R, T, B, Q, V>().links;
     for ((i, link), described) in robot.links().enumerate().zip(described) {
         if link.placement != described.placement {
             return Err(error(&link, Problem::Placement));
@@ -152,14 +152,14 @@ where
 
 /// Writes the coordinates that move a body, whose frame is `place`; returns the one that carries
 /// it, and its frame there.
-fn attach<Scalar: Real>(
-    joints: &mut [Carried<Scalar>],
-    link: &LinkView<'_, Scalar>,
-    (parent, frame): (usize, Xform<Scalar>),
-) -> (usize, Xform<Scalar>) {
+fn attach<R: Real>(
+    joints: &mut [JointBodies<R>],
+    link: &LinkView<'_, R>,
+    (parent, frame): (usize, Xform<R>),
+) -> (usize, Xform<R>) {
     use JointKind::*;
-    let (i, o, l) = (joint_of(link), Scalar::ZERO, Scalar::ONE);
-    let [x, y, z] = [[l, o, o], [o, l, o], [o, o, l]].map(|[x, y, z]| Scalar::Vec3::new(x, y, z));
+    let (i, o, l) = (joint_of(link), R::ZERO, R::ONE);
+    let [x, y, z] = [[l, o, o], [o, l, o], [o, o, l]].map(|[x, y, z]| R::Vec3::new(x, y, z));
     match link.kind() {
         Planar | Spherical | Free => {
             if let Some(joint) = joints.get_mut(i) {
@@ -169,7 +169,7 @@ fn attach<Scalar: Real>(
         }
         Universal => {
             // The first rotation is about x.
-            let turned = Scalar::Mat3::from_cols(y, z, x);
+            let turned = R::Mat3::from_cols(y, z, x);
             let rot = turned.transpose() * frame.rot;
             let back = along_axis(joints, i, parent, Xform { rot, ..frame });
             let rot = turned * back.rot;
@@ -188,30 +188,30 @@ fn attach<Scalar: Real>(
 
 /// Moves the frame of joint `i` along its axis z to where the offset from the parent is
 /// perpendicular to it; returns the way back.
-fn along_axis<Scalar: Real>(
-    joints: &mut [Carried<Scalar>],
+fn along_axis<R: Real>(
+    joints: &mut [JointBodies<R>],
     i: usize,
     parent: usize,
-    Xform { rot, pos }: Xform<Scalar>,
-) -> Xform<Scalar> {
-    let axis = rot.transpose_mul(Scalar::Vec3::new(Scalar::ZERO, Scalar::ZERO, Scalar::ONE));
+    Xform { rot, pos }: Xform<R>,
+) -> Xform<R> {
+    let axis = rot.transpose_mul(R::Vec3::new(R::ZERO, R::ZERO, R::ONE));
     let along = axis.dot(pos);
     if let Some(joint) = joints.get_mut(i) {
         joint.x = Xform { rot, pos: pos - axis * along };
         joint.parent = parent;
     }
-    Xform { pos: Scalar::Vec3::new(Scalar::ZERO, Scalar::ZERO, along), ..Xform::IDENTITY }
+    Xform { pos: R::Vec3::new(R::ZERO, R::ZERO, along), ..Xform::IDENTITY }
 }
 
 /// The inertia that regrouping leaves to a body behind a joint, in units of length, and the inertia
 /// that its parent receives.
-fn split<Scalar: Real>(
-    [mass, hx, hy, hz, xx, xy, yy, xz, yz, zz]: [Scalar; 10],
+fn split<R: Real>(
+    [mass, hx, hy, hz, xx, xy, yy, xz, yz, zz]: [R; 10],
     motion: JointMotion,
-    length: Scalar,
-) -> (RegroupedInertia<Scalar>, CompositeInertia<Scalar>) {
+    length: R,
+) -> (RegroupedInertia<R>, CompositeInertia<R>) {
     use JointMotion::*;
-    let (zero, half) = (Scalar::ZERO, Scalar::from_f64(0.5));
+    let (zero, half) = (R::ZERO, R::from_f64(0.5));
     // Σ = ½ tr(Ī) 1 − Ī, of which Σ_zz goes to the parent as a thin rod.
     let trace = half * (xx + yy + zz);
     let mut kept = RegroupedInertia {
@@ -245,26 +245,26 @@ fn split<Scalar: Real>(
 
 /// Mass, largest first and largest second moment of each joint and its descendants: see
 /// [`super::pivot_noise`].
-fn sizes<Scalar: Real, Arm, Effects, const B: usize, const Q: usize, const V: usize>(
-    robot: &Calibrated<Arm, Scalar, B, Q, V>,
-    effects: &Effects,
-) -> [[Scalar; 3]; V]
+fn sizes<R: Real, T, E, const B: usize, const Q: usize, const V: usize>(
+    robot: &Calibrated<T, R, B, Q, V>,
+    effects: &E,
+) -> [[R; 3]; V]
 where
-    Arm: Robot<B, Q, V>,
-    Effects: Effect<Scalar, B, V>,
+    T: Robot<B, Q, V>,
+    E: Effect<R, B, V>,
 {
-    let length = |v: Scalar::Vec3| {
+    let length = |v: R::Vec3| {
         let [x, y, z] = v.array();
         x.abs() + y.abs() + z.abs()
     };
-    let (mut bodies, mut joints) = ([[Scalar::ZERO; 3]; B], [[Scalar::ZERO; 3]; V]);
+    let (mut bodies, mut joints) = ([[R::ZERO; 3]; B], [[R::ZERO; 3]; V]);
     for (i, link) in robot.links().enumerate().rev() {
         let own = body_inertia(effects, i, &link);
         let [_, _, _, _, xx, _, yy, _, _, zz] = own.parameters();
         let [mut mass, mut moment, mut second] = entry(&bodies, i);
         mass += own.mass;
         moment += length(own.first_moment);
-        second += Scalar::from_f64(0.5) * (xx + yy + zz);
+        second += R::from_f64(0.5) * (xx + yy + zz);
         for k in link.coordinates() {
             if let Some(joint) = joints.get_mut(k) {
                 *joint = [mass, moment, second];
@@ -281,6 +281,6 @@ where
     joints
 }
 
-fn error<Scalar: Real>(link: &LinkView<'_, Scalar>, problem: Problem) -> ModelError {
+fn error<R: Real>(link: &LinkView<'_, R>, problem: Problem) -> ModelError {
     ModelError { body: link.name, problem }
 }

@@ -22,7 +22,7 @@ use crate::spatial::Force;
 use crate::state::{Configuration, RobotState};
 use crate::trig::Kernel;
 
-impl<Arm, Sines> Engine<Arm, Sines> {
+impl<T, K> Engine<T, K> {
     /// The centre of mass of all bodies and a payload, m, its velocity, m/s, and their mass, kg, as
     /// [`crate::algorithms::center_of_mass`] computes them.
     ///
@@ -42,17 +42,17 @@ impl<Arm, Sines> Engine<Arm, Sines> {
     #[doc(alias = "CoM")]
     #[inline(never)]
     #[must_use]
-    pub fn center_of_mass<Scalar: Real, Effects, const B: usize, const Q: usize, const V: usize>(
-        state: impl RobotState<Scalar, Q, V>,
-        effects: &Effects,
-    ) -> CenterOfMass<Scalar>
+    pub fn center_of_mass<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        effects: &E,
+    ) -> CenterOfMass<R>
     where
-        Arm: Robot<B, Q, V>,
-        Sines: Kernel<Scalar>,
-        Effects: Effect<Scalar, B, V>,
+        T: Robot<B, Q, V>,
+        K: Kernel<R>,
+        E: Effect<R, B, V>,
     {
         scene_is_taken!();
-        let length = CompiledRobot::<Arm, B, Q, V>::LENGTH;
+        let length = CompiledRobot::<T, B, Q, V>::LENGTH;
         let all = Self::all_bodies(state, effects);
         let (position, mass_inv) = all.centre(length);
         CenterOfMass {
@@ -80,18 +80,18 @@ impl<Arm, Sines> Engine<Arm, Sines> {
     /// ```
     #[inline(never)]
     #[must_use]
-    pub fn momentum<Scalar: Real, Effects, const B: usize, const Q: usize, const V: usize>(
-        state: impl RobotState<Scalar, Q, V>,
-        effects: &Effects,
-    ) -> Force<Scalar>
+    pub fn momentum<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        effects: &E,
+    ) -> Force<R>
     where
-        Arm: Robot<B, Q, V>,
-        Sines: Kernel<Scalar>,
-        Effects: Effect<Scalar, B, V>,
+        T: Robot<B, Q, V>,
+        K: Kernel<R>,
+        E: Effect<R, B, V>,
     {
         scene_is_taken!();
         let all = Self::all_bodies(state, effects);
-        force(&all, CompiledRobot::<Arm, B, Q, V>::LENGTH)
+        force(&all, CompiledRobot::<T, B, Q, V>::LENGTH)
     }
 
     /// The centroidal momentum h_G: about the centre of mass and along the base's axes, N·m·s and
@@ -111,39 +111,33 @@ impl<Arm, Sines> Engine<Arm, Sines> {
     /// ```
     #[inline(never)]
     #[must_use]
-    pub fn centroidal_momentum<
-        Scalar: Real,
-        Effects,
-        const B: usize,
-        const Q: usize,
-        const V: usize,
-    >(
-        state: impl RobotState<Scalar, Q, V>,
-        effects: &Effects,
-    ) -> Force<Scalar>
+    pub fn centroidal_momentum<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        effects: &E,
+    ) -> Force<R>
     where
-        Arm: Robot<B, Q, V>,
-        Sines: Kernel<Scalar>,
-        Effects: Effect<Scalar, B, V>,
+        T: Robot<B, Q, V>,
+        K: Kernel<R>,
+        E: Effect<R, B, V>,
     {
         scene_is_taken!();
-        let length = CompiledRobot::<Arm, B, Q, V>::LENGTH;
+        let length = CompiledRobot::<T, B, Q, V>::LENGTH;
         let all = Self::all_bodies(state, effects);
         let (h, (centre, _)) = (force(&all, length), all.centre(length));
         Force::new(h.ang - centre.cross(h.lin), h.lin)
     }
 
     #[cfg_attr(optimised, inline(always))]
-    fn all_bodies<Scalar: Real, Effects, const B: usize, const Q: usize, const V: usize>(
-        state: impl RobotState<Scalar, Q, V>,
-        effects: &Effects,
-    ) -> Totals<Scalar>
+    fn all_bodies<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        effects: &E,
+    ) -> Totals<R>
     where
-        Arm: Robot<B, Q, V>,
-        Sines: Kernel<Scalar>,
-        Effects: Effect<Scalar, B, V>,
+        T: Robot<B, Q, V>,
+        K: Kernel<R>,
+        E: Effect<R, B, V>,
     {
-        const { WithMasses::<Scalar, Effects, B, V>::KNOWN };
+        const { WithMasses::<R, E, B, V>::KNOWN };
         let configuration = state.configuration();
         let trig = configuration.trig_or(Self::trig_source());
         let (trig, qd) = (trig.borrow(), &state.state().qd);
@@ -172,29 +166,18 @@ impl<Arm, Sines> Engine<Arm, Sines> {
     #[doc(alias = "CMM")]
     #[inline(never)]
     #[must_use]
-    pub fn centroidal_matrix<
-        Scalar: Real,
-        Effects,
-        const B: usize,
-        const Q: usize,
-        const V: usize,
-    >(
-        q: &impl Configuration<Scalar, Q>,
-        effects: &Effects,
-    ) -> [Force<Scalar>; V]
+    pub fn centroidal_matrix<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+        q: &impl Configuration<R, Q>,
+        effects: &E,
+    ) -> [Force<R>; V]
     where
-        Arm: Robot<B, Q, V>,
-        Sines: Kernel<Scalar>,
-        Effects: Effect<Scalar, B, V>,
+        T: Robot<B, Q, V>,
+        K: Kernel<R>,
+        E: Effect<R, B, V>,
     {
         scene_is_taken!();
-        const { WithMasses::<Scalar, Effects, B, V>::KNOWN };
-        const {
-            assert!(
-                !Effects::GYROSCOPIC_ROTORS,
-                "no rotors that spin as bodies here; name `Armature`"
-            )
-        };
+        const { WithMasses::<R, E, B, V>::KNOWN };
+        const { assert!(!E::GYROSCOPIC_ROTORS, "no rotors that spin as bodies here; name `Armature`") };
         let trig = q.trig_or(Self::trig_source());
         Self::call(trig.borrow(), effects).centroidal_matrix()
     }
@@ -202,26 +185,24 @@ impl<Arm, Sines> Engine<Arm, Sines> {
 
 /// A momentum in units of length as one in SI units.
 #[cfg_attr(optimised, inline(always))]
-fn force<Scalar: Real>(all: &Totals<Scalar>, length: f64) -> Force<Scalar> {
+fn force<R: Real>(all: &Totals<R>, length: f64) -> Force<R> {
     let h = all.momentum;
     Force::new(h.n.get(), h.f.scale(Folded::constant(1.0 / length)).get())
 }
 
-impl<Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize>
-    Call<'_, Scalar, Tree, Effects, B, Q, V>
+impl<R, T, E, const B: usize, const Q: usize, const V: usize> Call<'_, R, T, E, B, Q, V>
 where
-    Scalar: Real,
-    Tree: Compiled,
-    Effects: Effect<Scalar, B, V>,
+    R: Real,
+    T: Compiled,
+    E: Effect<R, B, V>,
 {
     #[cfg_attr(optimised, inline(always))]
-    fn centroidal_matrix(self) -> [Force<Scalar>; V] {
+    fn centroidal_matrix(self) -> [Force<R>; V] {
         let mut columns = [Force::ZERO; V];
-        let mut pass =
-            Columns::<Scalar, Tree, Effects, B, Q, V> { call: self, columns: &mut columns };
+        let mut pass = Columns::<R, T, E, B, Q, V> { call: self, columns: &mut columns };
         let moving = sweep(&mut pass, &Pose::BASE);
-        let all = moving + fixed(Remainder::<Tree, B, V>::AT_BASE);
-        let (centre, _) = centre(all.mass, all.moment, Tree::LENGTH);
+        let all = moving + fixed(Remainder::<T, B, V>::AT_BASE);
+        let (centre, _) = centre(all.mass, all.moment, T::LENGTH);
         for column in &mut columns {
             column.ang -= centre.cross(column.lin);
         }
@@ -229,37 +210,32 @@ where
     }
 }
 
-struct Columns<'a, Scalar: Real, Tree, Effects, const B: usize, const Q: usize, const V: usize> {
-    call: Call<'a, Scalar, Tree, Effects, B, Q, V>,
-    columns: &'a mut [Force<Scalar>; V],
+struct Columns<'a, R: Real, T, E, const B: usize, const Q: usize, const V: usize> {
+    call: Call<'a, R, T, E, B, Q, V>,
+    columns: &'a mut [Force<R>; V],
 }
 
-impl<Scalar: Real, Tree: Compiled, Effects, const B: usize, const Q: usize, const V: usize> Pass
-    for Columns<'_, Scalar, Tree, Effects, B, Q, V>
+impl<R: Real, T: Compiled, E, const B: usize, const Q: usize, const V: usize> Pass
+    for Columns<'_, R, T, E, B, Q, V>
 where
-    Effects: Effect<Scalar, B, V>,
+    E: Effect<R, B, V>,
 {
-    type Tree = Tree;
-    type Outward = Pose<Scalar>;
-    type Inward = Inertia<Scalar>;
-    const NOTHING: Inertia<Scalar> = Inertia::NONE;
+    type Tree = T;
+    type Outward = Pose<R>;
+    type Inward = Inertia<R>;
+    const NOTHING: Inertia<R> = Inertia::NONE;
 
     #[cfg_attr(optimised, inline(always))]
-    fn enter<const I: usize>(&mut self, parent: &Pose<Scalar>) -> Pose<Scalar> {
-        parent.transformed_by::<Tree, I>(&self.call.displacement::<I>())
+    fn enter<const I: usize>(&mut self, parent: &Pose<R>) -> Pose<R> {
+        parent.transformed_by::<T, I>(&self.call.displacement::<I>())
     }
 
     #[cfg_attr(optimised, inline(always))]
-    fn leave<const I: usize>(
-        &mut self,
-        at: &Pose<Scalar>,
-        inner: Inertia<Scalar>,
-    ) -> Inertia<Scalar> {
+    fn leave<const I: usize>(&mut self, at: &Pose<R>, inner: Inertia<R>) -> Inertia<R> {
         let body = self.call.inertia::<I>(true) + inner;
         for_each_joint!(K, {
-            if JointPair::<Tree, I, K>::IS_COORDINATE {
-                self.columns[K] =
-                    column(at, &body, CompiledJoint::<Tree, K>::JOINT, Tree::LENGTH_INV);
+            if JointPair::<T, I, K>::IS_COORDINATE {
+                self.columns[K] = column(at, &body, CompiledJoint::<T, K>::JOINT, T::LENGTH_INV);
             }
         });
         body.to_parent(&self.call.displacement::<I>())
@@ -269,12 +245,12 @@ where
 /// The momentum of a body at unit rate of a joint at its origin, about the base's origin and along
 /// its axes.
 #[cfg_attr(optimised, inline(always))]
-fn column<Scalar: Real>(
-    at: &Pose<Scalar>,
-    body: &Inertia<Scalar>,
+fn column<R: Real>(
+    at: &Pose<R>,
+    body: &Inertia<R>,
     joint: &'static Joint,
     length_inv: f64,
-) -> Force<Scalar> {
+) -> Force<R> {
     let length_inv = Folded::constant(length_inv);
     let h = body.wrench_of(joint, length_inv);
     let (n, f) = (at.axes.mul(h.n), at.axes.mul(h.f));

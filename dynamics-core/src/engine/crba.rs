@@ -21,7 +21,7 @@ use crate::scalar::Real;
 use crate::state::Configuration;
 use crate::trig::Kernel;
 
-impl<Arm, Sines> Engine<Arm, Sines> {
+impl<T, K> Engine<T, K> {
     /// The joint-space inertia matrix M(q), kg·m², kg and kg·m, with the armatures, the payload and
     /// the base parameters of the scene.
     ///
@@ -46,14 +46,14 @@ impl<Arm, Sines> Engine<Arm, Sines> {
     #[doc(alias = "mass matrix")]
     #[inline(never)]
     #[must_use]
-    pub fn crba<Scalar: Real, Effects, const B: usize, const Q: usize, const V: usize>(
-        q: &impl Configuration<Scalar, Q>,
-        effects: &Effects,
-    ) -> MassMatrix<Scalar, V>
+    pub fn crba<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+        q: &impl Configuration<R, Q>,
+        effects: &E,
+    ) -> MassMatrix<R, V>
     where
-        Arm: Robot<B, Q, V>,
-        Sines: Kernel<Scalar>,
-        Effects: Effect<Scalar, B, V>,
+        T: Robot<B, Q, V>,
+        K: Kernel<R>,
+        E: Effect<R, B, V>,
     {
         scene_is_taken!();
         let trig = q.trig_or(Self::trig_source());
@@ -64,25 +64,24 @@ impl<Arm, Sines> Engine<Arm, Sines> {
 }
 
 /// The data that all bodies share.
-struct Task<'a, Scalar: Real, Tree, Effects, const B: usize, const Q: usize, const V: usize> {
-    call: Call<'a, Scalar, Tree, Effects, B, Q, V>,
-    m: &'a mut MassMatrix<Scalar, V>,
+struct Task<'a, R: Real, T, E, const B: usize, const Q: usize, const V: usize> {
+    call: Call<'a, R, T, E, B, Q, V>,
+    m: &'a mut MassMatrix<R, V>,
     /// Zero, for joints on two branches.
-    zero: Scalar,
+    zero: R,
 }
 
-impl<Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize>
-    Call<'_, Scalar, Tree, Effects, B, Q, V>
+impl<R, T, E, const B: usize, const Q: usize, const V: usize> Call<'_, R, T, E, B, Q, V>
 where
-    Scalar: Real,
-    Tree: Compiled,
-    Effects: Effect<Scalar, B, V>,
+    R: Real,
+    T: Compiled,
+    E: Effect<R, B, V>,
 {
     /// Writes M(q), both triangles, and what is zero by the tree's branches.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn mass_matrix(self, m: &mut MassMatrix<Scalar, V>) {
-        let mut zero = Scalar::ZERO;
-        if !const { is_chain(Tree::SUPPORT) } {
+    pub(crate) fn mass_matrix(self, m: &mut MassMatrix<R, V>) {
+        let mut zero = R::ZERO;
+        if !const { is_chain(T::SUPPORT) } {
             // The compiler makes fills of zeros that it knows. On some processors these are calls,
             // which take longer than the rest of the algorithm.
             zero = black_box(zero);
@@ -90,7 +89,7 @@ where
         let mut task = Task { call: self, m, zero };
         for_each_joint!(
             J,
-            CompiledJoint::<Tree, J>::IS_ON_BASE,
+            CompiledJoint::<T, J>::IS_ON_BASE,
             composite = Task::composite::<J> as fn(&mut _, &_) -> _,
             {
                 let _ = composite(&mut task, &Twist::ZERO);
@@ -99,17 +98,16 @@ where
     }
 }
 
-impl<Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize>
-    Task<'_, Scalar, Tree, Effects, B, Q, V>
+impl<R, T, E, const B: usize, const Q: usize, const V: usize> Task<'_, R, T, E, B, Q, V>
 where
-    Scalar: Real,
-    Tree: Compiled,
-    Effects: Effect<Scalar, B, V>,
+    R: Real,
+    T: Compiled,
+    E: Effect<R, B, V>,
 {
     /// Writes the entry of joint I and the joint on the base.
     #[cfg_attr(optimised, inline(always))]
-    fn both<const I: usize>(&mut self, entry: Folded<Scalar>) {
-        let (root, entry) = (CompiledJoint::<Tree, I>::ROOT, entry.get());
+    fn both<const I: usize>(&mut self, entry: Folded<R>) {
+        let (root, entry) = (CompiledJoint::<T, I>::ROOT, entry.get());
         self.m.rows[I][root] = entry;
         self.m.rows[root][I] = entry;
     }
@@ -119,31 +117,28 @@ where
     /// base at rate −1, in the frame of the parent, or in that of the last ancestor on parallel
     /// axes.
     #[cfg_attr(optimised, inline(always))]
-    fn composite<const I: usize>(
-        &mut self,
-        root: &Twist<Scalar>,
-    ) -> (Inertia<Scalar>, Felt<Scalar>) {
+    fn composite<const I: usize>(&mut self, root: &Twist<R>) -> (Inertia<R>, Felt<R>) {
         let at = self.call.displacement::<I>();
-        let joint = CompiledJoint::<Tree, I>::JOINT;
-        let length_inv = Folded::constant(Tree::LENGTH_INV);
-        let own = if CompiledJoint::<Tree, I>::IS_ON_BASE {
+        let joint = CompiledJoint::<T, I>::JOINT;
+        let length_inv = Folded::constant(T::LENGTH_INV);
+        let own = if CompiledJoint::<T, I>::IS_ON_BASE {
             // At rate −1, entries of its row need no negation.
-            Twist::along(joint, Tree::LENGTH_INV, Folded::constant(-1.0))
-        } else if CompiledJoint::<Tree, I>::IS_PARALLEL {
+            Twist::along(joint, T::LENGTH_INV, Folded::constant(-1.0))
+        } else if CompiledJoint::<T, I>::IS_PARALLEL {
             root.carried(&at)
         } else {
             *root
         };
         let (mut body, mut spin) = (Inertia::NONE, Folded::ZERO);
         if let Some(inertia) = const {
-            only_if(CompiledJoint::<Tree, I>::LAST == I, Call::matrix_inertia::<I> as fn(_) -> _)
+            only_if(CompiledJoint::<T, I>::LAST == I, Call::matrix_inertia::<I> as fn(_) -> _)
         } {
             (body, spin) = inertia(self.call);
         }
         let mut beyond = Felt::NONE;
         for_each_joint!(
             J,
-            JointPair::<Tree, I, J>::IS_PARENT,
+            JointPair::<T, I, J>::IS_PARENT,
             composite = Self::composite::<J> as fn(&mut _, &_) -> _,
             {
                 let (inertia, felt) = composite(self, &own);
@@ -151,18 +146,18 @@ where
                 beyond = beyond + felt;
             }
         );
-        if CompiledJoint::<Tree, I>::IS_PARALLEL {
+        if CompiledJoint::<T, I>::IS_PARALLEL {
             let felt = Felt::of(&body, Self::own_spin::<I>(spin), &own) + beyond;
             self.both::<I>(felt.between);
             self.column::<I>(felt.about, &felt.wrench(&at), root);
             let left = felt.to_parent(&at, root);
-            if CompiledJoint::<Tree, I>::PARENT.parent == BASE {
+            if CompiledJoint::<T, I>::PARENT.parent == BASE {
                 return (left.on_root(), Felt::NONE);
             }
             return (Inertia::NONE, left);
         }
         let turned = body.turned(&at);
-        if const { keeps_axis(CompiledJoint::<Tree, I>::MOTION) } {
+        if const { keeps_axis(CompiledJoint::<T, I>::MOTION) } {
             // The wrench is that of the turned body, so that column I and the composite of the
             // parent share the turn's products.
             let mut wrench = turned.wrench_of(joint, length_inv);
@@ -182,26 +177,21 @@ where
     /// joint's frame, projected on each ancestor. If it meets `root`, the motion of the joint on
     /// the base, their product is the entry of both joints.
     #[cfg_attr(optimised, inline(always))]
-    fn column<const I: usize>(
-        &mut self,
-        diagonal: Folded<Scalar>,
-        wrench: &Wrench<Scalar>,
-        root: &Twist<Scalar>,
-    ) {
+    fn column<const I: usize>(&mut self, diagonal: Folded<R>, wrench: &Wrench<R>, root: &Twist<R>) {
         let (mut diagonal, mut wrench) = (diagonal.get(), *wrench);
-        let length_inv = Folded::constant(Tree::LENGTH_INV);
+        let length_inv = Folded::constant(T::LENGTH_INV);
         add_inertia(self.call.effects, I, &mut diagonal);
         self.m.rows[I][I] = diagonal;
         let couple = along_z(self.call.coupling::<I>());
         wrench = self.call.borne(wrench, couple);
         // From joint I to the base: parents come before their children.
         for_each_joint_reversed!(K, {
-            if K < I && !JointPair::<Tree, K, I>::SUPPORTS {
+            if K < I && !JointPair::<T, K, I>::SUPPORTS {
                 self.m.rows[I][K] = self.zero;
                 self.m.rows[K][I] = self.zero;
             }
-            if JointPair::<Tree, K, I>::SUPPORTS {
-                let joint = CompiledJoint::<Tree, K>::JOINT;
+            if JointPair::<T, K, I>::SUPPORTS {
+                let joint = CompiledJoint::<T, K>::JOINT;
                 if joint.parent != BASE {
                     let at = self.call.displacement::<K>();
                     wrench = if const { K == I } {
@@ -209,15 +199,14 @@ where
                     } else {
                         wrench.to_parent(&at)
                     };
-                    let parent = CompiledJoint::<Tree, K>::PARENT;
-                    if !(CompiledJoint::<Tree, I>::MEETS_ROOT
-                        && CompiledJoint::<Tree, K>::PARENT_ON_BASE)
+                    let parent = CompiledJoint::<T, K>::PARENT;
+                    if !(CompiledJoint::<T, I>::MEETS_ROOT && CompiledJoint::<T, K>::PARENT_ON_BASE)
                     {
                         let entry = wrench.along(parent, length_inv).get();
                         self.m.rows[I][joint.parent] = entry;
                         self.m.rows[joint.parent][I] = entry;
                     }
-                    if JointPair::<Tree, K, I>::IS_MEETING {
+                    if JointPair::<T, K, I>::IS_MEETING {
                         let power = root.ang.dot(wrench.n) + root.lin.dot(wrench.f);
                         self.both::<I>(-power);
                     }
@@ -229,11 +218,11 @@ where
     /// The inertia `spin` that only joint I's own rotation feels, less what is contained in that of
     /// the children on parallel axes.
     #[cfg_attr(optimised, inline(always))]
-    fn own_spin<const I: usize>(spin: Folded<Scalar>) -> Folded<Scalar> {
-        if Effects::BASE_PARAMETERS > 0 {
+    fn own_spin<const I: usize>(spin: Folded<R>) -> Folded<R> {
+        if E::BASE_PARAMETERS > 0 {
             spin
         } else {
-            Folded::constant(CompiledJoint::<Tree, I>::OWN_SPIN)
+            Folded::constant(CompiledJoint::<T, I>::OWN_SPIN)
         }
     }
 }

@@ -12,13 +12,13 @@ use crate::model::{JointCoordinate, near_unit, rotation};
 use crate::scalar::{Matrix, Real};
 use crate::trig::Kernel;
 
-impl<Tree: Compiled, const I: usize> CompiledJoint<Tree, I> {
+impl<T: Compiled, const I: usize> CompiledJoint<T, I> {
     /// Writes the sine and cosine, or the unit quaternion and other positions, that coordinate I
     /// brings.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn turn<Scalar: Real, Sines: Kernel<Scalar>, const Q: usize>(
-        q: &[Scalar; Q],
-        turns: &mut [JointCoordinate<Scalar>; Q],
+    pub(crate) fn turn<R: Real, K: Kernel<R>, const Q: usize>(
+        q: &[R; Q],
+        turns: &mut [JointCoordinate<R>; Q],
     ) {
         if matches!(Self::MOTION, JointMotion::Spherical | JointMotion::Free) {
             let first = Self::Q;
@@ -31,33 +31,33 @@ impl<Tree: Compiled, const I: usize> CompiledJoint<Tree, I> {
         if let Some(k) = Self::POSITION {
             turns[k] = match (Self::PRISMATIC, Self::JOINT.near) {
                 (true, _) => JointCoordinate::linear(q[k]),
-                (false, true) => JointCoordinate::revolute_bounded::<Sines>(q[k]),
-                (false, false) => JointCoordinate::with_kernel::<Sines>(q[k]),
+                (false, true) => JointCoordinate::revolute_bounded::<K>(q[k]),
+                (false, false) => JointCoordinate::with_kernel::<K>(q[k]),
             };
         }
     }
 }
 
 /// The displacement of one joint; what its kind does not have is a known zero.
-pub(crate) struct Displacement<Scalar, Tree, const I: usize> {
+pub(crate) struct Displacement<R, T, const I: usize> {
     /// The sine and cosine of the rotation about z.
-    pub(crate) turn: JointCoordinate<Scalar>,
+    pub(crate) turn: JointCoordinate<R>,
     /// The translation along z, in units of length.
-    pub(crate) slide: Folded<Scalar>,
+    pub(crate) slide: Folded<R>,
     /// The translation of a planar or free joint, in the joint's frame and in units of length.
-    offset: Vec3<Scalar>,
+    offset: Vec3<R>,
     /// The rotation of coordinates from the joint's frame to the body's, of a spherical or free
     /// joint.
-    attitude: Mat3<Scalar>,
-    joint: PhantomData<Tree>,
+    attitude: Mat3<R>,
+    joint: PhantomData<T>,
 }
 
-impl<Scalar: Real, Tree: Compiled, const I: usize> Displacement<Scalar, Tree, I> {
+impl<R: Real, T: Compiled, const I: usize> Displacement<R, T, I> {
     /// The displacement of joint I.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn of<const Q: usize>(turns: &[JointCoordinate<Scalar>; Q]) -> Self {
-        let turn = turns[CompiledJoint::<Tree, I>::Q];
-        let length_inv = Folded::constant(Tree::LENGTH_INV);
+    pub(crate) fn of<const Q: usize>(turns: &[JointCoordinate<R>; Q]) -> Self {
+        let turn = turns[CompiledJoint::<T, I>::Q];
+        let length_inv = Folded::constant(T::LENGTH_INV);
         let mut at = Self {
             turn,
             slide: Folded::ZERO,
@@ -65,22 +65,22 @@ impl<Scalar: Real, Tree: Compiled, const I: usize> Displacement<Scalar, Tree, I>
             attitude: Mat3::ZERO,
             joint: PhantomData,
         };
-        match CompiledJoint::<Tree, I>::MOTION {
+        match CompiledJoint::<T, I>::MOTION {
             JointMotion::Turn | JointMotion::Still => {}
             JointMotion::Slide => at.slide = Folded::runtime(turn.q) * length_inv,
             JointMotion::Screw => {
-                let pitch = Folded::constant(CompiledJoint::<Tree, I>::JOINT.pitch);
+                let pitch = Folded::constant(CompiledJoint::<T, I>::JOINT.pitch);
                 at.slide = Folded::runtime(turn.q) * pitch;
             }
             JointMotion::Planar => {
-                let first = CompiledJoint::<Tree, I>::Q + 1;
+                let first = CompiledJoint::<T, I>::Q + 1;
                 let (x, y) = (position(turns, first), position(turns, first + 1));
                 at.offset = Vec3([x, y, Folded::ZERO]).scale(length_inv);
             }
-            JointMotion::Spherical => at.attitude = attitude(turns, CompiledJoint::<Tree, I>::Q),
+            JointMotion::Spherical => at.attitude = attitude(turns, CompiledJoint::<T, I>::Q),
             JointMotion::Free => {
-                at.attitude = attitude(turns, CompiledJoint::<Tree, I>::Q);
-                let first = CompiledJoint::<Tree, I>::Q + 4;
+                at.attitude = attitude(turns, CompiledJoint::<T, I>::Q);
+                let first = CompiledJoint::<T, I>::Q + 4;
                 at.offset = Vec3([
                     position(turns, first),
                     position(turns, first + 1),
@@ -94,15 +94,15 @@ impl<Scalar: Real, Tree: Compiled, const I: usize> Displacement<Scalar, Tree, I>
 
     /// The same with a sine and cosine that are loaded again.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn with_turn(self, turn: JointCoordinate<Scalar>) -> Self {
+    pub(crate) fn with_turn(self, turn: JointCoordinate<R>) -> Self {
         Self { turn, ..self }
     }
 
     /// From the parent's frame to the body's: `rot` is the constant rotation of the joint's frame.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn enter(&self, rot: &Mat3<Scalar>, v: Vec3<Scalar>) -> Vec3<Scalar> {
+    pub(crate) fn enter(&self, rot: &Mat3<R>, v: Vec3<R>) -> Vec3<R> {
         let v = rot.transpose_mul(v);
-        match CompiledJoint::<Tree, I>::MOTION {
+        match CompiledJoint::<T, I>::MOTION {
             JointMotion::Turn | JointMotion::Screw | JointMotion::Planar => {
                 let (sin, cos) = self.sin_cos();
                 v.turn_back(sin, cos)
@@ -114,8 +114,8 @@ impl<Scalar: Real, Tree: Compiled, const I: usize> Displacement<Scalar, Tree, I>
 
     /// From the body's frame to the joint's.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn leave(&self, v: Vec3<Scalar>) -> Vec3<Scalar> {
-        match CompiledJoint::<Tree, I>::MOTION {
+    pub(crate) fn leave(&self, v: Vec3<R>) -> Vec3<R> {
+        match CompiledJoint::<T, I>::MOTION {
             JointMotion::Turn | JointMotion::Screw | JointMotion::Planar => {
                 let (sin, cos) = self.sin_cos();
                 v.turn(sin, cos)
@@ -127,8 +127,8 @@ impl<Scalar: Real, Tree: Compiled, const I: usize> Displacement<Scalar, Tree, I>
 
     /// The same of a symmetric matrix.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn leave_symmetric(&self, s: Sym3<Scalar>) -> Sym3<Scalar> {
-        match CompiledJoint::<Tree, I>::MOTION {
+    pub(crate) fn leave_symmetric(&self, s: Sym3<R>) -> Sym3<R> {
+        match CompiledJoint::<T, I>::MOTION {
             JointMotion::Turn | JointMotion::Screw | JointMotion::Planar => {
                 let (sin, cos) = self.sin_cos();
                 s.turn(sin, cos)
@@ -142,8 +142,8 @@ impl<Scalar: Real, Tree: Compiled, const I: usize> Displacement<Scalar, Tree, I>
 
     /// The same of any matrix.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn leave_matrix(&self, m: &Mat3<Scalar>) -> Mat3<Scalar> {
-        match CompiledJoint::<Tree, I>::MOTION {
+    pub(crate) fn leave_matrix(&self, m: &Mat3<R>) -> Mat3<R> {
+        match CompiledJoint::<T, I>::MOTION {
             JointMotion::Turn | JointMotion::Screw | JointMotion::Planar => {
                 let (sin, cos) = self.sin_cos();
                 m.rotated_about_z(sin, cos)
@@ -155,7 +155,7 @@ impl<Scalar: Real, Tree: Compiled, const I: usize> Displacement<Scalar, Tree, I>
 
     /// Eᵀ M E.
     #[cfg_attr(optimised, inline(always))]
-    fn leave_both(&self, m: &Mat3<Scalar>) -> Mat3<Scalar> {
+    fn leave_both(&self, m: &Mat3<R>) -> Mat3<R> {
         let [x, y, z] = m.0;
         let half = Mat3([self.leave(x), self.leave(y), self.leave(z)]);
         let [x, y, z] = half.rows();
@@ -166,9 +166,9 @@ impl<Scalar: Real, Tree: Compiled, const I: usize> Displacement<Scalar, Tree, I>
     /// The body's axes along those of the frame of which `joint` holds the axes of the joint's
     /// frame.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn axes(&self, joint: &Mat3<Scalar>) -> Mat3<Scalar> {
+    pub(crate) fn axes(&self, joint: &Mat3<R>) -> Mat3<R> {
         let [x, y, z] = joint.0;
-        match CompiledJoint::<Tree, I>::MOTION {
+        match CompiledJoint::<T, I>::MOTION {
             JointMotion::Turn | JointMotion::Screw | JointMotion::Planar => {
                 let (sin, cos) = self.sin_cos();
                 Mat3([x.scale(cos) + y.scale(sin), y.scale(cos) - x.scale(sin), z])
@@ -184,8 +184,8 @@ impl<Scalar: Real, Tree: Compiled, const I: usize> Displacement<Scalar, Tree, I>
     /// The translation in the frame of which `joint` holds the axes of the joint's frame, in units
     /// of length.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn along(&self, joint: &Mat3<Scalar>) -> Vec3<Scalar> {
-        match CompiledJoint::<Tree, I>::MOTION {
+    pub(crate) fn along(&self, joint: &Mat3<R>) -> Vec3<R> {
+        match CompiledJoint::<T, I>::MOTION {
             JointMotion::Slide | JointMotion::Screw => joint.0[2].scale(self.slide),
             JointMotion::Planar | JointMotion::Free => joint.mul(self.offset),
             JointMotion::Turn | JointMotion::Spherical | JointMotion::Still => Vec3::ZERO,
@@ -194,35 +194,33 @@ impl<Scalar: Real, Tree: Compiled, const I: usize> Displacement<Scalar, Tree, I>
 
     /// The translation in the frame of the parent, in units of length.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn shift(&self) -> Vec3<Scalar> {
-        match CompiledJoint::<Tree, I>::MOTION {
+    pub(crate) fn shift(&self) -> Vec3<R> {
+        match CompiledJoint::<T, I>::MOTION {
             JointMotion::Slide | JointMotion::Screw => {
-                Vec3::constant(CompiledJoint::<Tree, I>::JOINT.rot.z_axis).scale(self.slide)
+                Vec3::constant(CompiledJoint::<T, I>::JOINT.rot.z_axis).scale(self.slide)
             }
-            JointMotion::Planar | JointMotion::Free => {
-                rotate_to_parent::<Scalar, Tree, I>(self.offset)
-            }
+            JointMotion::Planar | JointMotion::Free => rotate_to_parent::<R, T, I>(self.offset),
             JointMotion::Turn | JointMotion::Spherical | JointMotion::Still => Vec3::ZERO,
         }
     }
 
     #[cfg_attr(optimised, inline(always))]
-    fn sin_cos(&self) -> (Folded<Scalar>, Folded<Scalar>) {
+    fn sin_cos(&self) -> (Folded<R>, Folded<R>) {
         (Folded::runtime(self.turn.sin), Folded::runtime(self.turn.cos))
     }
 }
 
 /// p × v, p the offset from the origin of joint I's parent to its own.
 #[cfg_attr(optimised, inline(always))]
-pub(crate) fn offset_cross<Scalar: Real, Tree, const I: usize>(
-    v: Vec3<Scalar>,
-    at: &Displacement<Scalar, Tree, I>,
-) -> Vec3<Scalar>
+pub(crate) fn offset_cross<R: Real, T, const I: usize>(
+    v: Vec3<R>,
+    at: &Displacement<R, T, I>,
+) -> Vec3<R>
 where
-    Tree: Compiled,
+    T: Compiled,
 {
-    let mut sum = constant_offset_cross::<Scalar, Tree, I>(v);
-    if CompiledJoint::<Tree, I>::SHIFTS {
+    let mut sum = constant_offset_cross::<R, T, I>(v);
+    if CompiledJoint::<T, I>::SHIFTS {
         sum = sum + at.shift().cross(v);
     }
     sum
@@ -230,31 +228,25 @@ where
 
 /// p × each column.
 #[cfg_attr(optimised, inline(always))]
-pub(crate) fn cross_offset<Scalar: Real, Tree, const I: usize>(
-    Mat3([x, y, z]): Mat3<Scalar>,
-    at: &Displacement<Scalar, Tree, I>,
-) -> Mat3<Scalar>
+pub(crate) fn cross_offset<R: Real, T, const I: usize>(
+    Mat3([x, y, z]): Mat3<R>,
+    at: &Displacement<R, T, I>,
+) -> Mat3<R>
 where
-    Tree: Compiled,
+    T: Compiled,
 {
     Mat3([offset_cross(x, at), offset_cross(y, at), offset_cross(z, at)])
 }
 
 /// The position of the number `k`.
 #[cfg_attr(optimised, inline(always))]
-fn position<Scalar: Real, const Q: usize>(
-    turns: &[JointCoordinate<Scalar>; Q],
-    k: usize,
-) -> Folded<Scalar> {
+fn position<R: Real, const Q: usize>(turns: &[JointCoordinate<R>; Q], k: usize) -> Folded<R> {
     Folded::runtime(turns[k].q)
 }
 
 /// The matrix of the unit quaternion whose coordinates begin at `first`.
 #[cfg_attr(optimised, inline(always))]
-fn attitude<Scalar: Real, const Q: usize>(
-    turns: &[JointCoordinate<Scalar>; Q],
-    first: usize,
-) -> Mat3<Scalar> {
+fn attitude<R: Real, const Q: usize>(turns: &[JointCoordinate<R>; Q], first: usize) -> Mat3<R> {
     let q = [first, first + 1, first + 2, first + 3].map(|k| turns[k].q);
     let [x, y, z] = rotation(q).cols().map(Vec3::runtime);
     Mat3([x, y, z])

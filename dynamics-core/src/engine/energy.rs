@@ -12,7 +12,7 @@ use crate::scalar::Real;
 use crate::state::{Configuration, RobotState};
 use crate::trig::Kernel;
 
-impl<Arm, Sines> Engine<Arm, Sines> {
+impl<T, K> Engine<T, K> {
     /// The kinetic energy T, J, as [`crate::algorithms::kinetic_energy`] computes it.
     ///
     /// # Cost
@@ -30,19 +30,19 @@ impl<Arm, Sines> Engine<Arm, Sines> {
     /// ```
     #[inline(never)]
     #[must_use]
-    pub fn kinetic_energy<Scalar: Real, Effects, const B: usize, const Q: usize, const V: usize>(
-        state: impl RobotState<Scalar, Q, V>,
-        effects: &Effects,
-    ) -> Scalar
+    pub fn kinetic_energy<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        effects: &E,
+    ) -> R
     where
-        Arm: Robot<B, Q, V>,
-        Sines: Kernel<Scalar>,
-        Effects: Effect<Scalar, B, V>,
+        T: Robot<B, Q, V>,
+        K: Kernel<R>,
+        E: Effect<R, B, V>,
     {
         scene_is_taken!();
         const {
             assert!(
-                Effects::BASE_PARAMETERS == 0 || !Effects::BASE_MOTION,
+                E::BASE_PARAMETERS == 0 || !E::BASE_MOTION,
                 "base parameters in memory do not have all that the energy on a moving base needs; use `Core`"
             )
         };
@@ -50,7 +50,7 @@ impl<Arm, Sines> Engine<Arm, Sines> {
         let trig = configuration.trig_or(Self::trig_source());
         let (trig, qd) = (trig.borrow(), &state.state().qd);
         let all = Self::call(trig, effects).totals::<false>(Some(qd));
-        all.twice.get() * Scalar::from_f64(0.5)
+        all.twice.get() * R::from_f64(0.5)
     }
 
     /// The potential energy U in the field of the effects, J, zero at the height of the base's
@@ -70,17 +70,17 @@ impl<Arm, Sines> Engine<Arm, Sines> {
     /// ```
     #[inline(never)]
     #[must_use]
-    pub fn potential_energy<Scalar: Real, Effects, const B: usize, const Q: usize, const V: usize>(
-        q: &impl Configuration<Scalar, Q>,
-        effects: &Effects,
-    ) -> Scalar
+    pub fn potential_energy<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+        q: &impl Configuration<R, Q>,
+        effects: &E,
+    ) -> R
     where
-        Arm: Robot<B, Q, V>,
-        Sines: Kernel<Scalar>,
-        Effects: Effect<Scalar, B, V>,
+        T: Robot<B, Q, V>,
+        K: Kernel<R>,
+        E: Effect<R, B, V>,
     {
         scene_is_taken!();
-        const { WithMasses::<Scalar, Effects, B, V>::KNOWN };
+        const { WithMasses::<R, E, B, V>::KNOWN };
         let trig = q.trig_or(Self::trig_source());
         let call = Self::call(trig.borrow(), effects);
         let all = call.totals::<false>(None);
@@ -91,15 +91,9 @@ impl<Arm, Sines> Engine<Arm, Sines> {
 }
 
 /// A scene whose bodies have their masses.
-pub(super) struct WithMasses<Scalar, Effects, const B: usize, const V: usize>(
-    PhantomData<(Scalar, Effects)>,
-);
+pub(super) struct WithMasses<R, E, const B: usize, const V: usize>(PhantomData<(R, E)>);
 
-impl<Scalar: Real, Effects: Effect<Scalar, B, V>, const B: usize, const V: usize>
-    WithMasses<Scalar, Effects, B, V>
-{
-    pub(super) const KNOWN: () = assert!(
-        Effects::BASE_PARAMETERS == 0,
-        "base parameters in memory have no masses; use `Core`"
-    );
+impl<R: Real, E: Effect<R, B, V>, const B: usize, const V: usize> WithMasses<R, E, B, V> {
+    pub(super) const KNOWN: () =
+        assert!(E::BASE_PARAMETERS == 0, "base parameters in memory have no masses; use `Core`");
 }

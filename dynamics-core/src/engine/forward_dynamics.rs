@@ -19,7 +19,7 @@ use crate::scalar::Real;
 use crate::state::{Configuration, RobotState, State};
 use crate::trig::Kernel;
 
-impl<Arm, Sines> Engine<Arm, Sines> {
+impl<T, K> Engine<T, K> {
     /// The acceleration of each joint, q̈ = FD(q, q̇, τ), rad/s² or m/s², under the effects of the
     /// scene.
     ///
@@ -38,22 +38,22 @@ impl<Arm, Sines> Engine<Arm, Sines> {
     /// the largest inertia that all its descendants, stretched out, could have about it.
     #[doc(alias = "FD")]
     #[inline(never)]
-    pub fn forward_dynamics<Scalar: Real, Effects, const B: usize, const Q: usize, const V: usize>(
-        state: impl RobotState<Scalar, Q, V>,
-        tau: &[Scalar; V],
-        effects: &Effects,
-    ) -> Result<[Scalar; V], NotPositiveDefinite>
+    pub fn forward_dynamics<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        tau: &[R; V],
+        effects: &E,
+    ) -> Result<[R; V], NotPositiveDefinite>
     where
-        Arm: Robot<B, Q, V>,
-        Sines: Kernel<Scalar>,
-        Effects: Effect<Scalar, B, V>,
+        T: Robot<B, Q, V>,
+        K: Kernel<R>,
+        E: Effect<R, B, V>,
     {
         scene_is_taken!();
         let trig = state.configuration().trig_or(Self::trig_source());
         let call = Call {
             turns: &trig.borrow().coordinates,
             effects,
-            robot: PhantomData::<CompiledRobot<Arm, B, Q, V>>,
+            robot: PhantomData::<CompiledRobot<T, B, Q, V>>,
         };
         call.accelerations_by_factors(state.state(), tau)
     }
@@ -70,24 +70,16 @@ impl<Arm, Sines> Engine<Arm, Sines> {
     /// ```
     #[cfg_attr(optimised, inline(always))]
     #[must_use]
-    pub fn transmitted_torque<
-        Scalar: Real,
-        Effects,
-        const B: usize,
-        const Q: usize,
-        const V: usize,
-    >(
-        state: &State<Scalar, Q, V>,
-        tau: &[Scalar; V],
-        effects: &Effects,
-    ) -> [Scalar; V]
+    pub fn transmitted_torque<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+        state: &State<R, Q, V>,
+        tau: &[R; V],
+        effects: &E,
+    ) -> [R; V]
     where
-        Arm: Robot<B, Q, V>,
-        Effects: Effect<Scalar, B, V>,
+        T: Robot<B, Q, V>,
+        E: Effect<R, B, V>,
     {
-        Call::<Scalar, CompiledRobot<Arm, B, Q, V>, Effects, B, Q, V>::behind_gears(
-            effects, state, tau,
-        )
+        Call::<R, CompiledRobot<T, B, Q, V>, E, B, Q, V>::behind_gears(effects, state, tau)
     }
 
     /// The torques that the motors must supply where that of all else is `tau`, N·m or N, as
@@ -100,19 +92,19 @@ impl<Arm, Sines> Engine<Arm, Sines> {
     /// ```
     #[cfg_attr(optimised, inline(always))]
     #[must_use]
-    pub fn motor_torque<Scalar: Real, Effects, const B: usize, const Q: usize, const V: usize>(
-        state: &State<Scalar, Q, V>,
-        tau: &[Scalar; V],
-        effects: &Effects,
-    ) -> [Scalar; V]
+    pub fn motor_torque<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+        state: &State<R, Q, V>,
+        tau: &[R; V],
+        effects: &E,
+    ) -> [R; V]
     where
-        Arm: Robot<B, Q, V>,
-        Effects: Effect<Scalar, B, V>,
+        T: Robot<B, Q, V>,
+        E: Effect<R, B, V>,
     {
         let mut motors = *tau;
         for_each_joint!(J, {
             if Index::<J, V>::IS_BELOW {
-                let at = joint_state::<Scalar, CompiledRobot<Arm, B, Q, V>, Q, V, J>(state);
+                let at = joint_state::<R, CompiledRobot<T, B, Q, V>, Q, V, J>(state);
                 effects.torque(J, at, &mut motors[J]);
                 load_friction(effects, J, at, &mut motors[J]);
             }
@@ -121,25 +113,20 @@ impl<Arm, Sines> Engine<Arm, Sines> {
     }
 }
 
-impl<Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize>
-    Call<'_, Scalar, Tree, Effects, B, Q, V>
+impl<R, T, E, const B: usize, const Q: usize, const V: usize> Call<'_, R, T, E, B, Q, V>
 where
-    Scalar: Real,
-    Tree: Compiled,
-    Effects: Effect<Scalar, B, V>,
+    R: Real,
+    T: Compiled,
+    E: Effect<R, B, V>,
 {
     /// The torques behind the gears while their motors supply `tau`.
     #[cfg_attr(optimised, inline(always))]
-    fn behind_gears(
-        effects: &Effects,
-        state: &State<Scalar, Q, V>,
-        tau: &[Scalar; V],
-    ) -> [Scalar; V] {
+    fn behind_gears(effects: &E, state: &State<R, Q, V>, tau: &[R; V]) -> [R; V] {
         let mut rest = *tau;
-        if const { Effects::LOAD_DEPENDENT } {
+        if const { E::LOAD_DEPENDENT } {
             for_each_joint!(J, {
                 if Index::<J, V>::IS_BELOW {
-                    let at = joint_state::<Scalar, Tree, Q, V, J>(state);
+                    let at = joint_state::<R, T, Q, V, J>(state);
                     rest[J] = transmitted(effects, J, at, rest[J]);
                 }
             });
@@ -149,7 +136,7 @@ where
 
     /// C(q, q̇), the torque at q̈ = 0.
     #[cfg_attr(optimised, inline(always))]
-    pub(super) fn bias(self, state: &State<Scalar, Q, V>) -> [Scalar; V] {
+    pub(super) fn bias(self, state: &State<R, Q, V>) -> [R; V] {
         let unaccelerated =
             Call { turns: self.turns, effects: &Bias(self.effects), robot: self.robot };
         unaccelerated.torques(self.turns, state)
@@ -157,8 +144,8 @@ where
 
     /// τ − C(q, q̇), the torque that is left to accelerate.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn remaining(self, state: &State<Scalar, Q, V>, tau: &[Scalar; V]) -> [Scalar; V] {
-        const { assert!(Effects::ACCELERATIONS, "forward dynamics needs `Inertia` in the scene") };
+    pub(crate) fn remaining(self, state: &State<R, Q, V>, tau: &[R; V]) -> [R; V] {
+        const { assert!(E::ACCELERATIONS, "forward dynamics needs `Inertia` in the scene") };
         let bias = self.bias(state);
         let mut rest = Self::behind_gears(self.effects, state, tau);
         for_each_joint!(J, {
@@ -172,9 +159,9 @@ where
     #[cfg_attr(optimised, inline(always))]
     fn accelerations_by_factors(
         self,
-        state: &State<Scalar, Q, V>,
-        tau: &[Scalar; V],
-    ) -> Result<[Scalar; V], NotPositiveDefinite> {
+        state: &State<R, Q, V>,
+        tau: &[R; V],
+    ) -> Result<[R; V], NotPositiveDefinite> {
         // The bias before M: as one block they would need more registers than there are. M and its
         // factors need fewer in one.
         let mut rest = self.remaining(state, tau);
@@ -183,11 +170,11 @@ where
         self.mass_matrix(&mut m);
         let noise = self.noise();
         let certain = self.certain();
-        let d_inv = decompose::<Scalar, Tree, V>(&mut m.rows, &noise, &certain)?;
+        let d_inv = decompose::<R, T, V>(&mut m.rows, &noise, &certain)?;
         // A copy, since the array that the compiler cannot see through would stay in memory to the
         // end.
         let mut x = rest;
-        substitute::<Scalar, Tree, V>(&m.rows, &d_inv, &mut x);
+        substitute::<R, T, V>(&m.rows, &d_inv, &mut x);
         Ok(x)
     }
 }

@@ -26,7 +26,7 @@ use crate::trig::Kernel;
 /// The number of velocity coordinates of a free base, which are the robot's first.
 const BASE_RATES: usize = 6;
 
-impl<Arm, Sines> Engine<Arm, Sines> {
+impl<T, K> Engine<T, K> {
     /// The velocity q̇ at which the total momentum of a floating robot is h, as
     /// [`crate::algorithms::base_velocity_from_momentum`] computes it.
     ///
@@ -62,25 +62,19 @@ impl<Arm, Sines> Engine<Arm, Sines> {
     /// about some axis.
     #[doc(alias = "recoil")]
     #[inline(never)]
-    pub fn base_velocity_from_momentum<
-        Scalar,
-        Effects,
-        const B: usize,
-        const Q: usize,
-        const V: usize,
-    >(
-        state: impl RobotState<Scalar, Q, V>,
-        h: Force<Scalar>,
-        effects: &Effects,
-    ) -> Result<[Scalar; V], NotPositiveDefinite>
+    pub fn base_velocity_from_momentum<R, E, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        h: Force<R>,
+        effects: &E,
+    ) -> Result<[R; V], NotPositiveDefinite>
     where
-        Scalar: Real,
-        Arm: Robot<B, Q, V>,
-        Sines: Kernel<Scalar>,
-        Effects: Effect<Scalar, B, V>,
+        R: Real,
+        T: Robot<B, Q, V>,
+        K: Kernel<R>,
+        E: Effect<R, B, V>,
     {
         scene_is_taken!();
-        const { FreeScene::<Scalar, Effects, B, V>::TAKEN };
+        const { FreeScene::<R, E, B, V>::TAKEN };
         let trig = state.configuration().trig_or(Self::trig_source());
         let (trig, state) = (trig.borrow(), state.state());
         let call = Self::call(trig, effects);
@@ -128,24 +122,18 @@ impl<Arm, Sines> Engine<Arm, Sines> {
     #[doc(alias = "floating base")]
     #[doc(alias = "hybrid dynamics")]
     #[inline(never)]
-    pub fn free_base_inverse_dynamics<
-        Scalar,
-        Effects,
-        const B: usize,
-        const Q: usize,
-        const V: usize,
-    >(
-        state: impl RobotState<Scalar, Q, V>,
-        effects: &Effects,
-    ) -> Result<JointResult<Scalar, V>, NotPositiveDefinite>
+    pub fn free_base_inverse_dynamics<R, E, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        effects: &E,
+    ) -> Result<JointResult<R, V>, NotPositiveDefinite>
     where
-        Scalar: Real,
-        Arm: Robot<B, Q, V>,
-        Sines: Kernel<Scalar>,
-        Effects: Effect<Scalar, B, V>,
+        R: Real,
+        T: Robot<B, Q, V>,
+        K: Kernel<R>,
+        E: Effect<R, B, V>,
     {
         scene_is_taken!();
-        const { FreeScene::<Scalar, Effects, B, V>::TAKEN };
+        const { FreeScene::<R, E, B, V>::TAKEN };
         let trig = state.configuration().trig_or(Self::trig_source());
         let (trig, state) = (trig.borrow(), state.state());
         let call = Self::call(trig, effects);
@@ -157,35 +145,33 @@ impl<Arm, Sines> Engine<Arm, Sines> {
         let step = step(&all, &-first(&tau), &mut qdd)?;
         call.spread(columns, &step, &mut tau);
         for tau in tau.iter_mut().take(BASE_RATES) {
-            *tau = Scalar::ZERO;
+            *tau = R::ZERO;
         }
         Ok(JointResult { qdd, tau })
     }
 }
 
 /// A scene that a base which nothing holds may have.
-struct FreeScene<Scalar, Effects, const B: usize, const V: usize>(PhantomData<(Scalar, Effects)>);
+struct FreeScene<R, E, const B: usize, const V: usize>(PhantomData<(R, E)>);
 
-impl<Scalar: Real, Effects: Effect<Scalar, B, V>, const B: usize, const V: usize>
-    FreeScene<Scalar, Effects, B, V>
-{
+impl<R: Real, E: Effect<R, B, V>, const B: usize, const V: usize> FreeScene<R, E, B, V> {
     const TAKEN: () =
-        assert!(!Effects::GYROSCOPIC_ROTORS, "no rotors that spin as bodies here; name `Armature`");
+        assert!(!E::GYROSCOPIC_ROTORS, "no rotors that spin as bodies here; name `Armature`");
 }
 
 /// The force on the base whose components are the first coordinates.
 #[cfg_attr(optimised, inline(always))]
-fn first<Scalar: Real, const V: usize>(tau: &[Scalar; V]) -> Force<Scalar> {
-    Force::new(Scalar::Vec3::new(tau[0], tau[1], tau[2]), Scalar::Vec3::new(tau[3], tau[4], tau[5]))
+fn first<R: Real, const V: usize>(tau: &[R; V]) -> Force<R> {
+    Force::new(R::Vec3::new(tau[0], tau[1], tau[2]), R::Vec3::new(tau[3], tau[4], tau[5]))
 }
 
 /// The motion of the base that the force `lacking` gives all bodies, which is added to its rates.
 #[cfg_attr(optimised, inline(always))]
-fn step<Scalar: Real, const V: usize>(
-    all: &CompositeInertia<Scalar>,
-    lacking: &Force<Scalar>,
-    rates: &mut [Scalar; V],
-) -> Result<Motion<Scalar>, NotPositiveDefinite> {
+fn step<R: Real, const V: usize>(
+    all: &CompositeInertia<R>,
+    lacking: &Force<R>,
+    rates: &mut [R; V],
+) -> Result<Motion<R>, NotPositiveDefinite> {
     let Some(step) = all.solve(*lacking) else {
         return Err(NotPositiveDefinite { joint: 0 });
     };
@@ -196,22 +182,21 @@ fn step<Scalar: Real, const V: usize>(
     Ok(step)
 }
 
-impl<Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize>
-    Call<'_, Scalar, Tree, Effects, B, Q, V>
+impl<R, T, E, const B: usize, const Q: usize, const V: usize> Call<'_, R, T, E, B, Q, V>
 where
-    Scalar: Real,
-    Tree: Compiled,
-    Effects: Effect<Scalar, B, V>,
+    R: Real,
+    T: Compiled,
+    E: Effect<R, B, V>,
 {
     /// A force about the origin of the base of the description and along its axes, in the frame of
     /// the free body.
     #[cfg_attr(optimised, inline(always))]
-    fn in_base(self, h: Force<Scalar>) -> Force<Scalar> {
-        let joint = CompiledJoint::<Tree, 0>::JOINT;
+    fn in_base(self, h: Force<R>) -> Force<R> {
+        let joint = CompiledJoint::<T, 0>::JOINT;
         let (rot, at) = (Mat3::constant(&joint.rot), self.displacement::<0>());
         let origin = Vec3::constant(joint.pos) + at.shift();
         let lin = Vec3::runtime(h.lin);
-        let arm = origin.scale(Folded::constant(Tree::LENGTH));
+        let arm = origin.scale(Folded::constant(T::LENGTH));
         let ang = Vec3::runtime(h.ang) - arm.cross(lin);
         Force::new(at.enter(&rot, ang).get(), at.enter(&rot, lin).get())
     }
@@ -219,16 +204,16 @@ where
     /// The composite inertia of the free body and its descendants in its own frame, and the columns
     /// of the descendants.
     #[cfg_attr(optimised, inline(always))]
-    fn composite(self) -> (CompositeInertia<Scalar>, Columns<Scalar, V>) {
+    fn composite(self) -> (CompositeInertia<R>, Columns<R, V>) {
         const {
             assert!(
-                matches!(CompiledJoint::<Tree, 0>::MOTION, JointMotion::Free),
+                matches!(CompiledJoint::<T, 0>::MOTION, JointMotion::Free),
                 "the first joint of the robot is not free"
             );
         }
-        let mut columns = [[Scalar::ZERO; 6]; V];
+        let mut columns = [[R::ZERO; 6]; V];
         let all = self.with_descendants::<0>(&mut columns);
-        let length_inv = Folded::constant(Tree::LENGTH_INV);
+        let length_inv = Folded::constant(T::LENGTH_INV);
         let s = all.second;
         let [x, y, z] = [
             Vec3([s.yy + s.zz, -s.xy, -s.xz]),
@@ -239,18 +224,18 @@ where
         let body = SpatialInertia {
             mass: (all.mass * length_inv * length_inv).get(),
             first_moment: all.moment.scale(length_inv).get(),
-            rotational: Scalar::Mat3::from_cols(x, y, z),
+            rotational: R::Mat3::from_cols(x, y, z),
         };
         (body.into(), columns)
     }
 
     /// The inertia of the body behind joint I and of its descendants, in its frame.
     #[cfg_attr(optimised, inline(always))]
-    fn with_descendants<const I: usize>(self, columns: &mut Columns<Scalar, V>) -> Inertia<Scalar> {
+    fn with_descendants<const I: usize>(self, columns: &mut Columns<R, V>) -> Inertia<R> {
         let mut body = self.inertia::<I>(false);
         for_each_joint!(
             J,
-            JointPair::<Tree, I, J>::IS_CHILD,
+            JointPair::<T, I, J>::IS_CHILD,
             child = Self::at_parent::<J> as fn(_, &mut _) -> _,
             {
                 body = body + child(self, columns);
@@ -261,12 +246,12 @@ where
 
     /// The same in the frame of the parent; writes the joint's columns.
     #[cfg_attr(optimised, inline(always))]
-    fn at_parent<const I: usize>(self, columns: &mut Columns<Scalar, V>) -> Inertia<Scalar> {
+    fn at_parent<const I: usize>(self, columns: &mut Columns<R, V>) -> Inertia<R> {
         let body = self.with_descendants::<I>(columns);
         for_each_joint!(K, {
-            if JointPair::<Tree, I, K>::IS_COORDINATE {
-                let length_inv = Folded::constant(Tree::LENGTH_INV);
-                let wrench = body.wrench_of(CompiledJoint::<Tree, K>::JOINT, length_inv);
+            if JointPair::<T, I, K>::IS_COORDINATE {
+                let length_inv = Folded::constant(T::LENGTH_INV);
+                let wrench = body.wrench_of(CompiledJoint::<T, K>::JOINT, length_inv);
                 let ([nx, ny, nz], [fx, fy, fz]) = (wrench.n.0, wrench.f.0);
                 columns[K] = [nx.get(), ny.get(), nz.get(), fx.get(), fy.get(), fz.get()];
             }
@@ -276,8 +261,8 @@ where
 
     /// Adds to the torques what the joints of the descendants need for an acceleration of the base.
     #[cfg_attr(optimised, inline(always))]
-    fn spread(self, columns: &Columns<Scalar, V>, step: &Motion<Scalar>, tau: &mut [Scalar; V]) {
-        let length_inv = Folded::constant(Tree::LENGTH_INV);
+    fn spread(self, columns: &Columns<R, V>, step: &Motion<R>, tau: &mut [R; V]) {
+        let length_inv = Folded::constant(T::LENGTH_INV);
         let alpha = Vec3::runtime(step.ang);
         let a = Vec3::runtime(step.lin).scale(length_inv);
         self.to_children::<0>(columns, [alpha, a], tau);
@@ -287,15 +272,15 @@ where
     #[cfg_attr(optimised, inline(always))]
     fn to_children<const I: usize>(
         self,
-        columns: &Columns<Scalar, V>,
-        motion: [Vec3<Scalar>; 2],
-        tau: &mut [Scalar; V],
+        columns: &Columns<R, V>,
+        motion: [Vec3<R>; 2],
+        tau: &mut [R; V],
     ) {
         for_each_joint!(J, {
-            if JointPair::<Tree, I, J>::IS_CHILD
+            if JointPair::<T, I, J>::IS_CHILD
                 && let Some(outward) = const {
                     only_if(
-                        JointPair::<Tree, I, J>::IS_CHILD,
+                        JointPair::<T, I, J>::IS_CHILD,
                         Self::outward::<J> as fn(_, &_, _, &mut _),
                     )
                 }
@@ -309,21 +294,21 @@ where
     #[cfg_attr(optimised, inline(always))]
     fn outward<const I: usize>(
         self,
-        columns: &Columns<Scalar, V>,
-        [alpha, a]: [Vec3<Scalar>; 2],
-        tau: &mut [Scalar; V],
+        columns: &Columns<R, V>,
+        [alpha, a]: [Vec3<R>; 2],
+        tau: &mut [R; V],
     ) {
-        let joint = CompiledJoint::<Tree, I>::JOINT;
+        let joint = CompiledJoint::<T, I>::JOINT;
         let (rot, mut p) = (Mat3::constant(&joint.rot), Vec3::constant(joint.pos));
         let at = self.displacement::<I>();
-        if CompiledJoint::<Tree, I>::SHIFTS {
+        if CompiledJoint::<T, I>::SHIFTS {
             p = p + at.shift();
         }
         let motion = [at.enter(&rot, alpha), at.enter(&rot, a + alpha.cross(p))];
         for_each_joint!(K, {
-            if JointPair::<Tree, I, K>::IS_COORDINATE {
+            if JointPair::<T, I, K>::IS_COORDINATE {
                 let [nx, ny, nz, fx, fy, mut fz] = columns[K].map(Folded::runtime);
-                if CompiledJoint::<Tree, K>::IS_TURN {
+                if CompiledJoint::<T, K>::IS_TURN {
                     fz = Folded::ZERO;
                 }
                 let load = Vec3([nx, ny, nz]).dot(motion[0]) + Vec3([fx, fy, fz]).dot(motion[1]);
@@ -335,4 +320,4 @@ where
 }
 
 /// The wrenches Iᶜ S of unit accelerations, in the frames of their bodies: couple and force.
-type Columns<Scalar, const V: usize> = [[Scalar; 6]; V];
+type Columns<R, const V: usize> = [[R; 6]; V];

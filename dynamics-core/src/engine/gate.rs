@@ -7,34 +7,33 @@ use crate::effects::{Effect, Scene, are_of, meaning};
 use crate::model::Robot;
 use crate::scalar::Real;
 
-/// A scene of the robot `Arm`, for the engine, evaluated once for all of its algorithms.
-pub(super) struct EngineScene<Arm, Scalar, Effects, const B: usize, const Q: usize, const V: usize>(
-    PhantomData<(Arm, Scalar, Effects)>,
+/// A scene of the robot `T`, for the engine, evaluated once for all of its algorithms.
+pub(super) struct EngineScene<T, R, E, const B: usize, const Q: usize, const V: usize>(
+    PhantomData<(T, R, E)>,
 );
 
-impl<Arm, Scalar: Real, Effects, const B: usize, const Q: usize, const V: usize>
-    EngineScene<Arm, Scalar, Effects, B, Q, V>
+impl<T, R: Real, E, const B: usize, const Q: usize, const V: usize> EngineScene<T, R, E, B, Q, V>
 where
-    Arm: Robot<B, Q, V>,
-    Effects: Effect<Scalar, B, V>,
+    T: Robot<B, Q, V>,
+    E: Effect<R, B, V>,
 {
     /// Public functions evaluate it in their own bodies, so that the compiler names the line that
     /// calls them.
     pub(super) const TAKEN: () = {
-        let () = Scene::<Scalar, Effects, B, V>::MEANING;
-        taken::<Arm, Scalar, Effects, B, Q, V>();
+        let () = Scene::<R, E, B, V>::MEANING;
+        taken::<T, R, E, B, Q, V>();
     };
 }
 
 /// A robot and a scene that the engine takes.
 #[track_caller]
-const fn taken<Arm, Scalar: Real, Effects, const B: usize, const Q: usize, const V: usize>()
+const fn taken<T, R: Real, E, const B: usize, const Q: usize, const V: usize>()
 where
-    Arm: Robot<B, Q, V>,
-    Effects: Effect<Scalar, B, V>,
+    T: Robot<B, Q, V>,
+    E: Effect<R, B, V>,
 {
-    meaning::<Scalar, Effects, B, V>();
-    are_of::<Scalar, Effects, B, V>(Arm::MODEL.name);
+    meaning::<R, E, B, V>();
+    are_of::<R, E, B, V>(T::MODEL.name);
     assert!(V <= 64, "the engine takes up to 64 velocity coordinates; use `Core`");
 }
 
@@ -44,20 +43,20 @@ macro_rules! scene {
         $(#[$doc])*
         #[track_caller]
         #[must_use]
-        pub const fn $name<Effects, const B: usize, const Q: usize, const V: usize>(
-            effects: Effects,
-        ) -> Effects
+        pub const fn $name<E, const B: usize, const Q: usize, const V: usize>(
+            effects: E,
+        ) -> E
         where
-            Arm: Robot<B, Q, V>,
-            Effects: Effect<$r, B, V>,
+            T: Robot<B, Q, V>,
+            E: Effect<$r, B, V>,
         {
-            taken::<Arm, $r, Effects, B, Q, V>();
+            taken::<T, $r, E, B, Q, V>();
             effects
         }
     };
 }
 
-impl<Arm, Sines> Engine<Arm, Sines> {
+impl<T, K> Engine<T, K> {
     scene! {
         /// The same `effects`, checked as a scene of this robot in f32 at the line of the caller.
         ///

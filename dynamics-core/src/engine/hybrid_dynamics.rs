@@ -19,7 +19,7 @@ use crate::scalar::Real;
 use crate::state::{Configuration, RobotState, State};
 use crate::trig::Kernel;
 
-impl<Arm, Sines> Engine<Arm, Sines> {
+impl<T, K> Engine<T, K> {
     /// Torques and accelerations of all coordinates, of which one is given for each, N·m or N and
     /// rad/s² or m/s², as [`crate::algorithms::hybrid_dynamics`] computes them.
     ///
@@ -48,42 +48,41 @@ impl<Arm, Sines> Engine<Arm, Sines> {
     /// As [`Engine::forward_dynamics`], of the coordinates of given torque.
     #[doc(alias = "HD")]
     #[inline(never)]
-    pub fn hybrid_dynamics<Scalar: Real, Effects, const B: usize, const Q: usize, const V: usize>(
-        state: impl RobotState<Scalar, Q, V>,
-        given: &[Prescribed<Scalar>; V],
-        effects: &Effects,
-    ) -> Result<JointResult<Scalar, V>, NotPositiveDefinite>
+    pub fn hybrid_dynamics<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        given: &[Prescribed<R>; V],
+        effects: &E,
+    ) -> Result<JointResult<R, V>, NotPositiveDefinite>
     where
-        Arm: Robot<B, Q, V>,
-        Sines: Kernel<Scalar>,
-        Effects: Effect<Scalar, B, V>,
+        T: Robot<B, Q, V>,
+        K: Kernel<R>,
+        E: Effect<R, B, V>,
     {
         scene_is_taken!();
-        const { assert!(Effects::ACCELERATIONS, "forward dynamics needs `Inertia` in the scene") };
+        const { assert!(E::ACCELERATIONS, "forward dynamics needs `Inertia` in the scene") };
         let configuration = state.configuration();
         let trig = configuration.trig_or(Self::trig_source());
         let call = Call {
             turns: &trig.borrow().coordinates,
             effects,
-            robot: PhantomData::<CompiledRobot<Arm, B, Q, V>>,
+            robot: PhantomData::<CompiledRobot<T, B, Q, V>>,
         };
         call.hybrid(state.state(), given)
     }
 }
 
-impl<Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize>
-    Call<'_, Scalar, Tree, Effects, B, Q, V>
+impl<R, T, E, const B: usize, const Q: usize, const V: usize> Call<'_, R, T, E, B, Q, V>
 where
-    Scalar: Real,
-    Tree: Compiled,
-    Effects: Effect<Scalar, B, V>,
+    R: Real,
+    T: Compiled,
+    E: Effect<R, B, V>,
 {
     #[cfg_attr(optimised, inline(always))]
     fn hybrid(
         self,
-        state: &State<Scalar, Q, V>,
-        given: &[Prescribed<Scalar>; V],
-    ) -> Result<JointResult<Scalar, V>, NotPositiveDefinite> {
+        state: &State<R, Q, V>,
+        given: &[Prescribed<R>; V],
+    ) -> Result<JointResult<R, V>, NotPositiveDefinite> {
         // One phase after the other: as one block they would need more registers than there are.
         let mut bias = self.bias(state);
         black_box(&mut bias);
@@ -91,44 +90,41 @@ where
         self.mass_matrix(&mut m);
         black_box(&mut m);
 
-        let (mut free, mut tau, mut qdd) = ([true; V], [Scalar::ZERO; V], [Scalar::ZERO; V]);
+        let (mut free, mut tau, mut qdd) = ([true; V], [R::ZERO; V], [R::ZERO; V]);
         let mut pivots = self.noise();
         for_each_joint!(J, {
             if Index::<J, V>::IS_BELOW {
                 (free[J], tau[J], qdd[J]) = match given[J] {
-                    Prescribed::Torque(tau) => (true, tau, Scalar::ZERO),
-                    Prescribed::Acceleration(qdd) => (false, Scalar::ZERO, qdd),
+                    Prescribed::Torque(tau) => (true, tau, R::ZERO),
+                    Prescribed::Acceleration(qdd) => (false, R::ZERO, qdd),
                 };
-                pivots[J] = Scalar::either(free[J], pivots[J], Scalar::ZERO);
+                pivots[J] = R::either(free[J], pivots[J], R::ZERO);
             }
         });
         let mut rows = m.rows;
-        let held = times::<Scalar, Tree, V>(&m, &qdd);
+        let held = times::<R, T, V>(&m, &qdd);
         for_each_joint!(J, {
             if Index::<J, V>::IS_BELOW {
                 let at = self.joint_state::<J>(state);
                 let rest = transmitted(self.effects, J, at, tau[J]) - bias[J] - held[J];
-                qdd[J] = Scalar::either(free[J], rest, qdd[J]);
-                if let Some(hold) = const {
-                    only_if(
-                        J < V,
-                        hold::<Scalar, Tree, V, J> as fn(&mut [[Scalar; V]; V], &[bool; V]),
-                    )
-                } {
+                qdd[J] = R::either(free[J], rest, qdd[J]);
+                if let Some(hold) =
+                    const { only_if(J < V, hold::<R, T, V, J> as fn(&mut [[R; V]; V], &[bool; V])) }
+                {
                     hold(&mut rows, &free);
                 }
             }
         });
-        let d_inv = decompose::<Scalar, Tree, V>(&mut rows, &pivots, &[false; V])?;
-        substitute::<Scalar, Tree, V>(&rows, &d_inv, &mut qdd);
+        let d_inv = decompose::<R, T, V>(&mut rows, &pivots, &[false; V])?;
+        substitute::<R, T, V>(&rows, &d_inv, &mut qdd);
 
-        let moved = times::<Scalar, Tree, V>(&m, &qdd);
+        let moved = times::<R, T, V>(&m, &qdd);
         for_each_joint!(J, {
             if Index::<J, V>::IS_BELOW {
                 let at = self.joint_state::<J>(state);
                 let mut motor = bias[J] + moved[J];
                 load_friction(self.effects, J, at, &mut motor);
-                tau[J] = Scalar::either(free[J], tau[J], motor);
+                tau[J] = R::either(free[J], tau[J], motor);
             }
         });
         Ok(JointResult { tau, qdd })
@@ -138,33 +134,26 @@ where
 /// Row J of M up to its diagonal, with the entries of the identity where J or the column's
 /// coordinate is not free.
 #[cfg_attr(optimised, inline(always))]
-fn hold<Scalar: Real, Tree: Compiled, const V: usize, const J: usize>(
-    rows: &mut [[Scalar; V]; V],
+fn hold<R: Real, T: Compiled, const V: usize, const J: usize>(
+    rows: &mut [[R; V]; V],
     free: &[bool; V],
 ) {
     for_each_joint!(I, {
-        if JointPair::<Tree, I, J>::SUPPORTS {
-            let fixed = if I == J { Scalar::ONE } else { Scalar::ZERO };
-            rows[J][I] = Scalar::either(free[I] & free[J], rows[J][I], fixed);
+        if JointPair::<T, I, J>::SUPPORTS {
+            let fixed = if I == J { R::ONE } else { R::ZERO };
+            rows[J][I] = R::either(free[I] & free[J], rows[J][I], fixed);
         }
     });
 }
 
 /// M x, without what is zero by the branches of the tree.
 #[cfg_attr(optimised, inline(always))]
-fn times<Scalar: Real, Tree: Compiled, const V: usize>(
-    m: &MassMatrix<Scalar, V>,
-    x: &[Scalar; V],
-) -> [Scalar; V] {
-    let mut product = [Scalar::ZERO; V];
+fn times<R: Real, T: Compiled, const V: usize>(m: &MassMatrix<R, V>, x: &[R; V]) -> [R; V] {
+    let mut product = [R::ZERO; V];
     for_each_joint!(J, {
         if Index::<J, V>::IS_BELOW
-            && let Some(row) = const {
-                only_if(
-                    J < V,
-                    row::<Scalar, Tree, V, J> as fn(&MassMatrix<Scalar, V>, &[Scalar; V]) -> Scalar,
-                )
-            }
+            && let Some(row) =
+                const { only_if(J < V, row::<R, T, V, J> as fn(&MassMatrix<R, V>, &[R; V]) -> R) }
         {
             product[J] = row(m, x);
         }
@@ -174,13 +163,13 @@ fn times<Scalar: Real, Tree: Compiled, const V: usize>(
 
 /// Row J of M times x.
 #[cfg_attr(optimised, inline(always))]
-fn row<Scalar: Real, Tree: Compiled, const V: usize, const J: usize>(
-    m: &MassMatrix<Scalar, V>,
-    x: &[Scalar; V],
-) -> Scalar {
+fn row<R: Real, T: Compiled, const V: usize, const J: usize>(
+    m: &MassMatrix<R, V>,
+    x: &[R; V],
+) -> R {
     let mut sum = m.rows[J][J] * x[J];
     for_each_joint!(I, {
-        if JointPair::<Tree, I, J>::IS_ANCESTOR || JointPair::<Tree, J, I>::IS_ANCESTOR {
+        if JointPair::<T, I, J>::IS_ANCESTOR || JointPair::<T, J, I>::IS_ANCESTOR {
             sum += m.rows[J][I] * x[I];
         }
     });

@@ -16,7 +16,7 @@ use crate::spatial::Motion;
 use crate::state::Configuration;
 use crate::trig::Kernel;
 
-impl<Arm, Sines> Engine<Arm, Sines> {
+impl<T, K> Engine<T, K> {
     /// The geometric Jacobian J of a body in a [`Frame`] with v = J q̇, by columns, one for each
     /// coordinate, as [`crate::algorithms::jacobian`] computes it.
     ///
@@ -50,20 +50,20 @@ impl<Arm, Sines> Engine<Arm, Sines> {
     #[inline(never)]
     #[must_use]
     pub fn jacobian<
-        Scalar: Real,
+        R: Real,
         F: Frame,
         const BODY: usize,
         const B: usize,
         const Q: usize,
         const V: usize,
     >(
-        q: &impl Configuration<Scalar, Q>,
+        q: &impl Configuration<R, Q>,
         body: OnBody<BODY>,
         frame: F,
-    ) -> [Motion<Scalar>; V]
+    ) -> [Motion<R>; V]
     where
-        Arm: Robot<B, Q, V>,
-        Sines: Kernel<Scalar>,
+        T: Robot<B, Q, V>,
+        K: Kernel<R>,
     {
         let _ = body;
         let trig = q.trig_or(Self::trig_source());
@@ -71,16 +71,16 @@ impl<Arm, Sines> Engine<Arm, Sines> {
     }
 }
 
-impl<Scalar: Real, Tree: Compiled, Effects, const B: usize, const Q: usize, const V: usize>
-    Call<'_, Scalar, Tree, Effects, B, Q, V>
+impl<R: Real, T: Compiled, E, const B: usize, const Q: usize, const V: usize>
+    Call<'_, R, T, E, B, Q, V>
 {
     /// The Jacobian of a body in the frame F.
     #[cfg_attr(optimised, inline(always))]
-    fn jacobian<F: Frame, const BODY: usize>(self, frame: F) -> [Motion<Scalar>; V] {
+    fn jacobian<F: Frame, const BODY: usize>(self, frame: F) -> [Motion<R>; V] {
         let mut columns = self.jacobian_columns::<BODY>();
         let [pose] = self.poses(OnBody::<BODY>);
         for_each_joint!(J, {
-            if JointAndBody::<Tree, J, BODY>::SUPPORTS {
+            if JointAndBody::<T, J, BODY>::SUPPORTS {
                 columns[J] = frame.express_aligned(&pose, columns[J]);
             }
         });
@@ -89,13 +89,13 @@ impl<Scalar: Real, Tree: Compiled, Effects, const B: usize, const Q: usize, cons
 
     /// The columns of the joints that move the body; zero for others.
     #[cfg_attr(optimised, inline(always))]
-    fn jacobian_columns<const BODY: usize>(self) -> [Motion<Scalar>; V] {
+    fn jacobian_columns<const BODY: usize>(self) -> [Motion<R>; V] {
         let mut columns = [Motion::ZERO; V];
         let base = Mat3::constant(&glam::DMat3::IDENTITY);
         for_each_joint!(
             J,
-            const { CompiledJoint::<Tree, J>::IS_ON_BASE && JointAndBody::<Tree, J, BODY>::SUPPORTS },
-            reach = Self::reach::<BODY, J> as fn(_, &_, &mut _) -> Vec3<Scalar>,
+            const { CompiledJoint::<T, J>::IS_ON_BASE && JointAndBody::<T, J, BODY>::SUPPORTS },
+            reach = Self::reach::<BODY, J> as fn(_, &_, &mut _) -> Vec3<R>,
             {
                 let _ = reach(self, &base, &mut columns);
             }
@@ -109,36 +109,36 @@ impl<Scalar: Real, Tree: Compiled, Effects, const B: usize, const Q: usize, cons
     #[cfg_attr(optimised, inline(always))]
     fn reach<const BODY: usize, const I: usize>(
         self,
-        parent: &Mat3<Scalar>,
-        columns: &mut [Motion<Scalar>; V],
-    ) -> Vec3<Scalar> {
-        let joint = CompiledJoint::<Tree, I>::JOINT;
-        let length = Tree::LENGTH;
+        parent: &Mat3<R>,
+        columns: &mut [Motion<R>; V],
+    ) -> Vec3<R> {
+        let joint = CompiledJoint::<T, I>::JOINT;
+        let length = T::LENGTH;
         let rot = Mat3::constant(&joint.rot);
         let [x, y, z] = rot.0;
         let sides = Mat3([parent.mul(x), parent.mul(y), parent.mul(z)]);
         let at = self.displacement::<I>();
         let axes = at.axes(&sides);
         let mut offset = parent.mul(Vec3::constant(joint.pos * length));
-        if CompiledJoint::<Tree, I>::SHIFTS {
+        if CompiledJoint::<T, I>::SHIFTS {
             offset = offset + at.along(&sides).scale(Folded::constant(length));
         }
-        let mut beyond = Vec3::<Scalar>::ZERO;
-        if JointAndBody::<Tree, I, BODY>::IS_ON_JOINT {
-            let place = JointAndBody::<Tree, I, BODY>::PLACE;
+        let mut beyond = Vec3::<R>::ZERO;
+        if JointAndBody::<T, I, BODY>::IS_ON_JOINT {
+            let place = JointAndBody::<T, I, BODY>::PLACE;
             beyond = axes.mul(Vec3::constant(place.pos * length));
         }
         for_each_joint!(
             J,
-            const { JointPair::<Tree, I, J>::IS_PARENT && JointAndBody::<Tree, J, BODY>::SUPPORTS },
-            reach = Self::reach::<BODY, J> as fn(_, &_, &mut _) -> Vec3<Scalar>,
+            const { JointPair::<T, I, J>::IS_PARENT && JointAndBody::<T, J, BODY>::SUPPORTS },
+            reach = Self::reach::<BODY, J> as fn(_, &_, &mut _) -> Vec3<R>,
             {
                 beyond = reach(self, &axes, columns);
             }
         );
         let axis = axes.0[joint.axis];
         columns[I] = if joint.prismatic {
-            Motion::new(Scalar::Vec3::ZERO, axis.get())
+            Motion::new(R::Vec3::ZERO, axis.get())
         } else if matches!(joint.motion, JointMotion::Screw) {
             let along = axis.scale(Folded::constant(joint.pitch * length));
             Motion::new(axis.get(), (axis.cross(beyond) + along).get())

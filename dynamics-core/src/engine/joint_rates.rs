@@ -7,36 +7,36 @@ use crate::scalar::Real;
 
 /// Rates of a joint, in units of length; zero where no effect needs them.
 #[derive(Clone, Copy)]
-pub(crate) struct JointRates<Scalar> {
-    pub(crate) velocity: Folded<Scalar>,
+pub(crate) struct JointRates<R> {
+    pub(crate) velocity: Folded<R>,
     /// The velocity in the velocity products.
-    pub(crate) omega_products: Folded<Scalar>,
-    pub(crate) accel: Folded<Scalar>,
+    pub(crate) omega_products: Folded<R>,
+    pub(crate) accel: Folded<R>,
 }
 
 /// Rates of a planar, spherical or free joint, rotations and translations, in units of length; zero
 /// where no effect needs them.
 #[derive(Clone, Copy)]
-pub(crate) struct SeveralRates<Scalar> {
-    pub(crate) velocity: Twist<Scalar>,
+pub(crate) struct SeveralRates<R> {
+    pub(crate) velocity: Twist<R>,
     /// The velocity in the velocity products.
-    pub(crate) products: Twist<Scalar>,
-    pub(crate) accel: Twist<Scalar>,
+    pub(crate) products: Twist<R>,
+    pub(crate) accel: Twist<R>,
 }
 
 /// Components of a motion along the axes of a body, in units of length.
 #[derive(Clone, Copy)]
-pub(crate) struct Twist<Scalar> {
-    pub(crate) ang: Vec3<Scalar>,
-    pub(crate) lin: Vec3<Scalar>,
+pub(crate) struct Twist<R> {
+    pub(crate) ang: Vec3<R>,
+    pub(crate) lin: Vec3<R>,
 }
 
-impl<Scalar: Real> Twist<Scalar> {
+impl<R: Real> Twist<R> {
     pub(crate) const ZERO: Self = Self { ang: Vec3::ZERO, lin: Vec3::ZERO };
 
     /// The motion of a joint's body at this rate of its coordinate.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn along(joint: &Joint, length_inv: f64, rate: Folded<Scalar>) -> Self {
+    pub(crate) fn along(joint: &Joint, length_inv: f64, rate: Folded<R>) -> Self {
         let mut motion = Self::ZERO;
         if joint.prismatic {
             motion.lin.0[joint.axis] = rate * Folded::constant(length_inv);
@@ -51,11 +51,8 @@ impl<Scalar: Real> Twist<Scalar> {
 
     /// A motion of the parent as one of the body behind joint I.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn carried<Tree: Compiled, const I: usize>(
-        &self,
-        at: &Displacement<Scalar, Tree, I>,
-    ) -> Self {
-        let joint = CompiledJoint::<Tree, I>::JOINT;
+    pub(crate) fn carried<T: Compiled, const I: usize>(&self, at: &Displacement<R, T, I>) -> Self {
+        let joint = CompiledJoint::<T, I>::JOINT;
         let rot = Mat3::constant(&joint.rot);
         let p = Vec3::constant(joint.pos) + at.shift();
         Self { ang: at.enter(&rot, self.ang), lin: at.enter(&rot, self.lin + self.ang.cross(p)) }
@@ -64,13 +61,13 @@ impl<Scalar: Real> Twist<Scalar> {
     /// The motion of joint I, a planar, spherical or free one, of all `rates`; zero unless it is
     /// needed.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn of<Tree: Compiled, const V: usize, const I: usize>(
-        rates: &[Scalar; V],
+    pub(crate) fn of<T: Compiled, const V: usize, const I: usize>(
+        rates: &[R; V],
         needed: bool,
     ) -> Self {
         let zero = Folded::ZERO;
-        let length_inv = Folded::constant(Tree::LENGTH_INV);
-        let (ang, lin) = match CompiledJoint::<Tree, I>::MOTION {
+        let length_inv = Folded::constant(T::LENGTH_INV);
+        let (ang, lin) = match CompiledJoint::<T, I>::MOTION {
             JointMotion::Planar => (
                 [zero, zero, rate(rates, I, needed)],
                 [rate(rates, I + 1, needed), rate(rates, I + 2, needed), zero],
@@ -83,19 +80,11 @@ impl<Scalar: Real> Twist<Scalar> {
 }
 
 #[cfg_attr(optimised, inline(always))]
-fn three<Scalar: Real, const V: usize>(
-    rates: &[Scalar; V],
-    first: usize,
-    needed: bool,
-) -> [Folded<Scalar>; 3] {
+fn three<R: Real, const V: usize>(rates: &[R; V], first: usize, needed: bool) -> [Folded<R>; 3] {
     [rate(rates, first, needed), rate(rates, first + 1, needed), rate(rates, first + 2, needed)]
 }
 
 #[cfg_attr(optimised, inline(always))]
-fn rate<Scalar: Real, const V: usize>(
-    rates: &[Scalar; V],
-    k: usize,
-    needed: bool,
-) -> Folded<Scalar> {
+fn rate<R: Real, const V: usize>(rates: &[R; V], k: usize, needed: bool) -> Folded<R> {
     Folded::runtime_if(needed, rates[k])
 }

@@ -11,7 +11,7 @@ use super::acceleration_field::AccelerationField;
 use super::call::Call;
 use super::compile::{BodyPlacement, Compiled};
 use super::folding::{Folded, Mat3, Vec3};
-use super::named::{AllBodies, Named, joints};
+use super::named::{AllBodies, ListedBody, joints};
 use super::pass::{Motions, Nothing, Pass, sweep};
 use crate::algorithms::{Frame, Kinematics, Pose};
 use crate::effects::Effect;
@@ -21,7 +21,7 @@ use crate::spatial::Motion;
 use crate::state::{Configuration, RobotState, State};
 use crate::trig::Kernel;
 
-impl<Arm, Sines> Engine<Arm, Sines> {
+impl<T, K> Engine<T, K> {
     /// The pose of every body's own frame in the base's: rotation, and position in m, as
     /// [`crate::algorithms::poses`] computes them.
     ///
@@ -41,12 +41,12 @@ impl<Arm, Sines> Engine<Arm, Sines> {
     #[doc(alias = "forward kinematics")]
     #[inline(never)]
     #[must_use]
-    pub fn poses<Scalar: Real, const B: usize, const Q: usize, const V: usize>(
-        q: &impl Configuration<Scalar, Q>,
-    ) -> [Pose<Scalar>; B]
+    pub fn poses<R: Real, const B: usize, const Q: usize, const V: usize>(
+        q: &impl Configuration<R, Q>,
+    ) -> [Pose<R>; B]
     where
-        Arm: Robot<B, Q, V>,
-        Sines: Kernel<Scalar>,
+        T: Robot<B, Q, V>,
+        K: Kernel<R>,
     {
         let trig = q.trig_or(Self::trig_source());
         Self::call(trig.borrow(), &()).poses(AllBodies)
@@ -75,13 +75,13 @@ impl<Arm, Sines> Engine<Arm, Sines> {
     #[doc(alias = "end effector")]
     #[inline(never)]
     #[must_use]
-    pub fn poses_of<Scalar: Real, const N: usize, const B: usize, const Q: usize, const V: usize>(
-        q: &impl Configuration<Scalar, Q>,
+    pub fn poses_of<R: Real, const N: usize, const B: usize, const Q: usize, const V: usize>(
+        q: &impl Configuration<R, Q>,
         bodies: impl Bodies<N>,
-    ) -> [Pose<Scalar>; N]
+    ) -> [Pose<R>; N]
     where
-        Arm: Robot<B, Q, V>,
-        Sines: Kernel<Scalar>,
+        T: Robot<B, Q, V>,
+        K: Kernel<R>,
     {
         let trig = q.trig_or(Self::trig_source());
         Self::call(trig.borrow(), &()).poses(bodies)
@@ -108,14 +108,14 @@ impl<Arm, Sines> Engine<Arm, Sines> {
     #[doc(alias = "forward kinematics")]
     #[inline(never)]
     #[must_use]
-    pub fn kinematics<Scalar: Real, Effects, const B: usize, const Q: usize, const V: usize>(
-        state: impl RobotState<Scalar, Q, V>,
-        effects: &Effects,
-    ) -> Kinematics<Scalar, B>
+    pub fn kinematics<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        effects: &E,
+    ) -> Kinematics<R, B>
     where
-        Arm: Robot<B, Q, V>,
-        Sines: Kernel<Scalar>,
-        Effects: Effect<Scalar, B, V>,
+        T: Robot<B, Q, V>,
+        K: Kernel<R>,
+        E: Effect<R, B, V>,
     {
         scene_is_taken!();
         let configuration = state.configuration();
@@ -151,21 +151,21 @@ impl<Arm, Sines> Engine<Arm, Sines> {
     #[inline(never)]
     #[must_use]
     pub fn kinematics_of<
-        Scalar: Real,
-        Effects,
+        R: Real,
+        E,
         const N: usize,
         const B: usize,
         const Q: usize,
         const V: usize,
     >(
-        state: impl RobotState<Scalar, Q, V>,
-        effects: &Effects,
+        state: impl RobotState<R, Q, V>,
+        effects: &E,
         bodies: impl Bodies<N>,
-    ) -> Kinematics<Scalar, N>
+    ) -> Kinematics<R, N>
     where
-        Arm: Robot<B, Q, V>,
-        Sines: Kernel<Scalar>,
-        Effects: Effect<Scalar, B, V>,
+        T: Robot<B, Q, V>,
+        K: Kernel<R>,
+        E: Effect<R, B, V>,
     {
         scene_is_taken!();
         let configuration = state.configuration();
@@ -199,25 +199,25 @@ impl<Arm, Sines> Engine<Arm, Sines> {
     #[inline(never)]
     #[must_use]
     pub fn bias_acceleration<
-        Scalar: Real,
+        R: Real,
         F,
         const BODY: usize,
         const B: usize,
         const Q: usize,
         const V: usize,
     >(
-        state: impl RobotState<Scalar, Q, V>,
+        state: impl RobotState<R, Q, V>,
         body: OnBody<BODY>,
         frame: F,
-    ) -> Motion<Scalar>
+    ) -> Motion<R>
     where
-        Arm: Robot<B, Q, V>,
-        Sines: Kernel<Scalar>,
+        T: Robot<B, Q, V>,
+        K: Kernel<R>,
         F: Frame,
     {
         let configuration = state.configuration();
         let trig = configuration.trig_or(Self::trig_source());
-        let coasting = State { qdd: [Scalar::ZERO; V], ..*state.state() };
+        let coasting = State { qdd: [R::ZERO; V], ..*state.state() };
         let Kinematics { poses: [pose], velocities: [v], accelerations: [a] } = Self::call(
             trig.borrow(),
             &(),
@@ -227,13 +227,13 @@ impl<Arm, Sines> Engine<Arm, Sines> {
     }
 }
 
-impl<Scalar: Real, Tree: Compiled, Effects, const B: usize, const Q: usize, const V: usize>
-    Call<'_, Scalar, Tree, Effects, B, Q, V>
+impl<R: Real, T: Compiled, E, const B: usize, const Q: usize, const V: usize>
+    Call<'_, R, T, E, B, Q, V>
 {
     /// The poses of the bodies of the list.
     #[cfg_attr(optimised, inline(always))]
-    pub(super) fn poses<List: Bodies<N>, const N: usize>(self, bodies: List) -> [Pose<Scalar>; N] {
-        let resting = State { q: [Scalar::ZERO; Q], qd: [Scalar::ZERO; V], qdd: [Scalar::ZERO; V] };
+    pub(super) fn poses<List: Bodies<N>, const N: usize>(self, bodies: List) -> [Pose<R>; N] {
+        let resting = State { q: [R::ZERO; Q], qd: [R::ZERO; V], qdd: [R::ZERO; V] };
         let base = AccelerationField::RESTING;
         self.walk::<List, N, false>(&resting, &base, bodies).poses
     }
@@ -242,11 +242,11 @@ impl<Scalar: Real, Tree: Compiled, Effects, const B: usize, const Q: usize, cons
     #[cfg_attr(optimised, inline(always))]
     fn walk<List: Bodies<N>, const N: usize, const RATES: bool>(
         self,
-        state: &State<Scalar, Q, V>,
-        base: &AccelerationField<Scalar>,
+        state: &State<R, Q, V>,
+        base: &AccelerationField<R>,
         _: List,
-    ) -> Kinematics<Scalar, N> {
-        let mut walk = Walk::<Scalar, Tree, List, N, Q, V, RATES> {
+    ) -> Kinematics<R, N> {
+        let mut walk = Walk::<R, T, List, N, Q, V, RATES> {
             turns: self.turns,
             state,
             found: Kinematics {
@@ -262,45 +262,27 @@ impl<Scalar: Real, Tree: Compiled, Effects, const B: usize, const Q: usize, cons
     }
 }
 
-struct Walk<
-    'a,
-    Scalar: Real,
-    Tree,
-    List,
-    const N: usize,
-    const Q: usize,
-    const V: usize,
-    const RATES: bool,
-> {
-    turns: &'a [JointCoordinate<Scalar>; Q],
-    state: &'a State<Scalar, Q, V>,
-    found: Kinematics<Scalar, N>,
-    types: PhantomData<(Tree, List)>,
+struct Walk<'a, R: Real, T, List, const N: usize, const Q: usize, const V: usize, const RATES: bool>
+{
+    turns: &'a [JointCoordinate<R>; Q],
+    state: &'a State<R, Q, V>,
+    found: Kinematics<R, N>,
+    types: PhantomData<(T, List)>,
 }
 
-impl<
-    Scalar: Real,
-    Tree: Compiled,
-    List,
-    const N: usize,
-    const Q: usize,
-    const V: usize,
-    const RATES: bool,
-> Pass for Walk<'_, Scalar, Tree, List, N, Q, V, RATES>
+impl<R: Real, T: Compiled, List, const N: usize, const Q: usize, const V: usize, const RATES: bool>
+    Pass for Walk<'_, R, T, List, N, Q, V, RATES>
 where
     List: Bodies<N>,
 {
-    type Tree = Tree;
-    type Outward = AccelerationField<Scalar>;
+    type Tree = T;
+    type Outward = AccelerationField<R>;
     type Inward = Nothing;
     const NOTHING: Nothing = Nothing;
-    const JOINTS: u64 = joints::<Tree>(&List::NUMBERS);
+    const JOINTS: u64 = joints::<T>(&List::NUMBERS);
 
     #[cfg_attr(optimised, inline(always))]
-    fn enter<const I: usize>(
-        &mut self,
-        parent: &AccelerationField<Scalar>,
-    ) -> AccelerationField<Scalar> {
+    fn enter<const I: usize>(&mut self, parent: &AccelerationField<R>) -> AccelerationField<R> {
         let motions = Motions {
             turns: self.turns,
             qd: &self.state.qd,
@@ -309,38 +291,31 @@ where
             products: RATES,
             accel: RATES,
         };
-        let field = motions.field::<Tree, I>(parent);
+        let field = motions.field::<T, I>(parent);
         self.see::<I>(&field);
         field
     }
 
     #[cfg_attr(optimised, inline(always))]
-    fn leave<const I: usize>(&mut self, _: &AccelerationField<Scalar>, _: Nothing) -> Nothing {
+    fn leave<const I: usize>(&mut self, _: &AccelerationField<R>, _: Nothing) -> Nothing {
         Nothing
     }
 }
 
-impl<
-    Scalar: Real,
-    Tree: Compiled,
-    List,
-    const N: usize,
-    const Q: usize,
-    const V: usize,
-    const RATES: bool,
-> Walk<'_, Scalar, Tree, List, N, Q, V, RATES>
+impl<R: Real, T: Compiled, List, const N: usize, const Q: usize, const V: usize, const RATES: bool>
+    Walk<'_, R, T, List, N, Q, V, RATES>
 where
     List: Bodies<N>,
 {
     /// Writes the poses and motions of the bodies of the list that move with joint I, or stand on
     /// the base.
     #[cfg_attr(optimised, inline(always))]
-    fn see<const I: usize>(&mut self, field: &AccelerationField<Scalar>) {
-        const { Named::<Tree, List, N, I, 0>::ARE_FEW };
+    fn see<const I: usize>(&mut self, field: &AccelerationField<R>) {
+        const { ListedBody::<T, List, N, I, 0>::ARE_FEW };
         for_each_joint!(K, {
-            if Named::<Tree, List, N, I, K>::IS_SOME {
-                let (at, place) = Named::<Tree, List, N, I, K>::BODY;
-                let (pose, v, a) = motion_of(field, place, Tree::LENGTH);
+            if ListedBody::<T, List, N, I, K>::IS_SOME {
+                let (at, place) = ListedBody::<T, List, N, I, K>::BODY;
+                let (pose, v, a) = motion_of(field, place, T::LENGTH);
                 self.found.poses[*at] = pose;
                 if RATES {
                     self.found.velocities[*at] = v;
@@ -353,11 +328,11 @@ where
 
 /// Pose, velocity and spatial acceleration of a body, in its own frame.
 #[cfg_attr(optimised, inline(always))]
-fn motion_of<Scalar: Real>(
-    field: &AccelerationField<Scalar>,
+fn motion_of<R: Real>(
+    field: &AccelerationField<R>,
     place: &'static BodyPlacement,
     length: f64,
-) -> (Pose<Scalar>, Motion<Scalar>, Motion<Scalar>) {
+) -> (Pose<R>, Motion<R>, Motion<R>) {
     let (rot, pos) = (Mat3::constant(&place.rot), Vec3::constant(place.pos));
     let length = Folded::constant(length);
     let x = field.pose.of(place, length);
@@ -371,6 +346,6 @@ fn motion_of<Scalar: Real>(
 
 /// A motion in the body's own frame.
 #[cfg_attr(optimised, inline(always))]
-fn own<Scalar: Real>(rot: &Mat3<Scalar>, ang: Vec3<Scalar>, lin: Vec3<Scalar>) -> Motion<Scalar> {
+fn own<R: Real>(rot: &Mat3<R>, ang: Vec3<R>, lin: Vec3<R>) -> Motion<R> {
     Motion::new(rot.transpose_mul(ang).get(), rot.transpose_mul(lin).get())
 }

@@ -11,7 +11,7 @@ use crate::algorithms::{MATRIX_ROUNDINGS, NotPositiveDefinite};
 use crate::model::Robot;
 use crate::scalar::Real;
 
-impl<Arm, Sines> Engine<Arm, Sines> {
+impl<T, K> Engine<T, K> {
     /// The factors of M = Lᵀ D L, for [`Engine::solve`].
     ///
     /// # Cost
@@ -37,22 +37,21 @@ impl<Arm, Sines> Engine<Arm, Sines> {
     /// roundings of M_ii, as [`ltdl`](crate::algorithms::ltdl()) does: it moves no inertia when its
     /// descendants are free.
     #[cfg_attr(optimised, inline(always))]
-    pub fn ltdl<Scalar: Real, const B: usize, const Q: usize, const V: usize>(
-        m: &MassMatrix<Scalar, V>,
-    ) -> Result<Ltdl<Scalar, V>, NotPositiveDefinite>
+    pub fn ltdl<R: Real, const B: usize, const Q: usize, const V: usize>(
+        m: &MassMatrix<R, V>,
+    ) -> Result<Ltdl<R, V>, NotPositiveDefinite>
     where
-        Arm: Robot<B, Q, V>,
+        T: Robot<B, Q, V>,
     {
         let mut rows = m.rows;
-        let mut noise = [Scalar::ZERO; V];
+        let mut noise = [R::ZERO; V];
         for_each_joint!(J, {
             if Index::<J, V>::IS_BELOW {
-                noise[J] = rows[J][J] * (Scalar::EPSILON * Scalar::from_f64(MATRIX_ROUNDINGS))
-                    + Scalar::MIN_POSITIVE;
+                noise[J] =
+                    rows[J][J] * (R::EPSILON * R::from_f64(MATRIX_ROUNDINGS)) + R::MIN_POSITIVE;
             }
         });
-        let d_inv =
-            decompose::<Scalar, CompiledRobot<Arm, B, Q, V>, V>(&mut rows, &noise, &[false; V])?;
+        let d_inv = decompose::<R, CompiledRobot<T, B, Q, V>, V>(&mut rows, &noise, &[false; V])?;
         Ok(Ltdl { rows, d_inv })
     }
 
@@ -65,15 +64,15 @@ impl<Arm, Sines> Engine<Arm, Sines> {
     /// RBDA (2008), table 6.4.
     #[cfg_attr(optimised, inline(always))]
     #[must_use]
-    pub fn solve<Scalar: Real, const B: usize, const Q: usize, const V: usize>(
-        factor: &Ltdl<Scalar, V>,
-        tau: &[Scalar; V],
-    ) -> [Scalar; V]
+    pub fn solve<R: Real, const B: usize, const Q: usize, const V: usize>(
+        factor: &Ltdl<R, V>,
+        tau: &[R; V],
+    ) -> [R; V]
     where
-        Arm: Robot<B, Q, V>,
+        T: Robot<B, Q, V>,
     {
         let mut x = *tau;
-        substitute::<Scalar, CompiledRobot<Arm, B, Q, V>, V>(&factor.rows, &factor.d_inv, &mut x);
+        substitute::<R, CompiledRobot<T, B, Q, V>, V>(&factor.rows, &factor.d_inv, &mut x);
         x
     }
 }
@@ -82,32 +81,31 @@ impl<Arm, Sines> Engine<Arm, Sines> {
 /// Those that are certain to, in any state of numbers, are looked at only if that of a joint on the
 /// base does not, to which a NaN spreads.
 #[cfg_attr(optimised, inline(always))]
-pub(crate) fn decompose<Scalar: Real, Tree, const V: usize>(
-    m: &mut [[Scalar; V]; V],
-    noise: &[Scalar; V],
+pub(crate) fn decompose<R: Real, T, const V: usize>(
+    m: &mut [[R; V]; V],
+    noise: &[R; V],
     certain: &[bool; V],
-) -> Result<[Scalar; V], NotPositiveDefinite>
+) -> Result<[R; V], NotPositiveDefinite>
 where
-    Tree: Compiled,
+    T: Compiled,
 {
-    let (mut d_inv, mut singular) = ([Scalar::ZERO; V], Singular::default());
+    let (mut d_inv, mut singular) = ([R::ZERO; V], Singular::default());
     for_each_joint_reversed!(K, {
         if Index::<K, V>::IS_BELOW
-            && let Some(eliminate) = const {
-                only_if(K < V, eliminate::<Scalar, Tree, V, K> as fn(&mut [[Scalar; V]; V], Scalar))
-            }
+            && let Some(eliminate) =
+                const { only_if(K < V, eliminate::<R, T, V, K> as fn(&mut [[R; V]; V], R)) }
         {
             if !certain[K] {
-                singular.note::<Scalar, K>(m[K][K], noise[K]);
+                singular.note::<R, K>(m[K][K], noise[K]);
             }
-            d_inv[K] = Scalar::ONE / m[K][K];
+            d_inv[K] = R::ONE / m[K][K];
             eliminate(m, d_inv[K]);
         }
     });
     if singular.is_any() {
         for_each_joint!(K, {
             if Index::<K, V>::IS_BELOW && certain[K] {
-                singular.note::<Scalar, K>(d_inv[K], -Scalar::ONE);
+                singular.note::<R, K>(d_inv[K], -R::ONE);
             }
         });
         singular.outermost()?;
@@ -117,18 +115,16 @@ where
 
 /// Row K of L, and its share of the rows of its ancestors.
 #[cfg_attr(optimised, inline(always))]
-fn eliminate<Scalar: Real, Tree, const V: usize, const K: usize>(
-    m: &mut [[Scalar; V]; V],
-    d_inv: Scalar,
-) where
-    Tree: Compiled,
+fn eliminate<R: Real, T, const V: usize, const K: usize>(m: &mut [[R; V]; V], d_inv: R)
+where
+    T: Compiled,
 {
     for_each_joint_reversed!(I, {
-        if JointPair::<Tree, I, K>::IS_ANCESTOR
+        if JointPair::<T, I, K>::IS_ANCESTOR
             && let Some(subtract) = const {
                 only_if(
-                    JointPair::<Tree, I, K>::IS_ANCESTOR,
-                    subtract::<Scalar, Tree, V, K, I> as fn(&mut [[Scalar; V]; V], Scalar),
+                    JointPair::<T, I, K>::IS_ANCESTOR,
+                    subtract::<R, T, V, K, I> as fn(&mut [[R; V]; V], R),
                 )
             }
         {
@@ -141,43 +137,39 @@ fn eliminate<Scalar: Real, Tree, const V: usize, const K: usize>(
 
 /// Row I less `l` times row K.
 #[cfg_attr(optimised, inline(always))]
-fn subtract<Scalar: Real, Tree, const V: usize, const K: usize, const I: usize>(
-    m: &mut [[Scalar; V]; V],
-    l: Scalar,
-) where
-    Tree: Compiled,
+fn subtract<R: Real, T, const V: usize, const K: usize, const I: usize>(m: &mut [[R; V]; V], l: R)
+where
+    T: Compiled,
 {
     for_each_joint!(J, {
-        if JointPair::<Tree, J, I>::SUPPORTS {
+        if JointPair::<T, J, I>::SUPPORTS {
             m[I][J] -= l * m[K][J];
         }
     });
 }
 
 /// A function of one row.
-type Row<Scalar, const V: usize> = fn(&[[Scalar; V]; V], &mut [Scalar; V]);
+type Row<R, const V: usize> = fn(&[[R; V]; V], &mut [R; V]);
 
 /// Lᵀ y = τ, D z = y, L x = z, in place.
 #[cfg_attr(optimised, inline(always))]
-pub(crate) fn substitute<Scalar: Real, Tree, const V: usize>(
-    l: &[[Scalar; V]; V],
-    d_inv: &[Scalar; V],
-    x: &mut [Scalar; V],
+pub(crate) fn substitute<R: Real, T, const V: usize>(
+    l: &[[R; V]; V],
+    d_inv: &[R; V],
+    x: &mut [R; V],
 ) where
-    Tree: Compiled,
+    T: Compiled,
 {
     for_each_joint_reversed!(I, {
         if Index::<I, V>::IS_BELOW
-            && let Some(scatter) =
-                const { only_if(I < V, scatter::<Scalar, Tree, V, I> as Row<Scalar, V>) }
+            && let Some(scatter) = const { only_if(I < V, scatter::<R, T, V, I> as Row<R, V>) }
         {
             scatter(l, x);
         }
     });
     for_each_joint!(I, {
         if Index::<I, V>::IS_BELOW
-            && let Some(gather) =
-                const { only_if(I < V, gather::<Scalar, Tree, V, I> as Row<Scalar, V>) }
+            && let Some(gather) = const { only_if(I < V, gather::<R, T, V, I> as Row<R, V>) }
         {
             x[I] *= d_inv[I];
             gather(l, x);
@@ -187,14 +179,12 @@ pub(crate) fn substitute<Scalar: Real, Tree, const V: usize>(
 
 /// Subtracts from x_I the products with the entries of its ancestors.
 #[cfg_attr(optimised, inline(always))]
-fn scatter<Scalar: Real, Tree, const V: usize, const I: usize>(
-    l: &[[Scalar; V]; V],
-    x: &mut [Scalar; V],
-) where
-    Tree: Compiled,
+fn scatter<R: Real, T, const V: usize, const I: usize>(l: &[[R; V]; V], x: &mut [R; V])
+where
+    T: Compiled,
 {
     for_each_joint!(J, {
-        if JointPair::<Tree, J, I>::IS_ANCESTOR {
+        if JointPair::<T, J, I>::IS_ANCESTOR {
             x[J] -= l[I][J] * x[I];
         }
     });
@@ -202,14 +192,12 @@ fn scatter<Scalar: Real, Tree, const V: usize, const I: usize>(
 
 /// Subtracts the products with x_I from the entries of its ancestors.
 #[cfg_attr(optimised, inline(always))]
-fn gather<Scalar: Real, Tree, const V: usize, const I: usize>(
-    l: &[[Scalar; V]; V],
-    x: &mut [Scalar; V],
-) where
-    Tree: Compiled,
+fn gather<R: Real, T, const V: usize, const I: usize>(l: &[[R; V]; V], x: &mut [R; V])
+where
+    T: Compiled,
 {
     for_each_joint!(J, {
-        if JointPair::<Tree, J, I>::IS_ANCESTOR {
+        if JointPair::<T, J, I>::IS_ANCESTOR {
             x[I] -= l[I][J] * x[J];
         }
     });

@@ -79,11 +79,11 @@ const fn only_if<F: Copy>(condition: bool, function: F) -> Option<F> {
     if condition { Some(function) } else { None }
 }
 
-/// Fails to compile, in the body of the public function that it stands in, for a robot `Arm` and
+/// Fails to compile, in the body of the public function that it stands in, for a robot `T` and
 /// Effects that the engine does not take.
 macro_rules! scene_is_taken {
     () => {
-        const { $crate::engine::gate::EngineScene::<Arm, Scalar, Effects, B, Q, V>::TAKEN }
+        const { $crate::engine::gate::EngineScene::<T, R, E, B, Q, V>::TAKEN }
     };
 }
 
@@ -124,6 +124,7 @@ mod rotors;
 mod subtree;
 mod torque_rates;
 mod totals;
+mod wrenches;
 
 use core::borrow::Borrow;
 use core::hint::black_box;
@@ -138,12 +139,11 @@ pub(crate) use bending::{BendingLink, BendingMode, Bends, MODES};
 pub(crate) use call::{Call, joint_state};
 pub(crate) use compile::{
     BendingTree, BodyPlacement, Compiled, CompiledJoint, CompiledRobot, Joint, JointMotion,
-    compile_bending, mat_add, outer, support,
+    compile_bending, has_subtree_functions, mat_add, outer, support,
 };
-pub(crate) use subtree::has_subtree_functions;
 
-/// The algorithms specialised at compile time for the robot `Arm`; sines and cosines by the kernel
-/// `Sines`.
+/// The algorithms specialised at compile time for the robot `T`; sines and cosines by the kernel
+/// `K`.
 ///
 /// Robots: trees of up to 64 velocity coordinates on joints of any kind. Any number of bodies may
 /// be welded to one moving body, but at most 32 in a scene with wrenches
@@ -180,35 +180,33 @@ pub(crate) use subtree::has_subtree_functions;
 /// // error: the engine takes up to 64 velocity coordinates; use `Core`
 /// ```
 #[derive(Clone, Copy, Debug)]
-pub struct Engine<Arm, Sines = Native>(PhantomData<(Arm, Sines)>);
+pub struct Engine<T, K = Native>(PhantomData<(T, K)>);
 
-impl<Arm, Sines> Engine<Arm, Sines> {
+impl<T, K> Engine<T, K> {
     /// The sines and cosines of the configuration q, for every algorithm of a tick.
     #[cfg_attr(optimised, inline(always))]
     #[must_use]
-    pub fn joint_trig<Scalar: Real, const B: usize, const Q: usize, const V: usize>(
-        q: &[Scalar; Q],
-    ) -> JointTrig<Scalar, Q>
+    pub fn joint_trig<R: Real, const B: usize, const Q: usize, const V: usize>(
+        q: &[R; Q],
+    ) -> JointTrig<R, Q>
     where
-        Arm: Robot<B, Q, V>,
-        Sines: Kernel<Scalar>,
+        T: Robot<B, Q, V>,
+        K: Kernel<R>,
     {
-        if let Some(near) = const { CompiledRobot::<Arm, B, Q, V>::ALL_TURN }
+        if let Some(near) = const { CompiledRobot::<T, B, Q, V>::ALL_TURN }
             && VECTORS
         {
             let coordinates = if near {
-                JointCoordinate::of_all::<Sines, true, Q>(q)
+                JointCoordinate::of_all::<K, true, Q>(q)
             } else {
-                JointCoordinate::of_all::<Sines, false, Q>(q)
+                JointCoordinate::of_all::<K, false, Q>(q)
             };
             return JointTrig { coordinates };
         }
         let mut turns = [JointCoordinate::default(); Q];
         for_each_joint!(J, {
             if Index::<J, V>::IS_BELOW {
-                CompiledJoint::<CompiledRobot<Arm, B, Q, V>, J>::turn::<Scalar, Sines, Q>(
-                    q, &mut turns,
-                );
+                CompiledJoint::<CompiledRobot<T, B, Q, V>, J>::turn::<R, K, Q>(q, &mut turns);
             }
         });
         JointTrig { coordinates: turns }
@@ -236,20 +234,20 @@ impl<Arm, Sines> Engine<Arm, Sines> {
     #[doc(alias = "ID")]
     #[doc(alias = "inverse dynamics")]
     #[inline(never)]
-    pub fn rnea<Scalar: Real, Effects, const B: usize, const Q: usize, const V: usize>(
-        state: impl RobotState<Scalar, Q, V>,
-        effects: &Effects,
-    ) -> [Scalar; V]
+    pub fn rnea<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        effects: &E,
+    ) -> [R; V]
     where
-        Arm: Robot<B, Q, V>,
-        Sines: Kernel<Scalar>,
-        Effects: Effect<Scalar, B, V>,
+        T: Robot<B, Q, V>,
+        K: Kernel<R>,
+        E: Effect<R, B, V>,
     {
         scene_is_taken!();
         let trig = state.configuration().trig_or(Self::trig_source());
         let trig = trig.borrow();
         // Not needed for gravity alone.
-        let back = if const { Effects::VELOCITY_PRODUCTS | Effects::ACCELERATIONS } {
+        let back = if const { E::VELOCITY_PRODUCTS | E::ACCELERATIONS } {
             loaded_again(&state, trig)
         } else {
             trig
@@ -262,54 +260,46 @@ impl<Arm, Sines> Engine<Arm, Sines> {
 /// hides from the compiler that both references are the same, since it would spill the loaded
 /// values to the stack.
 #[cfg_attr(optimised, inline(always))]
-fn loaded_again<
-    'a,
-    Scalar: Real,
-    State: RobotState<Scalar, Q, V>,
-    const Q: usize,
-    const V: usize,
->(
+fn loaded_again<'a, R: Real, State: RobotState<R, Q, V>, const Q: usize, const V: usize>(
     _: &State,
-    trig: &'a JointTrig<Scalar, Q>,
-) -> &'a JointTrig<Scalar, Q> {
+    trig: &'a JointTrig<R, Q>,
+) -> &'a JointTrig<R, Q> {
     if const { State::Configuration::PRECOMPUTED } { black_box(trig) } else { trig }
 }
 
 /// [`Engine::joint_trig`] of a robot of B bodies and V velocity coordinates.
-pub(crate) struct Specialised<Arm, Sines, const B: usize, const V: usize>(
-    PhantomData<(Arm, Sines)>,
-);
+pub(crate) struct Specialised<T, K, const B: usize, const V: usize>(PhantomData<(T, K)>);
 
-impl<Scalar: Real, Arm, Sines, const B: usize, const Q: usize, const V: usize> TrigSource<Scalar, Q>
-    for Specialised<Arm, Sines, B, V>
+impl<R: Real, T, K, const B: usize, const Q: usize, const V: usize> TrigSource<R, Q>
+    for Specialised<T, K, B, V>
 where
-    Arm: Robot<B, Q, V>,
-    Sines: Kernel<Scalar>,
+    T: Robot<B, Q, V>,
+    K: Kernel<R>,
 {
     #[cfg_attr(optimised, inline(always))]
-    fn compute(&self, q: &[Scalar; Q]) -> JointTrig<Scalar, Q> {
-        Engine::<Arm, Sines>::joint_trig(q)
+    fn compute(&self, q: &[R; Q]) -> JointTrig<R, Q> {
+        Engine::<T, K>::joint_trig(q)
     }
 }
 
-impl<Arm> Engine<Arm> {
+impl<T> Engine<T> {
     /// The recursion of [`rnea`] for clusters, whose sines are known; `back` is `trig` as the
     /// inward pass loads it.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn run<Scalar: Real, Effects, const B: usize, const Q: usize, const V: usize>(
-        trig: &JointTrig<Scalar, Q>,
-        back: &JointTrig<Scalar, Q>,
-        state: &State<Scalar, Q, V>,
-        effects: &Effects,
-    ) -> [Scalar; V]
+    pub(crate) fn run<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+        trig: &JointTrig<R, Q>,
+        back: &JointTrig<R, Q>,
+        state: &State<R, Q, V>,
+        effects: &E,
+    ) -> [R; V]
     where
-        Arm: Robot<B, Q, V>,
-        Effects: Effect<Scalar, B, V>,
+        T: Robot<B, Q, V>,
+        E: Effect<R, B, V>,
     {
         scene_is_taken!();
         // Not a constant, as in `torques`: where sines are known it costs instructions (decision
         // 13).
-        let mut tau = [Scalar::ZERO; V];
+        let mut tau = [R::ZERO; V];
         Self::call(trig, effects).write_torques(&back.coordinates, state, &mut tau);
         tau
     }

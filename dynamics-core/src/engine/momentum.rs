@@ -22,7 +22,7 @@ use crate::scalar::Real;
 use crate::state::{Configuration, RobotState, State};
 use crate::trig::Kernel;
 
-impl<Arm, Sines> Engine<Arm, Sines> {
+impl<T, K> Engine<T, K> {
     /// The generalised momentum p = M q̇ and the transposed Coriolis product Cᵀ q̇, in joint
     /// coordinates, N·m·s and N·m, as [`crate::algorithms::momentum_and_coriolis`] computes them.
     ///
@@ -46,20 +46,14 @@ impl<Arm, Sines> Engine<Arm, Sines> {
     /// ```
     #[doc(alias = "momentum observer")]
     #[inline(never)]
-    pub fn momentum_and_coriolis<
-        Scalar: Real,
-        Effects,
-        const B: usize,
-        const Q: usize,
-        const V: usize,
-    >(
-        state: impl RobotState<Scalar, Q, V>,
-        effects: &Effects,
-    ) -> MomentumAndCoriolis<Scalar, V>
+    pub fn momentum_and_coriolis<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        effects: &E,
+    ) -> MomentumAndCoriolis<R, V>
     where
-        Arm: Robot<B, Q, V>,
-        Sines: Kernel<Scalar>,
-        Effects: Effect<Scalar, B, V>,
+        T: Robot<B, Q, V>,
+        K: Kernel<R>,
+        E: Effect<R, B, V>,
     {
         scene_is_taken!();
         let trig = state.configuration().trig_or(Self::trig_source());
@@ -96,20 +90,14 @@ impl<Arm, Sines> Engine<Arm, Sines> {
     /// ```
     #[doc(alias = "momentum observer")]
     #[inline(never)]
-    pub fn momentum_and_drift<
-        Scalar: Real,
-        Effects,
-        const B: usize,
-        const Q: usize,
-        const V: usize,
-    >(
-        state: impl RobotState<Scalar, Q, V>,
-        effects: &Effects,
-    ) -> MomentumAndDrift<Scalar, V>
+    pub fn momentum_and_drift<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        effects: &E,
+    ) -> MomentumAndDrift<R, V>
     where
-        Arm: Robot<B, Q, V>,
-        Sines: Kernel<Scalar>,
-        Effects: Effect<Scalar, B, V>,
+        T: Robot<B, Q, V>,
+        K: Kernel<R>,
+        E: Effect<R, B, V>,
     {
         scene_is_taken!();
         let trig = state.configuration().trig_or(Self::trig_source());
@@ -119,24 +107,22 @@ impl<Arm, Sines> Engine<Arm, Sines> {
     }
 }
 
-impl<Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize>
-    Call<'_, Scalar, Tree, Effects, B, Q, V>
+impl<R, T, E, const B: usize, const Q: usize, const V: usize> Call<'_, R, T, E, B, Q, V>
 where
-    Scalar: Real,
-    Tree: Compiled,
-    Effects: Effect<Scalar, B, V>,
+    R: Real,
+    T: Compiled,
+    E: Effect<R, B, V>,
 {
     /// The recursion of p and β, or of p and Cᵀ q̇ without DRIFT; `back` are the positions as they
     /// are loaded on returning.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn momenta<const DRIFT: bool>(
         self,
-        back: &[JointCoordinate<Scalar>; Q],
-        state: &State<Scalar, Q, V>,
-    ) -> MomentumAndDrift<Scalar, V> {
+        back: &[JointCoordinate<R>; Q],
+        state: &State<R, Q, V>,
+    ) -> MomentumAndDrift<R, V> {
         // A constant, for the order of the sines: see `torques` of `rnea`.
-        let mut result =
-            const { MomentumAndDrift { p: [Scalar::ZERO; V], beta: [Scalar::ZERO; V] } };
+        let mut result = const { MomentumAndDrift { p: [R::ZERO; V], beta: [R::ZERO; V] } };
         let mut base = self.unaccelerated();
         if !DRIFT {
             base.a = Vec3::ZERO;
@@ -144,7 +130,7 @@ where
         let mut task = Task { call: self, back, state, result: &mut result };
         for_each_joint!(
             J,
-            CompiledJoint::<Tree, J>::IS_ON_BASE,
+            CompiledJoint::<T, J>::IS_ON_BASE,
             visit = Task::visit::<DRIFT, J> as fn(&mut _, &_) -> _,
             {
                 visit(&mut task, &base);
@@ -155,63 +141,62 @@ where
 }
 
 /// The data that all bodies share.
-struct Task<'a, Scalar: Real, Tree, Effects, const B: usize, const Q: usize, const V: usize> {
-    call: Call<'a, Scalar, Tree, Effects, B, Q, V>,
+struct Task<'a, R: Real, T, E, const B: usize, const Q: usize, const V: usize> {
+    call: Call<'a, R, T, E, B, Q, V>,
     /// The positions of the call, loaded again on returning.
-    back: &'a [JointCoordinate<Scalar>; Q],
-    state: &'a State<Scalar, Q, V>,
-    result: &'a mut MomentumAndDrift<Scalar, V>,
+    back: &'a [JointCoordinate<R>; Q],
+    state: &'a State<R, Q, V>,
+    result: &'a mut MomentumAndDrift<R, V>,
 }
 
 /// The momentum of a body and its descendants, and the wrench that carries their weight less those
 /// of the environment.
 #[derive(Clone, Copy)]
-struct Carried<Scalar> {
-    h: Wrench<Scalar>,
-    load: Wrench<Scalar>,
+struct MomentumAndLoad<R> {
+    h: Wrench<R>,
+    load: Wrench<R>,
 }
 
-impl<Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize>
-    Task<'_, Scalar, Tree, Effects, B, Q, V>
+impl<R, T, E, const B: usize, const Q: usize, const V: usize> Task<'_, R, T, E, B, Q, V>
 where
-    Scalar: Real,
-    Tree: Compiled,
-    Effects: Effect<Scalar, B, V>,
+    R: Real,
+    T: Compiled,
+    E: Effect<R, B, V>,
 {
     /// Visits joint I and its descendants; returns what they carry about the origin of the parent,
     /// in its frame.
     #[cfg_attr(optimised, inline(always))]
     fn visit<const DRIFT: bool, const I: usize>(
         &mut self,
-        parent: &AccelerationField<Scalar>,
-    ) -> Carried<Scalar> {
+        parent: &AccelerationField<R>,
+    ) -> MomentumAndLoad<R> {
         let at = self.call.displacement::<I>();
         let mut body = Self::across::<I>(parent, &at, &self.state.qd);
-        if DRIFT && Effects::BODY_POSE {
+        if DRIFT && E::BODY_POSE {
             body.pose = parent.pose.transformed_by(&at);
         }
 
-        let mut inner = Carried { h: Wrench::ZERO, load: Wrench::ZERO };
+        let mut inner = MomentumAndLoad { h: Wrench::ZERO, load: Wrench::ZERO };
         for_each_joint!(
             J,
-            JointPair::<Tree, I, J>::IS_CHILD,
-            visit = Self::visit::<DRIFT, J> as fn(&mut _, &_) -> Carried<Scalar>,
+            JointPair::<T, I, J>::IS_CHILD,
+            visit = Self::visit::<DRIFT, J> as fn(&mut _, &_) -> MomentumAndLoad<R>,
             {
                 let child = visit(self, &body);
-                inner = Carried { h: inner.h + child.h, load: inner.load + child.load };
+                inner = MomentumAndLoad { h: inner.h + child.h, load: inner.load + child.load };
             }
         );
 
         // After the children: until then the velocity takes fewer registers than the momentum
         // beside it.
-        let own = self.call.inertia::<I>(Effects::BASE_MOTION);
+        let own = self.call.inertia::<I>(E::BASE_MOTION);
         let h = momentum(&body, &own) + inner.h;
         let driven = self.call.felt::<I>(h, parent.omega);
-        if CompiledJoint::<Tree, I>::COUNT == 1 {
+        if CompiledJoint::<T, I>::COUNT == 1 {
             self.entries::<I>(&body, &driven);
         } else if let Some(entries) = const {
             only_if(
-                CompiledJoint::<Tree, I>::COUNT > 1,
+                CompiledJoint::<T, I>::COUNT > 1,
                 Self::several_entries::<I> as fn(&mut _, &_, &_),
             )
         } {
@@ -220,38 +205,35 @@ where
         let mut load = Wrench::ZERO;
         if DRIFT {
             load = body.wrench(&own);
-            if Effects::WRENCH {
+            if E::WRENCH {
                 load = self.call.environment::<I>(&body, load);
             }
             load = load + inner.load;
-            if CompiledJoint::<Tree, I>::COUNT == 1 {
+            if CompiledJoint::<T, I>::COUNT == 1 {
                 self.hold::<I>(&load);
             } else if let Some(hold) = const {
-                only_if(
-                    CompiledJoint::<Tree, I>::COUNT > 1,
-                    Self::hold_several::<I> as fn(&mut _, &_),
-                )
+                only_if(CompiledJoint::<T, I>::COUNT > 1, Self::hold_several::<I> as fn(&mut _, &_))
             } {
                 hold(self, &load);
             }
         }
-        let turn = self.back[CompiledJoint::<Tree, I>::Q];
+        let turn = self.back[CompiledJoint::<T, I>::Q];
         let at = at.with_turn(turn);
         let spin = self.call.coupling::<I>() * Folded::runtime(self.state.qd[I]);
         let h = self.call.borne(h, along_z(spin));
-        Carried { h: h.to_parent(&at), load: load.to_parent(&at) }
+        MomentumAndLoad { h: h.to_parent(&at), load: load.to_parent(&at) }
     }
 
     /// The velocities of the body behind joint I.
     #[cfg_attr(optimised, inline(always))]
     fn across<const I: usize>(
-        parent: &AccelerationField<Scalar>,
-        at: &Displacement<Scalar, Tree, I>,
-        qd: &[Scalar; V],
-    ) -> AccelerationField<Scalar> {
-        if CompiledJoint::<Tree, I>::COUNT > 1 {
+        parent: &AccelerationField<R>,
+        at: &Displacement<R, T, I>,
+        qd: &[R; V],
+    ) -> AccelerationField<R> {
+        if CompiledJoint::<T, I>::COUNT > 1 {
             let rates = SeveralRates {
-                velocity: Twist::of::<Tree, V, I>(qd, true),
+                velocity: Twist::of::<T, V, I>(qd, true),
                 products: Twist::ZERO,
                 accel: Twist::ZERO,
             };
@@ -262,8 +244,8 @@ where
             omega_products: Folded::ZERO,
             accel: Folded::ZERO,
         };
-        if CompiledJoint::<Tree, I>::PRISMATIC {
-            rates.velocity = rates.velocity * Folded::constant(Tree::LENGTH_INV);
+        if CompiledJoint::<T, I>::PRISMATIC {
+            rates.velocity = rates.velocity * Folded::constant(T::LENGTH_INV);
         }
         parent.across(at, rates)
     }
@@ -271,9 +253,9 @@ where
     /// The entries of p and of Cᵀ q̇ of coordinate I, whose body moves as `body` and has with its
     /// descendants the momentum `h`.
     #[cfg_attr(optimised, inline(always))]
-    fn entries<const I: usize>(&mut self, body: &AccelerationField<Scalar>, h: &Wrench<Scalar>) {
-        let joint = CompiledJoint::<Tree, I>::JOINT;
-        let length_inv = Folded::constant(Tree::LENGTH_INV);
+    fn entries<const I: usize>(&mut self, body: &AccelerationField<R>, h: &Wrench<R>) {
+        let joint = CompiledJoint::<T, I>::JOINT;
+        let length_inv = Folded::constant(T::LENGTH_INV);
         let mut p = h.along(joint, length_inv).get();
         if let Some(armature) = self.call.effects.inertia(I) {
             p += armature * self.state.qd[I];
@@ -284,14 +266,10 @@ where
 
     /// The same of all coordinates of a joint.
     #[cfg_attr(optimised, inline(always))]
-    fn several_entries<const I: usize>(
-        &mut self,
-        body: &AccelerationField<Scalar>,
-        h: &Wrench<Scalar>,
-    ) {
+    fn several_entries<const I: usize>(&mut self, body: &AccelerationField<R>, h: &Wrench<R>) {
         for_each_joint!(
             K,
-            JointPair::<Tree, I, K>::IS_COORDINATE,
+            JointPair::<T, I, K>::IS_COORDINATE,
             entries = Self::entries::<K> as fn(&mut _, &_, &_),
             {
                 entries(self, body, h);
@@ -302,20 +280,20 @@ where
     /// Subtracts from the entry of coordinate I what carries `load` and what the effects at the
     /// joint need.
     #[cfg_attr(optimised, inline(always))]
-    fn hold<const I: usize>(&mut self, load: &Wrench<Scalar>) {
-        let length_inv = Folded::constant(Tree::LENGTH_INV);
+    fn hold<const I: usize>(&mut self, load: &Wrench<R>) {
+        let length_inv = Folded::constant(T::LENGTH_INV);
         let at = self.call.joint_state::<I>(self.state);
-        let mut held = load.along(CompiledJoint::<Tree, I>::JOINT, length_inv).get();
+        let mut held = load.along(CompiledJoint::<T, I>::JOINT, length_inv).get();
         self.call.effects.torque(I, at, &mut held);
         self.result.beta[I] -= held;
     }
 
     /// The same of all coordinates of a joint.
     #[cfg_attr(optimised, inline(always))]
-    fn hold_several<const I: usize>(&mut self, load: &Wrench<Scalar>) {
+    fn hold_several<const I: usize>(&mut self, load: &Wrench<R>) {
         for_each_joint!(
             K,
-            JointPair::<Tree, I, K>::IS_COORDINATE,
+            JointPair::<T, I, K>::IS_COORDINATE,
             hold = Self::hold::<K> as fn(&mut _, &_),
             {
                 hold(self, load);
@@ -325,15 +303,12 @@ where
 
     /// The entry of Cᵀ q̇ of a coordinate: (v × S)ᵀ h = −Sᵀ (v ×* h).
     #[cfg_attr(optimised, inline(always))]
-    fn rate<const I: usize>(
-        body: &AccelerationField<Scalar>,
-        h: &Wrench<Scalar>,
-    ) -> Folded<Scalar> {
-        let length_inv = Folded::constant(Tree::LENGTH_INV);
-        if matches!(CompiledJoint::<Tree, I>::MOTION, JointMotion::Turn | JointMotion::Slide) {
+    fn rate<const I: usize>(body: &AccelerationField<R>, h: &Wrench<R>) -> Folded<R> {
+        let length_inv = Folded::constant(T::LENGTH_INV);
+        if matches!(CompiledJoint::<T, I>::MOTION, JointMotion::Turn | JointMotion::Slide) {
             let ([wx, wy, _], [vx, vy, _]) = (body.omega.0, body.v.0);
             let ([fx, fy, _], [nx, ny, _]) = (h.f.0, h.n.0);
-            return if CompiledJoint::<Tree, I>::PRISMATIC {
+            return if CompiledJoint::<T, I>::PRISMATIC {
                 (wy * fx - wx * fy) * length_inv
             } else {
                 wy * nx - wx * ny + (vy * fx - vx * fy)
@@ -341,16 +316,13 @@ where
         }
         let back =
             Wrench { f: h.f.cross(body.omega), n: h.n.cross(body.omega) + h.f.cross(body.v) };
-        back.along(CompiledJoint::<Tree, I>::JOINT, length_inv)
+        back.along(CompiledJoint::<T, I>::JOINT, length_inv)
     }
 }
 
 /// The momentum I v of a body: m v + ω × h, and h × v + tr(Σ) ω − Σ ω.
 #[cfg_attr(optimised, inline(always))]
-pub(super) fn momentum<Scalar: Real>(
-    body: &AccelerationField<Scalar>,
-    inertia: &Inertia<Scalar>,
-) -> Wrench<Scalar> {
+pub(super) fn momentum<R: Real>(body: &AccelerationField<R>, inertia: &Inertia<R>) -> Wrench<R> {
     let (s, [wx, wy, wz]) = (&inertia.second, body.omega.0);
     let (xy, xz, yz) = (s.xx + s.yy, s.xx + s.zz, s.yy + s.zz);
     let spin = Vec3([

@@ -22,37 +22,36 @@ impl<const N: usize> Bodies<N> for AllBodies {
 }
 
 /// The K-th of the bodies of the list that move with joint I, or stand on the base.
-pub(super) struct Named<Tree, List, const N: usize, const I: usize, const K: usize>(
-    PhantomData<(Tree, List)>,
+pub(super) struct ListedBody<T, List, const N: usize, const I: usize, const K: usize>(
+    PhantomData<(T, List)>,
 );
 
-impl<Tree: Compiled, List: Bodies<N>, const N: usize, const I: usize, const K: usize>
-    Named<Tree, List, N, I, K>
+impl<T: Compiled, List: Bodies<N>, const N: usize, const I: usize, const K: usize>
+    ListedBody<T, List, N, I, K>
 {
     /// Fails to compile if these are more bodies than one function can visit.
     pub(super) const ARE_FEW: () = assert!(
-        count_on::<Tree>(&List::NUMBERS, CompiledJoint::<Tree, I>::LAST) <= 32,
+        count_on::<T>(&List::NUMBERS, CompiledJoint::<T, I>::LAST) <= 32,
         "the engine takes up to 32 named bodies that move with one joint; use `Core`"
     );
     /// Whether there is one.
-    pub(super) const IS_SOME: bool =
-        K < count_on::<Tree>(&List::NUMBERS, CompiledJoint::<Tree, I>::LAST);
+    pub(super) const IS_SOME: bool = K < count_on::<T>(&List::NUMBERS, CompiledJoint::<T, I>::LAST);
     /// Its place in the list, and on the joint.
     pub(super) const BODY: &'static (usize, BodyPlacement) =
-        &nth_on::<Tree>(&List::NUMBERS, CompiledJoint::<Tree, I>::LAST, K);
+        &nth_on::<T>(&List::NUMBERS, CompiledJoint::<T, I>::LAST, K);
 }
 
 /// The joints that move some of these bodies, as bits.
-pub(super) const fn joints<Tree: Compiled>(bodies: &[usize]) -> u64 {
+pub(super) const fn joints<T: Compiled>(bodies: &[usize]) -> u64 {
     let (mut joints, mut k) = (0, 0);
     while k < bodies.len() {
         assert!(
-            bodies[k] < Tree::PLACES.len(),
+            bodies[k] < T::PLACES.len(),
             "a named body is one that the robot does not have: bodies are numbered from 0"
         );
-        let joint = Tree::PLACES[bodies[k]].joint;
+        let joint = T::PLACES[bodies[k]].joint;
         if joint != BASE {
-            joints |= Tree::SUPPORT[joint];
+            joints |= T::SUPPORT[joint];
         }
         k += 1;
     }
@@ -60,10 +59,10 @@ pub(super) const fn joints<Tree: Compiled>(bodies: &[usize]) -> u64 {
 }
 
 /// The number of these bodies that move with joint `i`.
-const fn count_on<Tree: Compiled>(bodies: &[usize], i: usize) -> usize {
+const fn count_on<T: Compiled>(bodies: &[usize], i: usize) -> usize {
     let (mut count, mut k) = (0, 0);
     while k < bodies.len() {
-        if place::<Tree>(bodies[k]).joint == i {
+        if place::<T>(bodies[k]).joint == i {
             count += 1;
         }
         k += 1;
@@ -72,14 +71,10 @@ const fn count_on<Tree: Compiled>(bodies: &[usize], i: usize) -> usize {
 }
 
 /// The `n`-th of them: its place in the list, and on the joint. Without one, the first of the list.
-const fn nth_on<Tree: Compiled>(
-    bodies: &[usize],
-    i: usize,
-    mut n: usize,
-) -> (usize, BodyPlacement) {
+const fn nth_on<T: Compiled>(bodies: &[usize], i: usize, mut n: usize) -> (usize, BodyPlacement) {
     let mut k = 0;
     while k < bodies.len() {
-        let place = place::<Tree>(bodies[k]);
+        let place = place::<T>(bodies[k]);
         if place.joint == i {
             if n == 0 {
                 return (k, place);
@@ -88,5 +83,5 @@ const fn nth_on<Tree: Compiled>(
         }
         k += 1;
     }
-    (0, place::<Tree>(BASE))
+    (0, place::<T>(BASE))
 }

@@ -19,7 +19,7 @@ use crate::spatial::{Force, Motion};
 use crate::state::{Configuration, JointTrig};
 use crate::trig::Kernel;
 
-impl<Arm, Sines> Engine<Arm, Sines> {
+impl<T, K> Engine<T, K> {
     /// The operational-space inertia of a task on a body along some directions, expressed in a
     /// [`Frame`], as [`crate::algorithms::operational_space`] computes it.
     ///
@@ -51,25 +51,25 @@ impl<Arm, Sines> Engine<Arm, Sines> {
     #[doc(alias = "OSIM")]
     #[inline(never)]
     pub fn operational_space<
-        Scalar: Real,
+        R: Real,
         const M: usize,
         const BODY: usize,
         const B: usize,
         const Q: usize,
         const V: usize,
     >(
-        q: &impl Configuration<Scalar, Q>,
+        q: &impl Configuration<R, Q>,
         (body, frame): (OnBody<BODY>, impl Frame),
-        directions: &[Force<Scalar>; M],
-        effects: &impl Effect<Scalar, B, V>,
-        damping: Damping<Scalar>,
-    ) -> Result<OperationalSpace<Scalar, M, V>, NotPositiveDefinite>
+        directions: &[Force<R>; M],
+        effects: &impl Effect<R, B, V>,
+        damping: Damping<R>,
+    ) -> Result<OperationalSpace<R, M, V>, NotPositiveDefinite>
     where
-        Arm: Robot<B, Q, V>,
-        Sines: Kernel<Scalar>,
+        T: Robot<B, Q, V>,
+        K: Kernel<R>,
     {
         let trig = q.trig_or(Self::trig_source());
-        let trig: &JointTrig<Scalar, Q> = trig.borrow();
+        let trig: &JointTrig<R, Q> = trig.borrow();
         let rows = task_jacobian(&Self::jacobian(trig, body, frame), directions);
         Self::of_rows(trig, rows, effects, damping)
     }
@@ -105,22 +105,22 @@ impl<Arm, Sines> Engine<Arm, Sines> {
     /// As [`Engine::operational_space`].
     #[inline(never)]
     pub fn operational_space_of_rows<
-        Scalar: Real,
-        Effects,
+        R: Real,
+        E,
         const M: usize,
         const B: usize,
         const Q: usize,
         const V: usize,
     >(
-        q: &impl Configuration<Scalar, Q>,
-        rows: [[Scalar; V]; M],
-        effects: &Effects,
-        damping: Damping<Scalar>,
-    ) -> Result<OperationalSpace<Scalar, M, V>, NotPositiveDefinite>
+        q: &impl Configuration<R, Q>,
+        rows: [[R; V]; M],
+        effects: &E,
+        damping: Damping<R>,
+    ) -> Result<OperationalSpace<R, M, V>, NotPositiveDefinite>
     where
-        Arm: Robot<B, Q, V>,
-        Sines: Kernel<Scalar>,
-        Effects: Effect<Scalar, B, V>,
+        T: Robot<B, Q, V>,
+        K: Kernel<R>,
+        E: Effect<R, B, V>,
     {
         scene_is_taken!();
         let trig = q.trig_or(Self::trig_source());
@@ -157,29 +157,29 @@ impl<Arm, Sines> Engine<Arm, Sines> {
     #[doc(alias = "OSIM")]
     #[inline(never)]
     pub fn osim_inverse<
-        Scalar: Real,
-        Effects,
+        R: Real,
+        E,
         const BODY: usize,
         const B: usize,
         const Q: usize,
         const V: usize,
     >(
-        q: &impl Configuration<Scalar, Q>,
+        q: &impl Configuration<R, Q>,
         body: OnBody<BODY>,
         frame: impl Frame,
-        effects: &Effects,
-    ) -> Result<OsimInverse<Scalar>, NotPositiveDefinite>
+        effects: &E,
+    ) -> Result<OsimInverse<R>, NotPositiveDefinite>
     where
-        Arm: Robot<B, Q, V>,
-        Sines: Kernel<Scalar>,
-        Effects: Effect<Scalar, B, V>,
+        T: Robot<B, Q, V>,
+        K: Kernel<R>,
+        E: Effect<R, B, V>,
     {
         scene_is_taken!();
         let trig = q.trig_or(Self::trig_source());
-        let trig: &JointTrig<Scalar, Q> = trig.borrow();
+        let trig: &JointTrig<R, Q> = trig.borrow();
         let factors = Self::ltdl(&Self::crba(trig, effects))?;
         let mut columns = Self::jacobian(trig, body, frame);
-        Ok(mobility::<Scalar, CompiledRobot<Arm, B, Q, V>, V, BODY>(
+        Ok(mobility::<R, CompiledRobot<T, B, Q, V>, V, BODY>(
             &factors.rows,
             &factors.d_inv,
             &mut columns,
@@ -187,23 +187,16 @@ impl<Arm, Sines> Engine<Arm, Sines> {
     }
 
     #[cfg_attr(optimised, inline(always))]
-    fn of_rows<
-        Scalar: Real,
-        Effects,
-        const M: usize,
-        const B: usize,
-        const Q: usize,
-        const V: usize,
-    >(
-        trig: &JointTrig<Scalar, Q>,
-        rows: [[Scalar; V]; M],
-        effects: &Effects,
-        damping: Damping<Scalar>,
-    ) -> Result<OperationalSpace<Scalar, M, V>, NotPositiveDefinite>
+    fn of_rows<R: Real, E, const M: usize, const B: usize, const Q: usize, const V: usize>(
+        trig: &JointTrig<R, Q>,
+        rows: [[R; V]; M],
+        effects: &E,
+        damping: Damping<R>,
+    ) -> Result<OperationalSpace<R, M, V>, NotPositiveDefinite>
     where
-        Arm: Robot<B, Q, V>,
-        Sines: Kernel<Scalar>,
-        Effects: Effect<Scalar, B, V>,
+        T: Robot<B, Q, V>,
+        K: Kernel<R>,
+        E: Effect<R, B, V>,
     {
         let factors = Self::ltdl(&Self::crba(trig, effects))?;
         let solve = |tau: &_| Self::solve(&factors, tau);
@@ -213,19 +206,18 @@ impl<Arm, Sines> Engine<Arm, Sines> {
 
 /// Λ⁻¹ of a body from the columns of its J, which become those of J L⁻¹, in place.
 #[cfg_attr(optimised, inline(always))]
-fn mobility<Scalar: Real, Tree: Compiled, const V: usize, const BODY: usize>(
-    l: &[[Scalar; V]; V],
-    d_inv: &[Scalar; V],
-    columns: &mut [Motion<Scalar>; V],
-) -> OsimInverse<Scalar> {
+fn mobility<R: Real, T: Compiled, const V: usize, const BODY: usize>(
+    l: &[[R; V]; V],
+    d_inv: &[R; V],
+    columns: &mut [Motion<R>; V],
+) -> OsimInverse<R> {
     let mut mobility = OsimInverse::ZERO;
     for_each_joint_reversed!(I, {
-        if JointAndBody::<Tree, I, BODY>::SUPPORTS
+        if JointAndBody::<T, I, BODY>::SUPPORTS
             && let Some(scatter) = const {
                 only_if(
-                    JointAndBody::<Tree, I, BODY>::SUPPORTS,
-                    scatter::<Scalar, Tree, V, I>
-                        as fn(&[[Scalar; V]; V], &mut [Motion<Scalar>; V]),
+                    JointAndBody::<T, I, BODY>::SUPPORTS,
+                    scatter::<R, T, V, I> as fn(&[[R; V]; V], &mut [Motion<R>; V]),
                 )
             }
         {
@@ -238,12 +230,12 @@ fn mobility<Scalar: Real, Tree: Compiled, const V: usize, const BODY: usize>(
 
 /// Subtracts from the columns of joint I's ancestors its own, times their entries of L.
 #[cfg_attr(optimised, inline(always))]
-fn scatter<Scalar: Real, Tree: Compiled, const V: usize, const I: usize>(
-    l: &[[Scalar; V]; V],
-    columns: &mut [Motion<Scalar>; V],
+fn scatter<R: Real, T: Compiled, const V: usize, const I: usize>(
+    l: &[[R; V]; V],
+    columns: &mut [Motion<R>; V],
 ) {
     for_each_joint!(J, {
-        if JointPair::<Tree, J, I>::IS_ANCESTOR {
+        if JointPair::<T, J, I>::IS_ANCESTOR {
             columns[J] -= columns[I] * l[I][J];
         }
     });

@@ -24,19 +24,19 @@ use crate::scalar::Real;
 
 /// The sums of a composite body, in the frame of its joint.
 #[derive(Clone, Copy)]
-pub(crate) struct Felt<Scalar> {
-    mass: Folded<Scalar>,
+pub(crate) struct Felt<R> {
+    mass: Folded<R>,
     /// h.
-    moment: Vec3<Scalar>,
+    moment: Vec3<R>,
     /// Σ_xx + Σ_yy, about the parallel axes.
-    pub(crate) about: Folded<Scalar>,
+    pub(crate) about: Folded<R>,
     /// z·Σe, the component of M of the joint and the one on the base if that one moves at rate −1.
-    pub(crate) between: Folded<Scalar>,
+    pub(crate) between: Folded<R>,
     /// u·Σu + Σ_zz, about the axis of the joint on the base.
-    of_root: Folded<Scalar>,
+    of_root: Folded<R>,
 }
 
-impl<Scalar: Real> Felt<Scalar> {
+impl<R: Real> Felt<R> {
     pub(crate) const NONE: Self = Self {
         mass: Folded::ZERO,
         moment: Vec3::ZERO,
@@ -48,7 +48,7 @@ impl<Scalar: Real> Felt<Scalar> {
     /// Those of a body and of the inertia `spin` that turns about z alone feel; `root` is the
     /// motion of the joint on the base, in its frame.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn of(body: &Inertia<Scalar>, spin: Folded<Scalar>, root: &Twist<Scalar>) -> Self {
+    pub(crate) fn of(body: &Inertia<R>, spin: Folded<R>, root: &Twist<R>) -> Self {
         let (s, [ex, ey, _]) = (&body.second, root.ang.0);
         // For a unit vector u, u·Σu = Σ_yy + u_x ((Σ_xx − Σ_yy) u_x + 2 Σ_xy u_y).
         let (ux, uy) = (ey, -ex);
@@ -65,10 +65,10 @@ impl<Scalar: Real> Felt<Scalar> {
     /// The wrench of the joint's unit acceleration without what only the joint on the base feels of
     /// it, in the joint's frame.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn wrench<Tree: Compiled, const I: usize>(
+    pub(crate) fn wrench<T: Compiled, const I: usize>(
         &self,
-        at: &Displacement<Scalar, Tree, I>,
-    ) -> Wrench<Scalar> {
+        at: &Displacement<R, T, I>,
+    ) -> Wrench<R> {
         let [hx, hy, _] = at.leave(self.moment).0;
         Wrench { f: Vec3([-hy, hx, Folded::ZERO]), n: along_z(self.about) }
     }
@@ -76,15 +76,15 @@ impl<Scalar: Real> Felt<Scalar> {
     /// The same sums in the frame of joint I's parent and about its origin; `root` is in that
     /// frame.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn to_parent<Tree: Compiled, const I: usize>(
+    pub(crate) fn to_parent<T: Compiled, const I: usize>(
         self,
-        at: &Displacement<Scalar, Tree, I>,
-        root: &Twist<Scalar>,
+        at: &Displacement<R, T, I>,
+        root: &Twist<R>,
     ) -> Self {
-        let joint = CompiledJoint::<Tree, I>::JOINT;
+        let joint = CompiledJoint::<T, I>::JOINT;
         let (p, z) = (Vec3::constant(joint.pos), Vec3::constant(joint.rot.z_axis));
         let turned = at.leave(self.moment);
-        let moment = rotate_to_parent::<Scalar, Tree, I>(turned);
+        let moment = rotate_to_parent::<R, T, I>(turned);
         let (along, u, m) = (moment.dot(p), z.cross(root.ang), self.mass);
         let (up, mp) = (u.dot(p), p.scale(m));
         let across = u.dot(moment) * up;
@@ -99,14 +99,14 @@ impl<Scalar: Real> Felt<Scalar> {
 
     /// The inertia that the joint on the base feels of them, as a Σ in its frame.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn on_root(&self) -> Inertia<Scalar> {
+    pub(crate) fn on_root(&self) -> Inertia<R> {
         let mut inertia = Inertia::NONE;
         inertia.second.xx = self.of_root;
         inertia
     }
 }
 
-impl<Scalar: Real> Add for Felt<Scalar> {
+impl<R: Real> Add for Felt<R> {
     type Output = Self;
     #[cfg_attr(optimised, inline(always))]
     fn add(self, o: Self) -> Self {

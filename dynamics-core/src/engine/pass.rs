@@ -83,36 +83,36 @@ impl<P: Pass, const I: usize, const J: usize> Step<P, I, J> {
 /// The positions and rates of all joints, and which rates a pass needs; what it does not need is a
 /// known zero.
 #[derive(Clone, Copy)]
-pub(super) struct Motions<'a, Scalar, const Q: usize, const V: usize> {
-    pub(super) turns: &'a [JointCoordinate<Scalar>; Q],
-    pub(super) qd: &'a [Scalar; V],
-    pub(super) qdd: &'a [Scalar; V],
+pub(super) struct Motions<'a, R, const Q: usize, const V: usize> {
+    pub(super) turns: &'a [JointCoordinate<R>; Q],
+    pub(super) qd: &'a [R; V],
+    pub(super) qdd: &'a [R; V],
     pub(super) velocity: bool,
     /// Whether the products of velocities are needed.
     pub(super) products: bool,
     pub(super) accel: bool,
 }
 
-impl<Scalar: Real, const Q: usize, const V: usize> Motions<'_, Scalar, Q, V> {
+impl<R: Real, const Q: usize, const V: usize> Motions<'_, R, Q, V> {
     /// The field of the body behind joint I, from that of its parent, with its pose if the parent's
     /// is known.
     #[cfg_attr(optimised, inline(always))]
-    pub(super) fn field<Tree: Compiled, const I: usize>(
+    pub(super) fn field<T: Compiled, const I: usize>(
         &self,
-        parent: &AccelerationField<Scalar>,
-    ) -> AccelerationField<Scalar> {
-        let at = Displacement::<Scalar, Tree, I>::of(self.turns);
+        parent: &AccelerationField<R>,
+    ) -> AccelerationField<R> {
+        let at = Displacement::<R, T, I>::of(self.turns);
         let (qd, qdd) = (self.qd, self.qdd);
-        let mut field = if CompiledJoint::<Tree, I>::COUNT > 1 {
+        let mut field = if CompiledJoint::<T, I>::COUNT > 1 {
             let several = SeveralRates {
-                velocity: Twist::of::<Tree, V, I>(qd, self.velocity),
-                products: Twist::of::<Tree, V, I>(qd, self.products),
-                accel: Twist::of::<Tree, V, I>(qdd, self.accel),
+                velocity: Twist::of::<T, V, I>(qd, self.velocity),
+                products: Twist::of::<T, V, I>(qd, self.products),
+                accel: Twist::of::<T, V, I>(qdd, self.accel),
             };
             parent.across_several(&at, &several)
         } else {
-            let unit = if CompiledJoint::<Tree, I>::PRISMATIC {
-                Folded::constant(Tree::LENGTH_INV)
+            let unit = if CompiledJoint::<T, I>::PRISMATIC {
+                Folded::constant(T::LENGTH_INV)
             } else {
                 Folded::ONE
             };

@@ -34,10 +34,10 @@ struct Size {
 const NOTHING: Size = Size { mass: 0.0, moment: 0.0, second: 0.0 };
 
 /// Carries the constants of a robot.
-struct Sizes<Tree, const B: usize, const V: usize>(core::marker::PhantomData<Tree>);
+struct Sizes<T, const B: usize, const V: usize>(core::marker::PhantomData<T>);
 
-impl<Tree: Compiled, const B: usize, const V: usize> Sizes<Tree, B, V> {
-    const ALL: [Size; V] = sizes::<B, V>(Tree::LINKS);
+impl<T: Compiled, const B: usize, const V: usize> Sizes<T, B, V> {
+    const ALL: [Size; V] = sizes::<B, V>(T::LINKS);
 
     /// The size of joint `i`; beyond the last joint, zero.
     const fn of(i: usize) -> Size {
@@ -91,10 +91,10 @@ const fn reach(links: &[Link<f64>], i: usize, mut body: usize) -> f64 {
 
 /// The `k`-th of the bodies with a payload that joint `i` or a descendant moves, or the number of
 /// all bodies.
-const fn load<Tree: Compiled>(i: usize, k: usize, loaded: &[bool]) -> usize {
+const fn load<T: Compiled>(i: usize, k: usize, loaded: &[bool]) -> usize {
     let (mut count, mut body) = (0, 0);
     while body < loaded.len() {
-        if loaded[body] && supports::<Tree>(i, place::<Tree>(body).joint) {
+        if loaded[body] && supports::<T>(i, place::<T>(body).joint) {
             if count == k {
                 return body;
             }
@@ -123,7 +123,7 @@ impl Singular {
 
     /// Notes joint J unless its pivot is a number and more than `noise`.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn note<Scalar: Real, const J: usize>(&mut self, pivot: Scalar, noise: Scalar) {
+    pub(crate) fn note<R: Real, const J: usize>(&mut self, pivot: R, noise: R) {
         let exceeds = pivot > noise;
         self.0 |= u32::from(!exceeds) << J;
     }
@@ -138,17 +138,16 @@ impl Singular {
     }
 }
 
-impl<Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize>
-    Call<'_, Scalar, Tree, Effects, B, Q, V>
+impl<R, T, E, const B: usize, const Q: usize, const V: usize> Call<'_, R, T, E, B, Q, V>
 where
-    Scalar: Real,
-    Tree: Compiled,
-    Effects: Effect<Scalar, B, V>,
+    R: Real,
+    T: Compiled,
+    E: Effect<R, B, V>,
 {
     /// The pivots that rounding may leave of a singular M: of each joint, kg·m² or kg.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn noise(self) -> [Scalar; V] {
-        let mut noise = [Scalar::ZERO; V];
+    pub(crate) fn noise(self) -> [R; V] {
+        let mut noise = [R::ZERO; V];
         for_each_joint!(
             J,
             Index::<J, V>::IS_BELOW,
@@ -175,56 +174,56 @@ where
 
     /// The same of joint `i` without its rotor, by the inertia of its body alone.
     const fn is_certain(i: usize) -> bool {
-        let joint = joint::<Tree>(i);
-        let size = Sizes::<Tree, B, V>::of(i);
+        let joint = joint::<T>(i);
+        let size = Sizes::<T, B, V>::of(i);
         let most = if joint.prismatic { size.mass } else { size.second };
         // The rounding errors of f32, and as much again for those of the pivot.
         let noise = 2.0 * ROUNDINGS * f32::EPSILON as f64 * most + f32::MIN_POSITIVE as f64;
         joint.parent != BASE
             && joint.alone > noise
-            && Effects::BASE_PARAMETERS == 0
-            && load::<Tree>(i, 0, &Effects::PAYLOAD) == B
-            && !slides_beyond::<Tree>(i)
+            && E::BASE_PARAMETERS == 0
+            && load::<T>(i, 0, &E::PAYLOAD) == B
+            && !slides_beyond::<T>(i)
     }
 
     /// The same of joint I. A pivot that exceeds it has a finite reciprocal: neither the smallest
     /// numbers nor, of an infinite inertia, infinity does.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn pivot_noise<const I: usize>(self) -> Scalar {
+    pub(crate) fn pivot_noise<const I: usize>(self) -> R {
         let mut size = self.largest_inertia::<I>();
         add_inertia(self.effects, I, &mut size);
-        size * (Scalar::EPSILON * Scalar::from_f64(ROUNDINGS)) + Scalar::MIN_POSITIVE
+        size * (R::EPSILON * R::from_f64(ROUNDINGS)) + R::MIN_POSITIVE
     }
 
     /// The largest inertia that joint I could move, without its rotor's: a constant of robots
     /// without slides and payload.
     #[cfg_attr(optimised, inline(always))]
-    fn largest_inertia<const I: usize>(self) -> Scalar {
-        let own = const { Sizes::<Tree, B, V>::of(I) };
+    fn largest_inertia<const I: usize>(self) -> R {
+        let own = const { Sizes::<T, B, V>::of(I) };
         let [mut mass, mut moment, mut second] =
-            [own.mass, own.moment, own.second].map(Scalar::from_f64);
-        if const { Effects::BASE_PARAMETERS > 0 } {
+            [own.mass, own.moment, own.second].map(R::from_f64);
+        if const { E::BASE_PARAMETERS > 0 } {
             let mut body = RegroupedInertia::default();
-            call_hook!(Effects::REGROUPED.load, self.effects, I, &mut body);
+            call_hook!(E::REGROUPED.load, self.effects, I, &mut body);
             [mass, moment, second] = body.size;
         }
-        let prismatic = CompiledJoint::<Tree, I>::PRISMATIC;
+        let prismatic = CompiledJoint::<T, I>::PRISMATIC;
         let mut size = if prismatic { mass } else { second };
-        let mut slides = Scalar::ZERO;
+        let mut slides = R::ZERO;
         if !prismatic {
             for_each_joint!(K, {
-                if JointPair::<Tree, I, K>::IS_SLIDE_BEYOND {
+                if JointPair::<T, I, K>::IS_SLIDE_BEYOND {
                     slides += self.slide::<K>();
                 }
             });
-            if const { slides_beyond::<Tree>(I) } {
+            if const { slides_beyond::<T>(I) } {
                 size += slides * (moment + moment + slides * mass);
             }
         }
-        if const { load::<Tree>(I, 0, &Effects::PAYLOAD) < B }
+        if const { load::<T>(I, 0, &E::PAYLOAD) < B }
             && let Some(payloads_added) = const {
                 only_if(
-                    load::<Tree>(I, 0, &Effects::PAYLOAD) < B,
+                    load::<T>(I, 0, &E::PAYLOAD) < B,
                     Self::payloads_added::<I> as fn(_, _, _) -> _,
                 )
             }
@@ -236,38 +235,37 @@ where
 
     /// The distance by which coordinate I has moved its body's origin, m.
     #[cfg_attr(optimised, inline(always))]
-    fn slide<const I: usize>(self) -> Scalar {
-        let joint = CompiledJoint::<Tree, I>::JOINT;
-        let q = match CompiledJoint::<Tree, I>::POSITION {
+    fn slide<const I: usize>(self) -> R {
+        let joint = CompiledJoint::<T, I>::JOINT;
+        let q = match CompiledJoint::<T, I>::POSITION {
             Some(position) => self.turns[position].q.abs(),
-            None => Scalar::ZERO,
+            None => R::ZERO,
         };
-        match CompiledJoint::<Tree, I>::MOTION {
-            JointMotion::Screw => q * Scalar::from_f64((joint.pitch * Tree::LENGTH).abs()),
+        match CompiledJoint::<T, I>::MOTION {
+            JointMotion::Screw => q * R::from_f64((joint.pitch * T::LENGTH).abs()),
             _ => q,
         }
     }
 
     /// Adds the payloads that joint I moves to the inertia that it could move.
     #[cfg_attr(optimised, inline(always))]
-    fn payloads_added<const I: usize>(self, mut size: Scalar, slides: Scalar) -> Scalar {
+    fn payloads_added<const I: usize>(self, mut size: R, slides: R) -> R {
         const {
             assert!(
-                load::<Tree>(I, 32, &Effects::PAYLOAD) == B,
+                load::<T>(I, 32, &E::PAYLOAD) == B,
                 "the engine takes up to 32 bodies with payloads; use `Core`"
             )
         };
         for_each_joint!(K, {
-            let body = const { load::<Tree>(I, K, &Effects::PAYLOAD) };
+            let body = const { load::<T>(I, K, &E::PAYLOAD) };
             if body < B {
                 let mut payload = SpatialInertia::ZERO;
-                call_hook!(Effects::ADDED_INERTIA.add, self.effects, body, &mut payload);
-                size += if CompiledJoint::<Tree, I>::PRISMATIC {
+                call_hook!(E::ADDED_INERTIA.add, self.effects, body, &mut payload);
+                size += if CompiledJoint::<T, I>::PRISMATIC {
                     payload.mass
                 } else {
-                    let reach =
-                        const { reach(Tree::LINKS, I, load::<Tree>(I, K, &Effects::PAYLOAD)) };
-                    of_load(&payload, slides + Scalar::from_f64(reach))
+                    let reach = const { reach(T::LINKS, I, load::<T>(I, K, &E::PAYLOAD)) };
+                    of_load(&payload, slides + R::from_f64(reach))
                 };
             }
         });
@@ -278,18 +276,18 @@ where
 /// The largest inertia of a payload about an axis that is no further than `reach` from its body's
 /// origin.
 #[cfg_attr(optimised, inline(always))]
-fn of_load<Scalar: Real>(load: &SpatialInertia<Scalar>, reach: Scalar) -> Scalar {
+fn of_load<R: Real>(load: &SpatialInertia<R>, reach: R) -> R {
     let [x, y, z] = load.rotational.cols().map(Vector::array);
     let [hx, hy, hz] = load.first_moment.array();
     let moment = hx.abs() + hy.abs() + hz.abs();
-    (x[0] + y[1] + z[2]) * Scalar::from_f64(0.5) + reach * (moment + moment + reach * load.mass)
+    (x[0] + y[1] + z[2]) * R::from_f64(0.5) + reach * (moment + moment + reach * load.mass)
 }
 
 /// Whether joint `i` has a descendant that slides.
-const fn slides_beyond<Tree: Compiled>(i: usize) -> bool {
+const fn slides_beyond<T: Compiled>(i: usize) -> bool {
     let mut k = 0;
-    while k < Tree::JOINTS.len() {
-        if is_slide_beyond::<Tree>(i, k) {
+    while k < T::JOINTS.len() {
+        if is_slide_beyond::<T>(i, k) {
             return true;
         }
         k += 1;

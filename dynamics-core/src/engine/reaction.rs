@@ -6,25 +6,19 @@
 //! Where all that moves with a joint is beyond the cut, the parameters that the joint passed are
 //! added to its own total: behind a revolute joint they are a mass, h_z and Σ_zz.
 
-use core::borrow::Borrow;
 use core::marker::PhantomData;
 
 use super::acceleration_field::{AccelerationField, Inertia, Wrench};
 use super::call::Call;
-use super::compile::{Compiled, CompiledJoint, CompiledRobot, Cut, Distribution, JointPair};
+use super::compile::{Compiled, Cut, Distribution, JointPair};
 use super::folding::{Folded, Mat3, Sym3, Vec3};
-use super::rnea::Task;
-use super::{Engine, loaded_again};
-use crate::algorithms::TorquesAndWrenches;
 use crate::effects::{Declared, Effect};
-use crate::model::{BASE, Bodies, JointCoordinate, Robot};
+use crate::model::{Bodies, JointCoordinate};
 use crate::scalar::Real;
 use crate::spatial::Force;
-use crate::state::{Configuration, RobotState, State};
-use crate::trig::Kernel;
 
 /// The wrenches that a recursion keeps: none, or those in the joints of a list of bodies.
-pub(crate) trait Reactions<Scalar: Real, Tree: Compiled> {
+pub(crate) trait Reactions<R: Real, T: Compiled> {
     /// The bodies.
     const BODIES: &'static [usize] = &[];
     /// Whether there are some. A recursion without them makes no call of this trait: an empty one
@@ -36,75 +30,78 @@ pub(crate) trait Reactions<Scalar: Real, Tree: Compiled> {
     const NOTHING: Self::Sums;
 
     /// Adds what joint J returns.
-    fn add<const J: usize>(sums: &mut Self::Sums, returned: &Wrench<Scalar>);
+    fn add<const J: usize>(sums: &mut Self::Sums, returned: &Wrench<R>);
 
     /// Keeps the wrenches of the bodies that move with joint I, which carries `total`, in axes that
     /// `turn` is still to turn.
-    fn keep<Effects, const I: usize, const B: usize, const Q: usize, const V: usize>(
+    fn keep<E, const I: usize, const B: usize, const Q: usize, const V: usize>(
         &mut self,
-        call: Call<'_, Scalar, Tree, Effects, B, Q, V>,
-        field: &AccelerationField<Scalar>,
-        total: &Wrench<Scalar>,
+        call: Call<'_, R, T, E, B, Q, V>,
+        field: &AccelerationField<R>,
+        total: &Wrench<R>,
         sums: &Self::Sums,
-        turn: Option<JointCoordinate<Scalar>>,
+        turn: Option<JointCoordinate<R>>,
     ) where
-        Effects: Effect<Scalar, B, V>;
+        E: Effect<R, B, V>;
 }
 
-impl<Scalar: Real, Tree: Compiled> Reactions<Scalar, Tree> for () {
+impl<R: Real, T: Compiled> Reactions<R, T> for () {
     type Sums = ();
     const NOTHING: () = ();
 
     #[cfg_attr(optimised, inline(always))]
-    fn add<const J: usize>((): &mut (), _: &Wrench<Scalar>) {}
+    fn add<const J: usize>((): &mut (), _: &Wrench<R>) {}
 
     #[cfg_attr(optimised, inline(always))]
-    fn keep<Effects, const I: usize, const B: usize, const Q: usize, const V: usize>(
+    fn keep<E, const I: usize, const B: usize, const Q: usize, const V: usize>(
         &mut self,
-        _: Call<'_, Scalar, Tree, Effects, B, Q, V>,
-        _: &AccelerationField<Scalar>,
-        _: &Wrench<Scalar>,
+        _: Call<'_, R, T, E, B, Q, V>,
+        _: &AccelerationField<R>,
+        _: &Wrench<R>,
         (): &(),
-        _: Option<JointCoordinate<Scalar>>,
+        _: Option<JointCoordinate<R>>,
     ) where
-        Effects: Effect<Scalar, B, V>,
+        E: Effect<R, B, V>,
     {
     }
 }
 
 /// The wrenches of a list of N bodies, each in its body's own frame.
-pub(crate) struct Kept<Scalar: Real, List, const N: usize>([Force<Scalar>; N], PhantomData<List>);
+pub(crate) struct Wrenches<R: Real, List, const N: usize>(
+    pub(super) [Force<R>; N],
+    pub(super) PhantomData<List>,
+);
 
-impl<Scalar: Real, Tree: Compiled, List: Bodies<N>, const N: usize> Reactions<Scalar, Tree>
-    for &mut Kept<Scalar, List, N>
+impl<R: Real, T: Compiled, List: Bodies<N>, const N: usize> Reactions<R, T>
+    for &mut Wrenches<R, List, N>
 {
     const BODIES: &'static [usize] = &List::NUMBERS;
-    type Sums = [Wrench<Scalar>; N];
+    type Sums = [Wrench<R>; N];
     const NOTHING: Self::Sums = [Wrench::ZERO; N];
 
     #[cfg_attr(optimised, inline(always))]
-    fn add<const J: usize>(sums: &mut Self::Sums, returned: &Wrench<Scalar>) {
+    fn add<const J: usize>(sums: &mut Self::Sums, returned: &Wrench<R>) {
         for_each_joint!(K, {
-            if Cut::<Tree, List, N, J, K>::CARRIES_JOINT {
+            if Cut::<T, List, N, J, K>::CARRIES_JOINT {
                 sums[K] = sums[K] + *returned;
             }
         });
     }
 
     #[cfg_attr(optimised, inline(always))]
-    fn keep<Effects, const I: usize, const B: usize, const Q: usize, const V: usize>(
+    fn keep<E, const I: usize, const B: usize, const Q: usize, const V: usize>(
         &mut self,
-        call: Call<'_, Scalar, Tree, Effects, B, Q, V>,
-        field: &AccelerationField<Scalar>,
-        total: &Wrench<Scalar>,
+        call: Call<'_, R, T, E, B, Q, V>,
+        field: &AccelerationField<R>,
+        total: &Wrench<R>,
         sums: &Self::Sums,
-        turn: Option<JointCoordinate<Scalar>>,
+        turn: Option<JointCoordinate<R>>,
     ) where
-        Effects: Effect<Scalar, B, V>,
+        E: Effect<R, B, V>,
     {
         for_each_joint!(
             K,
-            Cut::<Tree, List, N, I, K>::IS_ON_JOINT,
+            Cut::<T, List, N, I, K>::IS_ON_JOINT,
             beyond = Call::beyond::<List, N, I, K> as fn(_, &_, &_, &_, _) -> _,
             {
                 self.0[K] = beyond(call, field, total, &sums[K], turn);
@@ -113,70 +110,42 @@ impl<Scalar: Real, Tree: Compiled, List: Bodies<N>, const N: usize> Reactions<Sc
     }
 }
 
-impl<Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize>
-    Call<'_, Scalar, Tree, Effects, B, Q, V>
+impl<R, T, E, const B: usize, const Q: usize, const V: usize> Call<'_, R, T, E, B, Q, V>
 where
-    Scalar: Real,
-    Tree: Compiled,
-    Effects: Effect<Scalar, B, V>,
+    R: Real,
+    T: Compiled,
+    E: Effect<R, B, V>,
 {
-    /// The recursion of inverse dynamics, which also keeps the wrenches of some bodies; `tau` holds
-    /// zeros.
-    #[cfg_attr(optimised, inline(always))]
-    fn write_torques_and<List: Bodies<N>, const N: usize>(
-        self,
-        back: &[JointCoordinate<Scalar>; Q],
-        state: &State<Scalar, Q, V>,
-        tau: &mut [Scalar; V],
-        seen: &mut Kept<Scalar, List, N>,
-    ) {
-        let (base, mut carried) = (self.base(), [Wrench::ZERO; N]);
-        let mut task = Task { call: self, back, state, tau, seen };
-        for_each_joint!(
-            J,
-            CompiledJoint::<Tree, J>::IS_ON_BASE,
-            visit = Task::visit::<J> as fn(&mut _, &_) -> Wrench<Scalar>,
-            {
-                let returned = visit(&mut task, &base);
-                <&mut Kept<Scalar, List, N> as Reactions<Scalar, Tree>>::add::<J>(
-                    &mut carried,
-                    &returned,
-                );
-            }
-        );
-        task.seen.keep::<Effects, BASE, B, Q, V>(self, &base, &Wrench::ZERO, &carried, None);
-    }
-
     /// The wrench in the joint of the K-th body of the list, which moves with joint I: `total` is
     /// that of the joint over base parameters, `carried` that of the joints on the body.
     #[cfg_attr(optimised, inline(always))]
     fn beyond<List: Bodies<N>, const N: usize, const I: usize, const K: usize>(
         self,
-        field: &AccelerationField<Scalar>,
-        total: &Wrench<Scalar>,
-        carried: &Wrench<Scalar>,
-        turn: Option<JointCoordinate<Scalar>>,
-    ) -> Force<Scalar> {
-        let place = Cut::<Tree, List, N, I, K>::PLACE;
-        let (p, length_inv) = (Vec3::constant(place.pos), Folded::constant(Tree::LENGTH_INV));
-        let wrench = if Cut::<Tree, List, N, I, K>::IS_WHOLE {
-            let Inertia { mass, moment, .. } = constant(Cut::<Tree, List, N, I, K>::PASSED);
+        field: &AccelerationField<R>,
+        total: &Wrench<R>,
+        carried: &Wrench<R>,
+        turn: Option<JointCoordinate<R>>,
+    ) -> Force<R> {
+        let place = Cut::<T, List, N, I, K>::PLACE;
+        let (p, length_inv) = (Vec3::constant(place.pos), Folded::constant(T::LENGTH_INV));
+        let wrench = if Cut::<T, List, N, I, K>::IS_WHOLE {
+            let Inertia { mass, moment, .. } = constant(Cut::<T, List, N, I, K>::PASSED);
             let (mass, moment) = (mass * length_inv, moment.scale(length_inv));
             let passed = field.wrench(&Inertia { mass, moment, second: Sym3::ZERO });
-            let about = field.wrench(&constant(Cut::<Tree, List, N, I, K>::PASSED_ABOUT_BODY));
+            let about = field.wrench(&constant(Cut::<T, List, N, I, K>::PASSED_ABOUT_BODY));
             let n = total.n - p.cross(total.f) + about.n;
             Wrench { f: total.f.scale(length_inv) + passed.f, n }
         } else {
-            let mut inertia = constant(Cut::<Tree, List, N, I, K>::CARRIED);
+            let mut inertia = constant(Cut::<T, List, N, I, K>::CARRIED);
             let mut sum = *carried;
             for_each_joint!(M, {
-                if JointPair::<Tree, I, M>::HAS_BODY {
-                    let (body, place) = JointPair::<Tree, I, M>::BODY;
-                    if Cut::<Tree, List, N, I, K>::is_beyond(*body) {
-                        if Effects::PAYLOAD[*body] {
+                if JointPair::<T, I, M>::HAS_BODY {
+                    let (body, place) = JointPair::<T, I, M>::BODY;
+                    if Cut::<T, List, N, I, K>::is_beyond(*body) {
+                        if E::PAYLOAD[*body] {
                             inertia = self.with_load(*body, place, inertia);
                         }
-                        if Effects::WRENCH {
+                        if E::WRENCH {
                             let fx = self.exerted(*body, place, field);
                             sum = Wrench { f: sum.f - fx.f, n: sum.n - fx.n };
                         }
@@ -194,7 +163,7 @@ where
 
 /// A vector in the axes of a body that this turn is still to turn, if any.
 #[cfg_attr(optimised, inline(always))]
-fn turned<Scalar: Real>(v: Vec3<Scalar>, turn: Option<JointCoordinate<Scalar>>) -> Vec3<Scalar> {
+fn turned<R: Real>(v: Vec3<R>, turn: Option<JointCoordinate<R>>) -> Vec3<R> {
     match turn {
         Some(turn) => v.turn_back(Folded::runtime(turn.sin), Folded::runtime(turn.cos)),
         None => v,
@@ -203,83 +172,10 @@ fn turned<Scalar: Real>(v: Vec3<Scalar>, turn: Option<JointCoordinate<Scalar>>) 
 
 /// Parameters that are known while compiling.
 #[cfg_attr(optimised, inline(always))]
-fn constant<Scalar: Real>(of: &Distribution) -> Inertia<Scalar> {
+fn constant<R: Real>(of: &Distribution) -> Inertia<R> {
     Inertia {
         mass: Folded::constant(of.mass),
         moment: Vec3::constant(of.moment),
         second: Sym3::of(&Mat3::constant(&of.second)),
-    }
-}
-
-impl<Arm, Sines> Engine<Arm, Sines> {
-    /// The torques of [`Engine::rnea`] and, beside them, the wrenches fᵢ in the joints of some
-    /// bodies: what the parent exerts on body i through its joint, N·m and N, in the body's own
-    /// frame and about its origin, as [`crate::algorithms::rnea_and_wrenches`] computes it.
-    ///
-    /// A force sensor in a link is a fixed joint of the description, whose body is all that is
-    /// beyond it: its fᵢ is the prediction of the sensor under every effect of the scene, to be
-    /// subtracted from the measurement. Other bodies add nothing to the machine code. A body that
-    /// the robot does not have does not compile; nor does a scene with
-    /// [`BaseParameters`](crate::effects::BaseParameters), of which no wrench follows.
-    ///
-    /// # Shape
-    /// V, and N wrenches in the order of the list.
-    ///
-    /// # Cost
-    /// Some 60 cycles of a Cortex-M4F for a last body, on top of [`Engine::rnea`]; the same
-    /// instructions for all data.
-    ///
-    /// # Source
-    /// Featherstone & Orin (2000), (3) to (8), over base parameters and those that they lack.
-    ///
-    /// # Example
-    /// ```
-    /// use dynamics_core::{Core, Engine, effects::RIGID_BODY, model::{OnBody, Robot}, robots::Ur5e, state::State};
-    /// const WRIST: usize = Ur5e::MODEL.body("wrist_3");
-    /// let state = State { q: [0.1_f64; 6], qd: [0.5; 6], qdd: [1.0; 6] };
-    /// let one = Engine::<Ur5e>::rnea_and_wrenches(&state, &RIGID_BODY, OnBody::<WRIST>);
-    /// let all = Core::<Ur5e>::rnea_and_wrenches(&state, &RIGID_BODY);
-    /// assert!((one.wrenches[0].lin - all.wrenches[WRIST].lin).length() < 1e-13);
-    /// ```
-    #[doc(alias = "reaction wrench")]
-    #[doc(alias = "force sensor")]
-    #[inline(never)]
-    #[must_use]
-    pub fn rnea_and_wrenches<
-        Scalar: Real,
-        Effects,
-        List,
-        const N: usize,
-        const B: usize,
-        const Q: usize,
-        const V: usize,
-    >(
-        state: impl RobotState<Scalar, Q, V>,
-        effects: &Effects,
-        bodies: List,
-    ) -> TorquesAndWrenches<Scalar, V, N>
-    where
-        Arm: Robot<B, Q, V>,
-        Sines: Kernel<Scalar>,
-        Effects: Effect<Scalar, B, V>,
-        List: Bodies<N>,
-    {
-        scene_is_taken!();
-        const {
-            assert!(
-                Effects::BASE_PARAMETERS == 0,
-                "wrenches in joints do not follow from base parameters"
-            );
-        }
-        let _ = bodies;
-        let trig = state.configuration().trig_or(Self::trig_source());
-        let trig = trig.borrow();
-        let mut kept = Kept::<Scalar, List, N>([Force::ZERO; N], PhantomData);
-        let mut tau = const { [Scalar::ZERO; V] };
-        let call: Call<'_, Scalar, CompiledRobot<Arm, B, Q, V>, _, B, Q, V> =
-            Self::call(trig, effects);
-        let back = loaded_again(&state, trig);
-        call.write_torques_and(&back.coordinates, state.state(), &mut tau, &mut kept);
-        TorquesAndWrenches { tau, wrenches: kept.0 }
     }
 }

@@ -4,7 +4,8 @@
 use super::acceleration_field::{AccelerationField, Inertia, Wrench, along_z};
 use super::call::Call;
 use super::compile::{
-    BodyPlacement, Compiled, CompiledJoint, JointPair, are_whole, last, load, loads, place,
+    BodyPlacement, Compiled, CompiledJoint, JointPair, are_whole, has_subtree_functions, last,
+    load, loads, place,
 };
 use super::displacement::Displacement;
 use super::folding::Folded;
@@ -12,7 +13,6 @@ use super::folding::{Mat3, Sym3, Vec3};
 use super::joint_rates::{JointRates, SeveralRates, Twist};
 use super::only_if;
 use super::reaction::Reactions;
-use super::subtree::has_subtree_functions;
 use crate::effects::{
     BodyState, Declared, Effect, RegroupedInertia, call_hook, hook, load_friction,
 };
@@ -22,42 +22,28 @@ use crate::spatial::{Force, Motion, SpatialInertia, Xform};
 use crate::state::State;
 
 /// The data that all bodies share.
-pub(crate) struct Task<
-    'a,
-    Scalar: Real,
-    Tree,
-    Effects,
-    Seen,
-    const B: usize,
-    const Q: usize,
-    const V: usize,
-> {
-    pub(super) call: Call<'a, Scalar, Tree, Effects, B, Q, V>,
+pub(crate) struct Task<'a, R: Real, T, E, Seen, const B: usize, const Q: usize, const V: usize> {
+    pub(super) call: Call<'a, R, T, E, B, Q, V>,
     /// The positions of the call, loaded again in the inward pass where registers are short.
-    pub(super) back: &'a [JointCoordinate<Scalar>; Q],
-    pub(super) state: &'a State<Scalar, Q, V>,
-    pub(super) tau: &'a mut [Scalar; V],
+    pub(super) back: &'a [JointCoordinate<R>; Q],
+    pub(super) state: &'a State<R, Q, V>,
+    pub(super) tau: &'a mut [R; V],
     /// The wrenches that are kept.
     pub(super) seen: Seen,
 }
 
-impl<Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize>
-    Call<'_, Scalar, Tree, Effects, B, Q, V>
+impl<R, T, E, const B: usize, const Q: usize, const V: usize> Call<'_, R, T, E, B, Q, V>
 where
-    Scalar: Real,
-    Tree: Compiled,
-    Effects: Effect<Scalar, B, V>,
+    R: Real,
+    T: Compiled,
+    E: Effect<R, B, V>,
 {
     /// The recursion of inverse dynamics; `back` are the positions as the inward pass loads them.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn torques(
-        self,
-        back: &[JointCoordinate<Scalar>; Q],
-        state: &State<Scalar, Q, V>,
-    ) -> [Scalar; V] {
+    pub(crate) fn torques(self, back: &[JointCoordinate<R>; Q], state: &State<R, Q, V>) -> [R; V] {
         // A constant: behind a loop that clears the torques the compiler would reverse the order of
         // the sines and spill more of them.
-        let mut tau = const { [Scalar::ZERO; V] };
+        let mut tau = const { [R::ZERO; V] };
         self.write_torques(back, state, &mut tau);
         tau
     }
@@ -66,18 +52,15 @@ where
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn write_torques(
         self,
-        back: &[JointCoordinate<Scalar>; Q],
-        state: &State<Scalar, Q, V>,
-        tau: &mut [Scalar; V],
+        back: &[JointCoordinate<R>; Q],
+        state: &State<R, Q, V>,
+        tau: &mut [R; V],
     ) {
         let base = self.base();
         let mut task = Task { call: self, back, state, tau, seen: () };
         for_each_joint!(
             J,
-            const {
-                CompiledJoint::<Tree, J>::IS_ON_BASE
-                    && !has_subtree_functions::<Tree>(Effects::WRENCH)
-            },
+            const { CompiledJoint::<T, J>::IS_ON_BASE && !has_subtree_functions::<T>(E::WRENCH) },
             visit = Task::visit::<J> as fn(&mut _, &_) -> _,
             {
                 visit(&mut task, &base);
@@ -85,10 +68,7 @@ where
         );
         for_each_joint!(
             J,
-            const {
-                CompiledJoint::<Tree, J>::IS_ON_BASE
-                    && has_subtree_functions::<Tree>(Effects::WRENCH)
-            },
+            const { CompiledJoint::<T, J>::IS_ON_BASE && has_subtree_functions::<T>(E::WRENCH) },
             visit = Task::root_subtree::<J> as fn(&mut _),
             {
                 visit(&mut task);
@@ -97,40 +77,36 @@ where
     }
 }
 
-impl<Scalar, Tree, Effects, Seen, const B: usize, const Q: usize, const V: usize>
-    Task<'_, Scalar, Tree, Effects, Seen, B, Q, V>
+impl<R, T, E, Seen, const B: usize, const Q: usize, const V: usize> Task<'_, R, T, E, Seen, B, Q, V>
 where
-    Scalar: Real,
-    Tree: Compiled,
-    Effects: Effect<Scalar, B, V>,
-    Seen: Reactions<Scalar, Tree>,
+    R: Real,
+    T: Compiled,
+    E: Effect<R, B, V>,
+    Seen: Reactions<R, T>,
 {
     /// Visits joint I and its descendants; returns the wrench that they need from the parent, in
     /// its frame.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn visit<const I: usize>(
-        &mut self,
-        parent: &AccelerationField<Scalar>,
-    ) -> Wrench<Scalar> {
+    pub(crate) fn visit<const I: usize>(&mut self, parent: &AccelerationField<R>) -> Wrench<R> {
         let (at, mut field) = self.across::<I>(parent);
-        if Effects::BODY_POSE {
+        if E::BODY_POSE {
             field.pose = parent.pose.transformed_by(&at);
         }
-        let body = self.call.inertia::<I>(Effects::BASE_MOTION);
+        let body = self.call.inertia::<I>(E::BASE_MOTION);
         let mut total = field.wrench(&body);
         if const { Self::is_round::<I>() } {
-            let second = &CompiledJoint::<Tree, I>::JOINT.second;
+            let second = &CompiledJoint::<T, I>::JOINT.second;
             total.n.0[2] = field.alpha.0[2] * Folded::constant(second.x_axis.x + second.y_axis.y);
         }
-        if Effects::WRENCH {
+        if E::WRENCH {
             total = self.call.environment::<I>(&field, total);
         }
 
         let mut carried = Seen::NOTHING;
         for_each_joint!(
             J,
-            JointPair::<Tree, I, J>::IS_CHILD,
-            visit = Self::visit_child::<I, J> as fn(&mut _, &_) -> Wrench<Scalar>,
+            JointPair::<T, I, J>::IS_CHILD,
+            visit = Self::visit_child::<I, J> as fn(&mut _, &_) -> Wrench<R>,
             {
                 let child = visit(self, &field);
                 total = Wrench { f: total.f + child.f, n: total.n + child.n };
@@ -141,16 +117,16 @@ where
         );
         if Seen::KEEPS {
             let turn = if const { Self::is_round::<I>() } { Some(at.turn) } else { None };
-            self.seen.keep::<Effects, I, B, Q, V>(self.call, &field, &total, &carried, turn);
+            self.seen.keep::<E, I, B, Q, V>(self.call, &field, &total, &carried, turn);
         }
 
-        if CompiledJoint::<Tree, I>::COUNT == 1 {
+        if CompiledJoint::<T, I>::COUNT == 1 {
             let felt = self.call.felt::<I>(total, parent.alpha);
             self.drive::<I>(&felt);
             let couple = self.spin::<I>(&field);
             total = self.call.borne(total, couple);
         } else if let Some(drive) = const {
-            only_if(CompiledJoint::<Tree, I>::COUNT > 1, Self::drive_several::<I> as fn(&mut _, &_))
+            only_if(CompiledJoint::<T, I>::COUNT > 1, Self::drive_several::<I> as fn(&mut _, &_))
         } {
             drive(self, &total);
         }
@@ -158,8 +134,7 @@ where
         if const { Self::is_round::<I>() } {
             return total.turned_to_parent(&at);
         }
-        let turn =
-            if Tree::LOADS_SINES_AGAIN { self.back[CompiledJoint::<Tree, I>::Q] } else { at.turn };
+        let turn = if T::LOADS_SINES_AGAIN { self.back[CompiledJoint::<T, I>::Q] } else { at.turn };
         total.to_parent(&at.with_turn(turn))
     }
 
@@ -167,15 +142,15 @@ where
     #[cfg_attr(optimised, inline(always))]
     fn across<const I: usize>(
         &self,
-        parent: &AccelerationField<Scalar>,
-    ) -> (Displacement<Scalar, Tree, I>, AccelerationField<Scalar>) {
-        let joint = CompiledJoint::<Tree, I>::JOINT;
+        parent: &AccelerationField<R>,
+    ) -> (Displacement<R, T, I>, AccelerationField<R>) {
+        let joint = CompiledJoint::<T, I>::JOINT;
         let (qd, qdd) = (&self.state.qd, &self.state.qdd);
-        if CompiledJoint::<Tree, I>::COUNT > 1 {
+        if CompiledJoint::<T, I>::COUNT > 1 {
             let rates = SeveralRates {
-                velocity: Twist::of::<Tree, V, I>(qd, Effects::BODY_VELOCITY),
-                products: Twist::of::<Tree, V, I>(qd, Effects::VELOCITY_PRODUCTS),
-                accel: Twist::of::<Tree, V, I>(qdd, Effects::ACCELERATIONS),
+                velocity: Twist::of::<T, V, I>(qd, E::BODY_VELOCITY),
+                products: Twist::of::<T, V, I>(qd, E::VELOCITY_PRODUCTS),
+                accel: Twist::of::<T, V, I>(qdd, E::ACCELERATIONS),
             };
             let at = self.call.displacement::<I>();
             let field = parent.across_several(&at, &rates);
@@ -183,15 +158,12 @@ where
         }
         // Rates are loaded before sines and cosines, and q̈ first: less is spilled.
         let (qdd, qd) = (qdd[I], qd[I]);
-        let unit = if joint.prismatic {
-            Folded::constant(Tree::LENGTH_INV)
-        } else {
-            Folded::constant(1.0)
-        };
+        let unit =
+            if joint.prismatic { Folded::constant(T::LENGTH_INV) } else { Folded::constant(1.0) };
         let rates = JointRates {
-            velocity: Folded::runtime_if(Effects::BODY_VELOCITY, qd) * unit,
-            omega_products: Folded::runtime_if(Effects::VELOCITY_PRODUCTS, qd) * unit,
-            accel: Folded::runtime_if(Effects::ACCELERATIONS, qdd) * unit,
+            velocity: Folded::runtime_if(E::BODY_VELOCITY, qd) * unit,
+            omega_products: Folded::runtime_if(E::VELOCITY_PRODUCTS, qd) * unit,
+            accel: Folded::runtime_if(E::ACCELERATIONS, qdd) * unit,
         };
         let at = self.call.displacement::<I>();
         if const { Self::is_round::<I>() } {
@@ -205,28 +177,28 @@ where
 
     /// Whether nothing in the scene feels how far the last body behind joint I has turned.
     const fn is_round<const I: usize>() -> bool {
-        CompiledJoint::<Tree, I>::IS_ROUND
-            && !(Effects::WRENCH || Effects::GYROSCOPIC_ROTORS)
-            && Effects::BASE_PARAMETERS == 0
-            && loads::<Tree>(I, &Effects::PAYLOAD) == 0
-            && are_whole::<Tree>(Seen::BODIES, I)
+        CompiledJoint::<T, I>::IS_ROUND
+            && !(E::WRENCH || E::GYROSCOPIC_ROTORS)
+            && E::BASE_PARAMETERS == 0
+            && loads::<T>(I, &E::PAYLOAD) == 0
+            && are_whole::<T>(Seen::BODIES, I)
     }
 
     /// ρ I (q̈ z + q̇ ω × z): the couple that the parent exerts on the rotor of joint I.
     #[cfg_attr(optimised, inline(always))]
-    fn spin<const I: usize>(&self, field: &AccelerationField<Scalar>) -> Vec3<Scalar> {
+    fn spin<const I: usize>(&self, field: &AccelerationField<R>) -> Vec3<R> {
         let coupling = self.call.coupling::<I>();
-        let qd = Folded::runtime_if(Effects::VELOCITY_PRODUCTS, self.state.qd[I]);
-        let qdd = Folded::runtime_if(Effects::ACCELERATIONS, self.state.qdd[I]);
+        let qd = Folded::runtime_if(E::VELOCITY_PRODUCTS, self.state.qd[I]);
+        let qdd = Folded::runtime_if(E::ACCELERATIONS, self.state.qdd[I]);
         along_z(coupling * qdd) + field.omega_products.cross(along_z(coupling * qd))
     }
 
     /// The torque of the motor of coordinate I, which carries `total`.
     #[cfg_attr(optimised, inline(always))]
-    pub(super) fn drive<const I: usize>(&mut self, total: &Wrench<Scalar>) {
+    pub(super) fn drive<const I: usize>(&mut self, total: &Wrench<R>) {
         let at = self.call.joint_state::<I>(self.state);
-        let length_inv = Folded::constant(Tree::LENGTH_INV);
-        let mut tau = total.along(CompiledJoint::<Tree, I>::JOINT, length_inv).get();
+        let length_inv = Folded::constant(T::LENGTH_INV);
+        let mut tau = total.along(CompiledJoint::<T, I>::JOINT, length_inv).get();
         self.call.effects.torque(I, at, &mut tau);
         if let Some(inertia) = self.call.effects.inertia(I) {
             tau += inertia * self.state.qdd[I];
@@ -237,10 +209,10 @@ where
 
     /// The same of all coordinates of a joint.
     #[cfg_attr(optimised, inline(always))]
-    fn drive_several<const I: usize>(&mut self, total: &Wrench<Scalar>) {
+    fn drive_several<const I: usize>(&mut self, total: &Wrench<R>) {
         for_each_joint!(
             K,
-            JointPair::<Tree, I, K>::IS_COORDINATE,
+            JointPair::<T, I, K>::IS_COORDINATE,
             drive = Self::drive::<K> as fn(&mut _, &_),
             {
                 drive(self, total);
@@ -249,41 +221,37 @@ where
     }
 }
 
-impl<Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize>
-    Call<'_, Scalar, Tree, Effects, B, Q, V>
+impl<R, T, E, const B: usize, const Q: usize, const V: usize> Call<'_, R, T, E, B, Q, V>
 where
-    Scalar: Real,
-    Tree: Compiled,
-    Effects: Effect<Scalar, B, V>,
+    R: Real,
+    T: Compiled,
+    E: Effect<R, B, V>,
 {
     /// The inertia of the body behind joint I, with its payloads; all of Σ if the base moves.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn inertia<const I: usize>(self, base_moves: bool) -> Inertia<Scalar> {
+    pub(crate) fn inertia<const I: usize>(self, base_moves: bool) -> Inertia<R> {
         let body = self.own_inertia::<I>(base_moves);
         self.with_payloads::<I>(body)
     }
 
     /// The same in M, and the inertia that only the rotation of its own joint feels.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn matrix_inertia<const I: usize>(self) -> (Inertia<Scalar>, Folded<Scalar>) {
+    pub(crate) fn matrix_inertia<const I: usize>(self) -> (Inertia<R>, Folded<R>) {
         // Those of M are known at compile time only.
-        let (body, spin) = if const { Effects::BASE_PARAMETERS > 0 } {
+        let (body, spin) = if const { E::BASE_PARAMETERS > 0 } {
             let body = self.own_inertia::<I>(false);
             (body, Folded::ZERO)
         } else {
-            let joint = CompiledJoint::<Tree, I>::BODY;
+            let joint = CompiledJoint::<T, I>::BODY;
             (Inertia::in_matrix(joint), Folded::constant(joint.spin))
         };
         (self.with_payloads::<I>(body), spin)
     }
 
     #[cfg_attr(optimised, inline(always))]
-    fn with_payloads<const I: usize>(self, body: Inertia<Scalar>) -> Inertia<Scalar> {
+    fn with_payloads<const I: usize>(self, body: Inertia<R>) -> Inertia<R> {
         match const {
-            only_if(
-                loads::<Tree>(last::<Tree>(I), &Effects::PAYLOAD) > 0,
-                Self::loaded::<I> as fn(_, _) -> _,
-            )
+            only_if(loads::<T>(last::<T>(I), &E::PAYLOAD) > 0, Self::loaded::<I> as fn(_, _) -> _)
         } {
             Some(loaded) => loaded(self, body),
             None => body,
@@ -292,17 +260,12 @@ where
 
     /// The same without payloads: the description's, or that of the loaded base parameters.
     #[cfg_attr(optimised, inline(always))]
-    fn own_inertia<const I: usize>(self, base_moves: bool) -> Inertia<Scalar> {
-        let joint = CompiledJoint::<Tree, I>::BODY;
-        if const { Effects::BASE_PARAMETERS > 0 } {
+    fn own_inertia<const I: usize>(self, base_moves: bool) -> Inertia<R> {
+        let joint = CompiledJoint::<T, I>::BODY;
+        if const { E::BASE_PARAMETERS > 0 } {
             let mut body = RegroupedInertia::default();
-            call_hook!(
-                Effects::REGROUPED.load,
-                self.effects,
-                CompiledJoint::<Tree, I>::LAST,
-                &mut body
-            );
-            Inertia::loaded(&body, CompiledJoint::<Tree, I>::FIRST, base_moves)
+            call_hook!(E::REGROUPED.load, self.effects, CompiledJoint::<T, I>::LAST, &mut body);
+            Inertia::loaded(&body, CompiledJoint::<T, I>::FIRST, base_moves)
         } else if base_moves {
             Inertia::second_moment_only(joint)
         } else {
@@ -313,19 +276,19 @@ where
     /// Adds the payloads of the bodies on joint I, which are given in those bodies' own frames, to
     /// its inertia.
     #[cfg_attr(optimised, inline(always))]
-    fn loaded<const I: usize>(self, mut body: Inertia<Scalar>) -> Inertia<Scalar> {
+    fn loaded<const I: usize>(self, mut body: Inertia<R>) -> Inertia<R> {
         const {
             assert!(
-                loads::<Tree>(last::<Tree>(I), &Effects::PAYLOAD) <= 32,
+                loads::<T>(last::<T>(I), &E::PAYLOAD) <= 32,
                 "the engine takes up to 32 bodies with payloads on one joint; use `Core`"
             )
         };
         for_each_joint!(K, {
-            if const { K < loads::<Tree>(last::<Tree>(I), &Effects::PAYLOAD) } {
-                let of = const { load::<Tree>(last::<Tree>(I), K, &Effects::PAYLOAD) };
+            if const { K < loads::<T>(last::<T>(I), &E::PAYLOAD) } {
+                let of = const { load::<T>(last::<T>(I), K, &E::PAYLOAD) };
                 let place = const {
-                    let of = load::<Tree>(last::<Tree>(I), K, &Effects::PAYLOAD);
-                    &place::<Tree>(of)
+                    let of = load::<T>(last::<T>(I), K, &E::PAYLOAD);
+                    &place::<T>(of)
                 };
                 body = self.with_load(of, place, body);
             }
@@ -339,18 +302,18 @@ where
         self,
         of: usize,
         place: &'static BodyPlacement,
-        body: Inertia<Scalar>,
-    ) -> Inertia<Scalar> {
+        body: Inertia<R>,
+    ) -> Inertia<R> {
         let (rot, d) = (Mat3::constant(&place.rot), Vec3::constant(place.pos));
-        let length = Folded::constant(Tree::LENGTH);
+        let length = Folded::constant(T::LENGTH);
         let mut load = SpatialInertia::ZERO;
-        call_hook!(Effects::ADDED_INERTIA.add, self.effects, of, &mut load);
+        call_hook!(E::ADDED_INERTIA.add, self.effects, of, &mut load);
         let mass = Folded::runtime(load.mass) * length * length;
         let h = rot.mul(Vec3::runtime(load.first_moment)).scale(length);
         // Σ = ½ tr(Ī) 1 − Ī, turned and moved to the joint's frame.
         let [x, y, z] = load.rotational.cols();
         let trace = x.array()[0] + y.array()[1] + z.array()[2];
-        let half = Folded::runtime(trace * Scalar::from_f64(0.5));
+        let half = Folded::runtime(trace * R::from_f64(0.5));
         let zero = Folded::ZERO;
         let sigma = Mat3([
             rot.mul(Vec3([half, zero, zero]) - Vec3::runtime(x)),
@@ -377,20 +340,20 @@ where
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn environment<const I: usize>(
         self,
-        field: &AccelerationField<Scalar>,
-        mut total: Wrench<Scalar>,
-    ) -> Wrench<Scalar> {
+        field: &AccelerationField<R>,
+        mut total: Wrench<R>,
+    ) -> Wrench<R> {
         // Evaluated in scenes without wrenches, too, where their number does not matter.
         const {
             assert!(
-                !Effects::WRENCH || CompiledJoint::<Tree, I>::BODIES <= 32,
+                !E::WRENCH || CompiledJoint::<T, I>::BODIES <= 32,
                 "the engine takes wrenches on up to 32 bodies that move with one joint; use `Core`"
             )
         };
         // Body by body: in a loop their places would be no constants, and nothing would fold.
         for_each_joint!(K, {
-            if JointPair::<Tree, I, K>::HAS_BODY {
-                let (body, place) = JointPair::<Tree, I, K>::BODY;
+            if JointPair::<T, I, K>::HAS_BODY {
+                let (body, place) = JointPair::<T, I, K>::BODY;
                 let fx = self.exerted(*body, place, field);
                 total = Wrench { f: total.f - fx.f, n: total.n - fx.n };
             }
@@ -404,24 +367,24 @@ where
         self,
         body: usize,
         place: &'static BodyPlacement,
-        field: &AccelerationField<Scalar>,
-    ) -> Wrench<Scalar> {
-        let length = Folded::constant(Tree::LENGTH);
+        field: &AccelerationField<R>,
+    ) -> Wrench<R> {
+        let length = Folded::constant(T::LENGTH);
         let (rot, pos) = (Mat3::constant(&place.rot), Vec3::constant(place.pos));
         let mut at = BodyState { pose: Xform::IDENTITY, velocity: Motion::ZERO, base: None };
-        if Effects::BASE_MOTION && Effects::BODY_VELOCITY {
+        if E::BASE_MOTION && E::BODY_VELOCITY {
             let (mut base, mut acceleration) = (Motion::ZERO, Motion::ZERO);
-            call_hook!(Effects::BASE.add, self.effects, &mut base, &mut acceleration);
+            call_hook!(E::BASE.add, self.effects, &mut base, &mut acceleration);
             at.base = Some(base);
         }
-        if Effects::BODY_VELOCITY {
+        if E::BODY_VELOCITY {
             let v = field.v + field.omega.cross(pos);
             at.velocity = Motion::new(
                 rot.transpose_mul(field.omega).get(),
                 rot.transpose_mul(v).scale(length).get(),
             );
         }
-        if Effects::BODY_POSE {
+        if E::BODY_POSE {
             at.pose = field.pose.of(place, length);
         }
         let mut fx = Force::ZERO;

@@ -17,13 +17,13 @@ use crate::model::JointKind;
 use crate::scalar::Real;
 
 /// Whether coordinate I of a robot may have such a rotor: it is the only coordinate of its joint.
-struct OnlyCoordinate<Tree, const I: usize>(PhantomData<Tree>);
+struct OnlyCoordinate<T, const I: usize>(PhantomData<T>);
 
-impl<Tree: Compiled, const I: usize> OnlyCoordinate<Tree, I> {
+impl<T: Compiled, const I: usize> OnlyCoordinate<T, I> {
     const IS: bool = {
         let (mut is, mut body) = (false, 0);
-        while body < Tree::LINKS.len() {
-            let link = &Tree::LINKS[body];
+        while body < T::LINKS.len() {
+            let link = &T::LINKS[body];
             is |= link.idx_v == I
                 && link.joint.kind.coordinates().1 == 1
                 && !matches!(link.joint.kind, JointKind::Fixed);
@@ -33,39 +33,34 @@ impl<Tree: Compiled, const I: usize> OnlyCoordinate<Tree, I> {
     };
 }
 
-impl<Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize>
-    Call<'_, Scalar, Tree, Effects, B, Q, V>
+impl<R, T, E, const B: usize, const Q: usize, const V: usize> Call<'_, R, T, E, B, Q, V>
 where
-    Scalar: Real,
-    Tree: Compiled,
-    Effects: Effect<Scalar, B, V>,
+    R: Real,
+    T: Compiled,
+    E: Effect<R, B, V>,
 {
     /// ρ I of the rotor of joint I; a known zero without one.
     #[cfg_attr(optimised, inline(always))]
-    pub(super) fn coupling<const I: usize>(self) -> Folded<Scalar> {
-        let mut coupling = Scalar::ZERO;
-        let has_rotor = Effects::GYROSCOPIC_ROTORS && OnlyCoordinate::<Tree, I>::IS;
+    pub(super) fn coupling<const I: usize>(self) -> Folded<R> {
+        let mut coupling = R::ZERO;
+        let has_rotor = E::GYROSCOPIC_ROTORS && OnlyCoordinate::<T, I>::IS;
         if has_rotor {
-            call_hook!(Effects::ROTOR.add, self.effects, I, &mut coupling);
+            call_hook!(E::ROTOR.add, self.effects, I, &mut coupling);
         }
         Folded::runtime_if(has_rotor, coupling)
     }
     /// The wrench `carried` as joint I feels it: with the couple ρ I z·x by which the rotor follows
     /// a motion x of the parent, its ω or α.
     #[cfg_attr(optimised, inline(always))]
-    pub(super) fn felt<const I: usize>(
-        self,
-        carried: Wrench<Scalar>,
-        parent: Vec3<Scalar>,
-    ) -> Wrench<Scalar> {
+    pub(super) fn felt<const I: usize>(self, carried: Wrench<R>, parent: Vec3<R>) -> Wrench<R> {
         let mut felt = carried;
-        if Effects::GYROSCOPIC_ROTORS {
-            let joint = CompiledJoint::<Tree, I>::JOINT;
+        if E::GYROSCOPIC_ROTORS {
+            let joint = CompiledJoint::<T, I>::JOINT;
             let along = Mat3::constant(&joint.rot).transpose_mul(parent).0[2];
             let couple = self.coupling::<I>() * along;
             if joint.prismatic {
                 // A force along z counts by units of length.
-                felt.f.0[2] = felt.f.0[2] + couple * Folded::constant(Tree::LENGTH);
+                felt.f.0[2] = felt.f.0[2] + couple * Folded::constant(T::LENGTH);
             } else {
                 felt.n.0[2] = felt.n.0[2] + couple;
             }
@@ -75,11 +70,7 @@ where
     /// The wrench `carried` as the parent of joint I bears it: with a couple on the rotor, in the
     /// frame of the joint's body.
     #[cfg_attr(optimised, inline(always))]
-    pub(super) fn borne(self, carried: Wrench<Scalar>, couple: Vec3<Scalar>) -> Wrench<Scalar> {
-        if Effects::GYROSCOPIC_ROTORS {
-            Wrench { f: carried.f, n: carried.n + couple }
-        } else {
-            carried
-        }
+    pub(super) fn borne(self, carried: Wrench<R>, couple: Vec3<R>) -> Wrench<R> {
+        if E::GYROSCOPIC_ROTORS { Wrench { f: carried.f, n: carried.n + couple } } else { carried }
     }
 }

@@ -22,59 +22,48 @@ use crate::scalar::Real;
 use crate::state::{JointTrig, State, TrigSource};
 use crate::trig::Kernel;
 
-impl<Arm, Sines> Engine<Arm, Sines> {
+impl<T, K> Engine<T, K> {
     /// τ = ID(q, q̇, q̈) and its derivatives τ̇ and τ̈, along a course with these third and fourth
     /// derivatives of q.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn torque_rates<
-        Scalar: Real,
-        Effects,
-        const B: usize,
-        const Q: usize,
-        const V: usize,
-    >(
-        state: &State<Scalar, Q, V>,
-        jerk: &[Scalar; V],
-        snap: &[Scalar; V],
-        effects: &Effects,
-    ) -> [[Scalar; 3]; V]
+    pub(crate) fn torque_rates<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+        state: &State<R, Q, V>,
+        jerk: &[R; V],
+        snap: &[R; V],
+        effects: &E,
+    ) -> [[R; 3]; V]
     where
-        Arm: Robot<B, Q, V>,
-        Sines: Kernel<Scalar>,
-        Effects: Effect<Scalar, B, V>,
+        T: Robot<B, Q, V>,
+        K: Kernel<R>,
+        E: Effect<R, B, V>,
     {
         scene_is_taken!();
-        const { takes_elastic_joints::<CompiledRobot<Arm, B, Q, V>>() };
-        let trig: JointTrig<Scalar, Q> = Self::trig_source().compute(&state.q);
+        const { takes_elastic_joints::<CompiledRobot<T, B, Q, V>>() };
+        let trig: JointTrig<R, Q> = Self::trig_source().compute(&state.q);
         // As forward dynamics: see [`Call`].
         let call = Call {
             turns: &trig.coordinates,
             effects,
-            robot: PhantomData::<CompiledRobot<Arm, B, Q, V>>,
+            robot: PhantomData::<CompiledRobot<T, B, Q, V>>,
         };
         call.torque_rates(state, [jerk, snap])
     }
 }
 
-impl<Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize>
-    Call<'_, Scalar, Tree, Effects, B, Q, V>
+impl<R, T, E, const B: usize, const Q: usize, const V: usize> Call<'_, R, T, E, B, Q, V>
 where
-    Scalar: Real,
-    Tree: Compiled,
-    Effects: Effect<Scalar, B, V>,
+    R: Real,
+    T: Compiled,
+    E: Effect<R, B, V>,
 {
     #[cfg_attr(optimised, inline(always))]
-    fn torque_rates(
-        self,
-        state: &State<Scalar, Q, V>,
-        [jerk, snap]: [&[Scalar; V]; 2],
-    ) -> [[Scalar; 3]; V] {
-        let mut tau = [[Scalar::ZERO; 3]; V];
+    fn torque_rates(self, state: &State<R, Q, V>, [jerk, snap]: [&[R; V]; 2]) -> [[R; 3]; V] {
+        let mut tau = [[R::ZERO; 3]; V];
         let mut task = Task { call: self, state, jerk, snap, tau: &mut tau };
         let base = Field::at_rest(self.unaccelerated().a);
         for_each_joint!(
             J,
-            CompiledJoint::<Tree, J>::IS_ON_BASE,
+            CompiledJoint::<T, J>::IS_ON_BASE,
             visit = Task::visit::<J> as fn(&mut _, &_) -> _,
             {
                 visit(&mut task, &base);
@@ -85,11 +74,11 @@ where
 }
 
 /// A robot whose joints may be elastic here.
-const fn takes_elastic_joints<Tree: Compiled>() {
+const fn takes_elastic_joints<T: Compiled>() {
     let mut i = 0;
-    while i < Tree::JOINTS.len() {
+    while i < T::JOINTS.len() {
         assert!(
-            matches!(Tree::JOINTS[i].motion, JointMotion::Turn | JointMotion::Slide),
+            matches!(T::JOINTS[i].motion, JointMotion::Turn | JointMotion::Slide),
             "the engine takes elastic joints that are revolute or prismatic; use `Core`"
         );
         i += 1;
@@ -97,27 +86,26 @@ const fn takes_elastic_joints<Tree: Compiled>() {
 }
 
 /// The data that all bodies share.
-struct Task<'a, Scalar: Real, Tree, Effects, const B: usize, const Q: usize, const V: usize> {
-    call: Call<'a, Scalar, Tree, Effects, B, Q, V>,
-    state: &'a State<Scalar, Q, V>,
-    jerk: &'a [Scalar; V],
-    snap: &'a [Scalar; V],
-    tau: &'a mut [[Scalar; 3]; V],
+struct Task<'a, R: Real, T, E, const B: usize, const Q: usize, const V: usize> {
+    call: Call<'a, R, T, E, B, Q, V>,
+    state: &'a State<R, Q, V>,
+    jerk: &'a [R; V],
+    snap: &'a [R; V],
+    tau: &'a mut [[R; 3]; V],
 }
 
-impl<Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize>
-    Task<'_, Scalar, Tree, Effects, B, Q, V>
+impl<R, T, E, const B: usize, const Q: usize, const V: usize> Task<'_, R, T, E, B, Q, V>
 where
-    Scalar: Real,
-    Tree: Compiled,
-    Effects: Effect<Scalar, B, V>,
+    R: Real,
+    T: Compiled,
+    E: Effect<R, B, V>,
 {
     /// Visits joint I and its descendants; returns the wrench that they need from the parent, in
     /// its frame.
     #[cfg_attr(optimised, inline(always))]
-    fn visit<const I: usize>(&mut self, parent: &Field<Scalar>) -> WrenchSeries<Scalar> {
-        let joint = CompiledJoint::<Tree, I>::JOINT;
-        let (half, length_inv) = (Scalar::from_f64(0.5), Folded::constant(Tree::LENGTH_INV));
+    fn visit<const I: usize>(&mut self, parent: &Field<R>) -> WrenchSeries<R> {
+        let joint = CompiledJoint::<T, I>::JOINT;
+        let (half, length_inv) = (R::from_f64(0.5), Folded::constant(T::LENGTH_INV));
         let (at, qdd) = (JointState::new(self.state.q[I], self.state.qd[I]), self.state.qdd[I]);
         let (jerk, snap) = (self.jerk[I], self.snap[I]);
         let turn = Turn::new(self.call.turns[I], at.qd, qdd);
@@ -131,14 +119,14 @@ where
         };
         let body = self.call.inertia::<I>(false);
         let mut total = field.wrench(&body);
-        if const { !CompiledJoint::<Tree, I>::IS_ON_BASE } {
+        if const { !CompiledJoint::<T, I>::IS_ON_BASE } {
             total = total.finished();
         }
 
         for_each_joint!(
             J,
-            JointPair::<Tree, I, J>::IS_PARENT,
-            visit = Self::visit::<J> as fn(&mut _, &_) -> WrenchSeries<Scalar>,
+            JointPair::<T, I, J>::IS_PARENT,
+            visit = Self::visit::<J> as fn(&mut _, &_) -> WrenchSeries<R>,
             {
                 let child = visit(self, &field);
                 total = WrenchSeries { f: total.f + child.f, n: total.n + child.n };
@@ -150,28 +138,28 @@ where
         let mut rates = [tau, rate, half_accel + half_accel];
         add_joint_torque_rates(self.call.effects, I, at, [qdd, jerk, snap], &mut rates);
         self.tau[I] = rates;
-        total.to_parent::<Tree, I>(&turn, slide)
+        total.to_parent::<T, I>(&turn, slide)
     }
 }
 
 /// The acceleration field of a body, in its frame: the components' polynomials in time.
 #[derive(Clone, Copy)]
-struct Field<Scalar> {
-    omega: Series<Vec3<Scalar>>,
+struct Field<R> {
+    omega: Series<Vec3<R>>,
     /// α: the derivative of `omega`, so to t³ of it.
-    alpha: Series<Vec3<Scalar>>,
+    alpha: Series<Vec3<R>>,
     /// U = \[α\]× + \[ω\]×\[ω\]×.
-    u: Series<Mat3<Scalar>>,
+    u: Series<Mat3<R>>,
     /// Acceleration of the origin, in units of length.
-    a: Series<Vec3<Scalar>>,
+    a: Series<Vec3<R>>,
     /// ω ωᵀ.
-    squares: [Sym3<Scalar>; 3],
+    squares: [Sym3<R>; 3],
 }
 
-impl<Scalar: Real> Field<Scalar> {
+impl<R: Real> Field<R> {
     /// The field of a base at rest, where a = −g.
     #[cfg_attr(optimised, inline(always))]
-    fn at_rest(a: Vec3<Scalar>) -> Self {
+    fn at_rest(a: Vec3<R>) -> Self {
         Self {
             omega: Series([Vec3::ZERO; 3]),
             alpha: Series([Vec3::ZERO; 3]),
@@ -186,9 +174,9 @@ impl<Scalar: Real> Field<Scalar> {
     fn across_revolute(
         &self,
         joint: &Joint,
-        turn: &Turn<Scalar>,
-        rate: Scalar,
-        accel: Series<Folded<Scalar>>,
+        turn: &Turn<R>,
+        rate: R,
+        accel: Series<Folded<R>>,
     ) -> Self {
         let (rot, p) = (Mat3::constant(&joint.rot), Vec3::constant(joint.pos));
         let a = turn.enter((self.a + self.u.mul(Series::constant(p))).times_transposed(&rot));
@@ -221,9 +209,9 @@ impl<Scalar: Real> Field<Scalar> {
     fn across_prismatic(
         &self,
         joint: &Joint,
-        q: Series<Folded<Scalar>>,
-        rate: Series<Folded<Scalar>>,
-        accel: Series<Folded<Scalar>>,
+        q: Series<Folded<R>>,
+        rate: Series<Folded<R>>,
+        accel: Series<Folded<R>>,
     ) -> Self {
         let rot = Mat3::constant(&joint.rot);
         let axis = Series::constant(rot.0[2]);
@@ -255,7 +243,7 @@ impl<Scalar: Real> Field<Scalar> {
 
     /// The wrench that accelerates the body's inertia.
     #[cfg_attr(optimised, inline(always))]
-    fn wrench(&self, body: &Inertia<Scalar>) -> WrenchSeries<Scalar> {
+    fn wrench(&self, body: &Inertia<R>) -> WrenchSeries<R> {
         let ([a0, a1, a2], [u0, u1, u2]) = (self.a.0, &self.u.0);
         let [s0, s1, s2] = &self.squares;
         let w0 = wrench(body, a0, u0, s0);
@@ -267,11 +255,7 @@ impl<Scalar: Real> Field<Scalar> {
 
 /// α and U from ω ωᵀ, α_z and U's z column: linear in all three, so for each coefficient.
 #[cfg_attr(optimised, inline(always))]
-fn completed<Scalar: Real>(
-    squares: &Sym3<Scalar>,
-    az: Folded<Scalar>,
-    along: Vec3<Scalar>,
-) -> (Vec3<Scalar>, Mat3<Scalar>) {
+fn completed<R: Real>(squares: &Sym3<R>, az: Folded<R>, along: Vec3<R>) -> (Vec3<R>, Mat3<R>) {
     let (s, [uxz, uyz, uzz]) = (squares, along.0);
     let (ax, ay) = (s.yz - uyz, uxz - s.xz);
     let u = Mat3([
@@ -285,12 +269,7 @@ fn completed<Scalar: Real>(
 /// The wrench of an inertia, f = m a + U h and n = h × a + axial(U Σ − Σ Uᵀ), linear in a, U and ω
 /// ωᵀ: for each coefficient.
 #[cfg_attr(optimised, inline(always))]
-fn wrench<Scalar: Real>(
-    body: &Inertia<Scalar>,
-    a: Vec3<Scalar>,
-    u: &Mat3<Scalar>,
-    squares: &Sym3<Scalar>,
-) -> Wrench<Scalar> {
+fn wrench<R: Real>(body: &Inertia<R>, a: Vec3<R>, u: &Mat3<R>, squares: &Sym3<R>) -> Wrench<R> {
     let (m, [x, y, z]) = (&body.second, u.0);
     // U_yy − U_zz and the others by its symmetric part.
     let zy = squares.zz - squares.yy;
@@ -305,12 +284,12 @@ fn wrench<Scalar: Real>(
 
 /// A force f at the origin and a couple n: the components' polynomials in time.
 #[derive(Clone, Copy)]
-struct WrenchSeries<Scalar> {
-    f: Series<Vec3<Scalar>>,
-    n: Series<Vec3<Scalar>>,
+struct WrenchSeries<R> {
+    f: Series<Vec3<R>>,
+    n: Series<Vec3<R>>,
 }
 
-impl<Scalar: Real> WrenchSeries<Scalar> {
+impl<R: Real> WrenchSeries<R> {
     /// The same, computed before the children's fields: the compiler does not see through it. Left
     /// to itself, it mixes the bodies and keeps more numbers than there are registers, which takes
     /// an eighth of the cycles more.
@@ -322,29 +301,29 @@ impl<Scalar: Real> WrenchSeries<Scalar> {
 
     /// The same in the frame of joint I's parent and about its origin.
     #[cfg_attr(optimised, inline(always))]
-    fn to_parent<Tree: Compiled, const I: usize>(
+    fn to_parent<T: Compiled, const I: usize>(
         self,
-        turn: &Turn<Scalar>,
-        slide: Series<Folded<Scalar>>,
+        turn: &Turn<R>,
+        slide: Series<Folded<R>>,
     ) -> Self {
         let (mut f, mut n) = (self.f, self.n);
-        if !CompiledJoint::<Tree, I>::PRISMATIC {
+        if !CompiledJoint::<T, I>::PRISMATIC {
             (f, n) = (turn.leave(f), turn.leave(n));
         }
         let ([f0, f1, f2], [n0, n1, n2]) = (f.0, n.0);
         let f = Series([
-            rotate_to_parent::<Scalar, Tree, I>(f0),
-            rotate_to_parent::<Scalar, Tree, I>(f1),
-            rotate_to_parent::<Scalar, Tree, I>(f2),
+            rotate_to_parent::<R, T, I>(f0),
+            rotate_to_parent::<R, T, I>(f1),
+            rotate_to_parent::<R, T, I>(f2),
         ]);
         let [f0, f1, f2] = f.0;
         let mut n = Series([
-            rotate_to_parent::<Scalar, Tree, I>(n0) + constant_offset_cross::<Scalar, Tree, I>(f0),
-            rotate_to_parent::<Scalar, Tree, I>(n1) + constant_offset_cross::<Scalar, Tree, I>(f1),
-            rotate_to_parent::<Scalar, Tree, I>(n2) + constant_offset_cross::<Scalar, Tree, I>(f2),
+            rotate_to_parent::<R, T, I>(n0) + constant_offset_cross::<R, T, I>(f0),
+            rotate_to_parent::<R, T, I>(n1) + constant_offset_cross::<R, T, I>(f1),
+            rotate_to_parent::<R, T, I>(n2) + constant_offset_cross::<R, T, I>(f2),
         ]);
-        if CompiledJoint::<Tree, I>::PRISMATIC {
-            let axis = Vec3::constant(CompiledJoint::<Tree, I>::JOINT.rot.z_axis);
+        if CompiledJoint::<T, I>::PRISMATIC {
+            let axis = Vec3::constant(CompiledJoint::<T, I>::JOINT.rot.z_axis);
             n = n + Series::constant(axis).scale(slide).cross(f);
         }
         Self { f, n }

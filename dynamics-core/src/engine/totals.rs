@@ -19,17 +19,17 @@ use crate::scalar::Real;
 /// The sums over a body and its descendants, about the origin of the parent, in its frame and in
 /// units of length.
 #[derive(Clone, Copy)]
-pub(super) struct Totals<Scalar> {
-    pub(super) mass: Folded<Scalar>,
-    pub(super) moment: Vec3<Scalar>,
-    pub(super) momentum: Wrench<Scalar>,
+pub(super) struct Totals<R> {
+    pub(super) mass: Folded<R>,
+    pub(super) moment: Vec3<R>,
+    pub(super) momentum: Wrench<R>,
     /// Twice the kinetic energy.
-    pub(super) twice: Folded<Scalar>,
+    pub(super) twice: Folded<R>,
     /// The angular momentum of the rotors on the parent itself, beyond what its inertia includes.
-    spin: Vec3<Scalar>,
+    spin: Vec3<R>,
 }
 
-impl<Scalar: Real> Add for Totals<Scalar> {
+impl<R: Real> Add for Totals<R> {
     type Output = Self;
     #[cfg_attr(optimised, inline(always))]
     fn add(self, o: Self) -> Self {
@@ -43,10 +43,10 @@ impl<Scalar: Real> Add for Totals<Scalar> {
     }
 }
 
-impl<Scalar: Real> Totals<Scalar> {
+impl<R: Real> Totals<R> {
     /// With those of the children, whose rotors turn with the body of the angular velocity ω.
     #[cfg_attr(optimised, inline(always))]
-    fn carrying(self, inner: Self, omega: Vec3<Scalar>) -> Self {
+    fn carrying(self, inner: Self, omega: Vec3<R>) -> Self {
         let along = omega.dot(inner.spin);
         let sum = self + inner;
         Self { twice: sum.twice + along + along, ..sum }
@@ -54,7 +54,7 @@ impl<Scalar: Real> Totals<Scalar> {
 
     /// The centre of mass, m; the base's origin if there is no mass. And 1/m, 1/kg; then zero.
     #[cfg_attr(optimised, inline(always))]
-    pub(super) fn centre(&self, length: f64) -> (Scalar::Vec3, Scalar) {
+    pub(super) fn centre(&self, length: f64) -> (R::Vec3, R) {
         centre(self.mass, self.moment, length)
     }
 }
@@ -62,46 +62,41 @@ impl<Scalar: Real> Totals<Scalar> {
 /// The centre of mass of a mass and a first moment in units of length, m, and the reciprocal of the
 /// mass, 1/kg.
 #[cfg_attr(optimised, inline(always))]
-pub(super) fn centre<Scalar: Real>(
-    mass: Folded<Scalar>,
-    moment: Vec3<Scalar>,
-    length: f64,
-) -> (Scalar::Vec3, Scalar) {
+pub(super) fn centre<R: Real>(mass: Folded<R>, moment: Vec3<R>, length: f64) -> (R::Vec3, R) {
     let mass = (mass * Folded::constant(1.0 / (length * length))).get();
-    let mass_inv = if mass > Scalar::ZERO { Scalar::ONE / mass } else { Scalar::ZERO };
+    let mass_inv = if mass > R::ZERO { R::ONE / mass } else { R::ZERO };
     let moment = moment.scale(Folded::constant(1.0 / length)).get();
     (moment * mass_inv, mass_inv)
 }
 
-impl<Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize>
-    Call<'_, Scalar, Tree, Effects, B, Q, V>
+impl<R, T, E, const B: usize, const Q: usize, const V: usize> Call<'_, R, T, E, B, Q, V>
 where
-    Scalar: Real,
-    Tree: Compiled,
-    Effects: Effect<Scalar, B, V>,
+    R: Real,
+    T: Compiled,
+    E: Effect<R, B, V>,
 {
     /// The totals of all bodies of a robot at rates `qd`, or at rest without them, with what is
     /// fixed to the base. With WHOLE, of which the momentum needs all of Σ.
     #[cfg_attr(optimised, inline(always))]
-    pub(super) fn totals<const WHOLE: bool>(self, qd: Option<&[Scalar; V]>) -> Totals<Scalar> {
+    pub(super) fn totals<const WHOLE: bool>(self, qd: Option<&[R; V]>) -> Totals<R> {
         let mut base = AccelerationField { pose: Pose::UNKNOWN, ..AccelerationField::RESTING };
-        let moves = Effects::BASE_MOTION && qd.is_some();
+        let moves = E::BASE_MOTION && qd.is_some();
         if moves {
             let (v, _) = base_given(self.effects);
             base.omega = Vec3::runtime(v.ang);
-            base.v = Vec3::runtime(v.lin).scale(Folded::constant(Tree::LENGTH_INV));
+            base.v = Vec3::runtime(v.lin).scale(Folded::constant(T::LENGTH_INV));
         }
-        let mut pass = Sums::<Scalar, Tree, Effects, B, Q, V, WHOLE> { call: self, qd };
+        let mut pass = Sums::<R, T, E, B, Q, V, WHOLE> { call: self, qd };
         let moving = sweep(&mut pass, &base);
-        of_body(&base, &fixed(Remainder::<Tree, B, V>::AT_BASE)).carrying(moving, base.omega)
+        of_body(&base, &fixed(Remainder::<T, B, V>::AT_BASE)).carrying(moving, base.omega)
     }
 
     /// Twice the energy of what stands at the coordinates of joint I.
     #[cfg_attr(optimised, inline(always))]
-    fn rotor_energy<const I: usize>(self, qd: &[Scalar; V]) -> Folded<Scalar> {
-        let mut twice = Scalar::ZERO;
+    fn rotor_energy<const I: usize>(self, qd: &[R; V]) -> Folded<R> {
+        let mut twice = R::ZERO;
         for_each_joint!(K, {
-            if JointPair::<Tree, I, K>::IS_COORDINATE
+            if JointPair::<T, I, K>::IS_COORDINATE
                 && let Some(inertia) = self.effects.inertia(K)
             {
                 twice += inertia * qd[K] * qd[K];
@@ -113,7 +108,7 @@ where
 
 /// The inertia that is fixed to the base.
 #[cfg_attr(optimised, inline(always))]
-pub(super) fn fixed<Scalar: Real>(at_base: &'static Distribution) -> Inertia<Scalar> {
+pub(super) fn fixed<R: Real>(at_base: &'static Distribution) -> Inertia<R> {
     Inertia {
         mass: Folded::constant(at_base.mass),
         moment: Vec3::constant(at_base.moment),
@@ -123,10 +118,7 @@ pub(super) fn fixed<Scalar: Real>(at_base: &'static Distribution) -> Inertia<Sca
 
 /// The totals of one body.
 #[cfg_attr(optimised, inline(always))]
-fn of_body<Scalar: Real>(
-    body: &AccelerationField<Scalar>,
-    own: &Inertia<Scalar>,
-) -> Totals<Scalar> {
+fn of_body<R: Real>(body: &AccelerationField<R>, own: &Inertia<R>) -> Totals<R> {
     let h = momentum(body, own);
     Totals {
         mass: own.mass,
@@ -137,36 +129,20 @@ fn of_body<Scalar: Real>(
     }
 }
 
-struct Sums<
-    'a,
-    Scalar,
-    Tree,
-    Effects,
-    const B: usize,
-    const Q: usize,
-    const V: usize,
-    const WHOLE: bool,
-> {
-    call: Call<'a, Scalar, Tree, Effects, B, Q, V>,
-    qd: Option<&'a [Scalar; V]>,
+struct Sums<'a, R, T, E, const B: usize, const Q: usize, const V: usize, const WHOLE: bool> {
+    call: Call<'a, R, T, E, B, Q, V>,
+    qd: Option<&'a [R; V]>,
 }
 
-impl<
-    Scalar: Real,
-    Tree: Compiled,
-    Effects,
-    const B: usize,
-    const Q: usize,
-    const V: usize,
-    const WHOLE: bool,
-> Pass for Sums<'_, Scalar, Tree, Effects, B, Q, V, WHOLE>
+impl<R: Real, T: Compiled, E, const B: usize, const Q: usize, const V: usize, const WHOLE: bool>
+    Pass for Sums<'_, R, T, E, B, Q, V, WHOLE>
 where
-    Effects: Effect<Scalar, B, V>,
+    E: Effect<R, B, V>,
 {
-    type Tree = Tree;
-    type Outward = AccelerationField<Scalar>;
-    type Inward = Totals<Scalar>;
-    const NOTHING: Totals<Scalar> = Totals {
+    type Tree = T;
+    type Outward = AccelerationField<R>;
+    type Inward = Totals<R>;
+    const NOTHING: Totals<R> = Totals {
         mass: Folded::ZERO,
         moment: Vec3::ZERO,
         momentum: Wrench::ZERO,
@@ -175,11 +151,8 @@ where
     };
 
     #[cfg_attr(optimised, inline(always))]
-    fn enter<const I: usize>(
-        &mut self,
-        parent: &AccelerationField<Scalar>,
-    ) -> AccelerationField<Scalar> {
-        let none = [Scalar::ZERO; V];
+    fn enter<const I: usize>(&mut self, parent: &AccelerationField<R>) -> AccelerationField<R> {
+        let none = [R::ZERO; V];
         let motions = Motions {
             turns: self.call.turns,
             qd: self.qd.unwrap_or(&none),
@@ -188,16 +161,16 @@ where
             products: false,
             accel: false,
         };
-        motions.field::<Tree, I>(parent)
+        motions.field::<T, I>(parent)
     }
 
     #[cfg_attr(optimised, inline(always))]
     fn leave<const I: usize>(
         &mut self,
-        body: &AccelerationField<Scalar>,
-        inner: Totals<Scalar>,
-    ) -> Totals<Scalar> {
-        let own = self.call.inertia::<I>(WHOLE | Effects::BASE_MOTION);
+        body: &AccelerationField<R>,
+        inner: Totals<R>,
+    ) -> Totals<R> {
+        let own = self.call.inertia::<I>(WHOLE | E::BASE_MOTION);
         let mut here = of_body(body, &own).carrying(inner, body.omega);
         let mut rotor = Wrench::ZERO;
         if let Some(qd) = self.qd {

@@ -92,11 +92,6 @@ impl JointKinds {
     pub(super) const REVOLUTE: Self =
         Self::NONE.with(JointKind::Revolute).with(JointKind::Continuous);
 
-    /// Rotations about one axis and none: continuous joints are revolute ones here, so that two
-    /// kinds are left, which the compiler tells apart by one branch.
-    pub(super) const REVOLUTE_OR_FIXED: Self =
-        Self::NONE.with(JointKind::Revolute).with(JointKind::Fixed);
-
     /// Whether each is one of these.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) const fn are_revolute(self) -> bool {

@@ -281,21 +281,6 @@ impl<R: Real> LinkView<'_, R> {
         }
     }
 
-    /// The same where the compiler knows the kinds of joint: unit vectors by their numbers, and for
-    /// a fixed joint, which has no column, one that takes no code.
-    #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn unit_subspace(
-        &self,
-        turns: &[JointCoordinate<R>],
-        k: usize,
-    ) -> MotionSubspace<R> {
-        match self.kind {
-            Spherical | Free => MotionSubspace::Unit(k),
-            Fixed => MotionSubspace::RevoluteZ,
-            _ => self.subspace(turns, k),
-        }
-    }
-
     /// Sᵀ f: the components of a force along the joint's coordinates, stored in their entries of
     /// `tau`.
     #[cfg_attr(optimised, inline(always))]

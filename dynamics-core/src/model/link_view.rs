@@ -60,13 +60,6 @@ impl<'a, R: Real> LinkView<'a, R> {
         self.idx_v..self.idx_v + count
     }
 
-    /// Whether its joint has more coordinates than one.
-    #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn has_several(&self) -> bool {
-        let (_, count) = self.kind.coordinates();
-        count > 1
-    }
-
     /// The position that belongs to the velocity coordinate k; zero where none does, as with the ω
     /// of a quaternion.
     #[cfg_attr(optimised, inline(always))]

@@ -99,7 +99,7 @@ pub use named::{Bodies, BodyNumber, OnBody};
 pub use possible::ImpossibleInertia;
 pub use pruned::Pruned;
 pub use robot::{Arm, Robot, model};
-pub use source::{AllRevolute, Calibrated, RevoluteChain, RevoluteOrFixed, RobotModel, Static};
+pub use source::{AllRevolute, Calibrated, RevoluteChain, RobotModel, Static};
 
 use self::aligned::{aligned, is_finite};
 use crate::scalar::Real;

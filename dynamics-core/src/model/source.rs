@@ -5,7 +5,7 @@ use core::marker::PhantomData;
 use super::{JointKinds, LinkView, Model, ModelError, Robot, model};
 use crate::scalar::{Native, Real};
 use crate::spatial::{SpatialInertia, Xform};
-use crate::trig::{Kernel, VECTORS};
+use crate::trig::Kernel;
 
 /// A robot of B bodies, Q position and V velocity coordinates, with the properties that are known
 /// at compile time: the machine code contains only the kinds of joint that it has.
@@ -29,9 +29,6 @@ pub trait RobotModel<R: Real, const B: usize, const Q: usize, const V: usize> {
     /// [`as_revolute_chain`](Self::as_revolute_chain) are not called, so that no second form of an
     /// algorithm is compiled, not even without optimisation.
     const MAY_BE_REVOLUTE: bool = false;
-    /// The same of joints that are revolute or fixed, and of
-    /// [`as_revolute_or_fixed`](Self::as_revolute_or_fixed).
-    const MAY_HAVE_FIXED: bool = false;
 
     /// The robot's numbers.
     fn model(&self) -> &Model<R, B, Q, V>;
@@ -56,14 +53,6 @@ pub trait RobotModel<R: Real, const B: usize, const Q: usize, const V: usize> {
     fn has_screws(&self) -> bool {
         let asked = || self.links().all(|link| link.is_placed_by_screws());
         const { Self::SCREWS }.unwrap_or_else(asked)
-    }
-
-    /// The same robot as one of revolute and fixed joints only, if a model loaded at run time is
-    /// one and has fixed joints. Only on processors with vectors: the flash of others is short for
-    /// one more form of each algorithm.
-    #[cfg_attr(optimised, inline(always))]
-    fn as_revolute_or_fixed(&self) -> Option<RevoluteOrFixed<'_, R, B, Q, V>> {
-        None
     }
 
     /// The links, parents first, each with the properties of its joint that are known at compile
@@ -93,7 +82,6 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize> RobotModel<R, B, Q
 {
     type Kernel = Native;
     const MAY_BE_REVOLUTE: bool = B == Q && B == V;
-    const MAY_HAVE_FIXED: bool = VECTORS && B > V && Q == V;
 
     #[cfg_attr(optimised, inline(always))]
     fn model(&self) -> &Self {
@@ -110,12 +98,6 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize> RobotModel<R, B, Q
     fn as_revolute_chain(&self) -> Option<RevoluteChain<'_, R, B, Q, V>> {
         let only = Self::MAY_BE_REVOLUTE && self.kinds.are_revolute() & self.chain;
         only.then_some(AllRevolute(self))
-    }
-
-    #[cfg_attr(optimised, inline(always))]
-    fn as_revolute_or_fixed(&self) -> Option<RevoluteOrFixed<'_, R, B, Q, V>> {
-        let only = Self::MAY_HAVE_FIXED && self.kinds.are_revolute_or_fixed();
-        only.then_some(RevoluteOrFixed(self))
     }
 }
 
@@ -147,26 +129,6 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize, const SERIAL: bool
     const KINDS: JointKinds = JointKinds::REVOLUTE;
     const CHAIN: bool = SERIAL;
     const SINGLE: bool = true;
-
-    #[cfg_attr(optimised, inline(always))]
-    fn model(&self) -> &Model<R, B, Q, V> {
-        self.0
-    }
-}
-
-/// A [`Model`] of which each joint is known to be revolute or fixed:
-/// [`RobotModel::as_revolute_or_fixed`] makes it.
-#[derive(Clone, Copy, Debug)]
-#[doc(hidden)]
-pub struct RevoluteOrFixed<'a, R: Real, const B: usize, const Q: usize, const V: usize>(
-    &'a Model<R, B, Q, V>,
-);
-
-impl<R: Real, const B: usize, const Q: usize, const V: usize> RobotModel<R, B, Q, V>
-    for RevoluteOrFixed<'_, R, B, Q, V>
-{
-    type Kernel = Native;
-    const KINDS: JointKinds = JointKinds::REVOLUTE_OR_FIXED;
 
     #[cfg_attr(optimised, inline(always))]
     fn model(&self) -> &Model<R, B, Q, V> {

@@ -4,7 +4,7 @@ use crate::model::Body;
 
 /// A rigid part, its numbers in the frame of the body that it is welded to.
 #[derive(Clone, Copy)]
-pub(super) struct Part {
+pub(super) struct WeldedPart {
     /// kg
     pub mass: f64,
     /// m
@@ -13,7 +13,7 @@ pub(super) struct Part {
     pub inertia: [f64; 6],
 }
 
-impl Part {
+impl WeldedPart {
     /// The same part, its frame's origin at `xyz` in the body's frame and its axes parallel.
     pub const fn at(mut self, xyz: [f64; 3]) -> Self {
         let mut i = 0;

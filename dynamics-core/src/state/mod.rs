@@ -102,13 +102,7 @@ impl<R: Real, const Q: usize> JointTrig<R, Q> {
             return Self { coordinates: q.map(JointCoordinate::with_kernel::<K>) };
         }
         let mut turns = [JointCoordinate::default(); Q];
-        if const { D::MAY_BE_REVOLUTE }
-            && let Some(robot) = robot.as_all_revolute()
-        {
-            robot.links().for_each(|link| link.pose::<K>(q, &mut turns));
-        } else {
-            robot.links().for_each(|link| link.pose::<K>(q, &mut turns));
-        }
+        robot.links().for_each(|link| link.pose::<K>(q, &mut turns));
         Self { coordinates: turns }
     }
 }

@@ -12,7 +12,7 @@ use dynamics_core::state::State;
 use firmware_demo::scene::Scene;
 use firmware_demo::scenes::so101_teach::TaughtPath;
 use identification::files::recorded::Recorded;
-use identification::files::report::Found;
+use identification::files::report::Findings;
 use identification::files::robot::Robot;
 use identification::files::run::{self, JointEffect, Options};
 use robot_import::import::Options as Selection;
@@ -55,7 +55,7 @@ fn described() -> Robot {
 }
 
 /// The torques of the description with what was found, as it is pasted.
-fn torques(robot: &Robot, found: &Found, at: &State<f64, 6, 6>) -> [f64; 6] {
+fn torques(robot: &Robot, found: &Findings, at: &State<f64, 6, 6>) -> [f64; 6] {
     let mut tree = robot.imported.tree.clone();
     for (body, own) in tree.bodies.iter_mut().zip(&found.bodies) {
         body.inertia =
@@ -75,7 +75,7 @@ fn torques(robot: &Robot, found: &Found, at: &State<f64, 6, 6>) -> [f64; 6] {
 
 /// The errors on the path that is taught: of each joint, the root mean square and the largest, of
 /// the largest torque.
-fn errors(robot: &Robot, found: &Found) -> [[f64; 2]; 6] {
+fn errors(robot: &Robot, found: &Findings) -> [[f64; 2]; 6] {
     let path = TaughtPath::reference().expect("a path");
     let (mut errors, mut largest, mut count) = ([[0.0_f64; 2]; 6], [0.0_f64; 6], 0.0);
     for tick in (0..path.ticks()).step_by(9) {

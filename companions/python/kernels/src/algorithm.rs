@@ -6,21 +6,10 @@ use dynamics_core::scalar::Real;
 use crate::job::{Failure, Problem, Row, Rows};
 use crate::lanes::Lanes;
 use crate::model::Counts;
-use crate::scene::Parts;
+use crate::scene::{Parts, Terms};
 
 /// Nothing, or where it cannot be computed.
 pub type Done = Result<(), Failure>;
-
-/// The terms of a scene.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Terms {
-    /// Whether products of accelerations act.
-    pub inertia: bool,
-    /// Whether products of velocities act.
-    pub coriolis: bool,
-    /// Effects at bodies, at the base or in gears.
-    pub extra: bool,
-}
 
 /// The general models for which an algorithm is compiled: each costs as much machine code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

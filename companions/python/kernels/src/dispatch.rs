@@ -4,22 +4,9 @@
 use dynamics_core::model::RobotModel;
 use dynamics_core::scalar::Real;
 
-use crate::algorithm::{Algorithm, Call, Done, Terms};
+use crate::algorithm::{Algorithm, Call, Done};
 use crate::job::{Failure, Row, Rows};
-use crate::spec::Spec;
-
-/// The terms that the effects of a scene have.
-pub fn terms_of(effects: &[Spec]) -> Terms {
-    let mut terms = Terms::default();
-    for effect in effects {
-        match effect {
-            Spec::Inertia => terms.inertia = true,
-            Spec::Coriolis => terms.coriolis = true,
-            effect => terms.extra |= effect.is_extra(),
-        }
-    }
-    terms
-}
+use crate::scene::Terms;
 
 /// Computes the rows one after the other. One that has no result because an argument is not finite
 /// marks itself.

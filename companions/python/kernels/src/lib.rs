@@ -20,7 +20,7 @@ use dynamics_core::loops::Moving;
 use dynamics_core::model::RobotModel;
 use dynamics_core::scalar::Real;
 
-use algorithm::{Algorithm, Call, Sizes, Terms};
+use algorithm::{Algorithm, Call, Sizes};
 use flexible::AnyModes;
 use job::{Failure, Job};
 use lanes::{Blocks, LANES, Lanes};
@@ -81,7 +81,7 @@ macro_rules! which {
                         setting: Setting<'_>,
                         rows: &mut Job<'_, Self>,
                     ) -> Result<(), Failure> {
-                        let which = which.of(dispatch::terms_of(setting.effects));
+                        let which = which.of(spec::terms_of(setting.effects));
                         match which {
                             $(Which::$name $({ $($field),* })? => {
                                 let algorithm = algorithms::$name { $($($field),*)? };
@@ -192,7 +192,7 @@ impl WithLanes for f32 {
         rows: &mut Job<'_, Self>,
     ) -> Result<(), Failure> {
         let count = rows.rows / LANES;
-        let terms = dispatch::terms_of(setting.effects);
+        let terms = spec::terms_of(setting.effects);
         if !O::LANES || count == 0 || terms.extra || !O::fits(terms) {
             return over(algorithm, models, setting, rows);
         }
@@ -233,7 +233,7 @@ fn in_lanes<O: Algorithm>(
             algorithm.blocks(Call {
                 robot: &Cut($robot, counts.bodies),
                 counts,
-                terms: dispatch::terms_of(effects),
+                terms: spec::terms_of(effects),
                 parts: &spec::parts(effects, &body),
                 rows,
             })
@@ -260,7 +260,7 @@ fn over<O: Algorithm, R: Real>(
     rows: &mut Job<'_, R>,
 ) -> Result<(), Failure> {
     let Setting { counts, effects, body } = setting;
-    let terms: Terms = dispatch::terms_of(effects);
+    let terms: Terms = spec::terms_of(effects);
     let bodies = if O::WHOLE { usize::MAX } else { counts.bodies };
     macro_rules! run {
         ($robot:expr) => {{

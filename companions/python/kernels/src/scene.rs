@@ -11,8 +11,18 @@ use dynamics_core::effects::{
 use dynamics_core::scalar::Real;
 use dynamics_core::spatial::{Force, Motion, SpatialInertia};
 
-use crate::algorithm::Terms;
 use crate::model::LARGE;
+
+/// The terms of a scene.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Terms {
+    /// Whether products of accelerations act.
+    pub inertia: bool,
+    /// Whether products of velocities act.
+    pub coriolis: bool,
+    /// Effects at bodies, at the base or in gears.
+    pub extra: bool,
+}
 
 /// The most harmonics of cogging.
 pub const HARMONICS: usize = 8;

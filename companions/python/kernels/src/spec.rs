@@ -9,8 +9,7 @@ use dynamics_core::scalar::{Real, Vector};
 use dynamics_core::spatial::{Force, Motion};
 use serde::{Deserialize, Serialize};
 
-use crate::dispatch::terms_of;
-use crate::scene::{At, AtBody, AtJoint, HARMONICS, Parts};
+use crate::scene::{At, AtBody, AtJoint, HARMONICS, Parts, Terms};
 
 /// A body by its number or its name.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -489,4 +488,17 @@ fn of_joints<R: Real>(spec: &Spec) -> Option<Box<dyn AtJoint<R>>> {
         EndStops { lower: array, upper: array, stiffness: number, damping: number, damping_depth: wide }
         Cogging { per_turn: array, cos: rows, sin: rows }
     })
+}
+
+/// The terms that the effects of a scene have.
+pub fn terms_of(effects: &[Spec]) -> Terms {
+    let mut terms = Terms::default();
+    for effect in effects {
+        match effect {
+            Spec::Inertia => terms.inertia = true,
+            Spec::Coriolis => terms.coriolis = true,
+            effect => terms.extra |= effect.is_extra(),
+        }
+    }
+    terms
 }

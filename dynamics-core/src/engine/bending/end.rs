@@ -6,7 +6,7 @@
 
 use super::for_each_mode;
 use super::motion::Mode;
-use super::table::{Bends, Bent, HasMode, MODES};
+use super::table::{BendingBody, Bends, HasMode, MODES};
 use crate::engine::acceleration_field::{AccelerationField, Wrench, u_of};
 use crate::engine::folding::{Folded, Mat3, Vec3};
 use crate::scalar::Real;
@@ -14,58 +14,58 @@ use crate::scalar::Real;
 /// The acceleration field that a joint stands on: that of the body before it, or of the end of a
 /// link that bends.
 #[derive(Clone, Copy)]
-pub(super) struct Stand<Scalar> {
-    pub(super) field: AccelerationField<Scalar>,
+pub(super) struct Stand<R> {
+    pub(super) field: AccelerationField<R>,
     /// An angle that adds to that of the joint: its cosine, and its sine along its axis.
-    pub(super) sin: Vec3<Scalar>,
-    pub(super) cos: Folded<Scalar>,
+    pub(super) sin: Vec3<R>,
+    pub(super) cos: Folded<R>,
 }
 
-impl<Scalar: Real> Stand<Scalar> {
+impl<R: Real> Stand<R> {
     /// A body that does not bend, or the base.
     #[cfg_attr(optimised, inline(always))]
-    pub(super) fn rigid(field: AccelerationField<Scalar>) -> Self {
+    pub(super) fn rigid(field: AccelerationField<R>) -> Self {
         Self { field, sin: Vec3::ZERO, cos: Folded::ONE }
     }
 }
 
 /// The end of a link, in the link's axes.
 #[derive(Clone, Copy)]
-pub(super) struct End<Scalar> {
+pub(super) struct End<R> {
     /// The place.
-    point: Vec3<Scalar>,
-    g: Vec3<Scalar>,
+    point: Vec3<R>,
+    g: Vec3<R>,
     /// 2 / (1 + g²)
-    scale: Folded<Scalar>,
+    scale: Folded<R>,
 }
 
 /// φₖ and ½ ψₖ, times the coordinates or their rates.
 #[derive(Clone, Copy)]
-struct Sum<Scalar> {
-    shift: Vec3<Scalar>,
-    g: Vec3<Scalar>,
+struct Sum<R> {
+    shift: Vec3<R>,
+    g: Vec3<R>,
 }
 
-impl<Scalar: Real> Sum<Scalar> {
+impl<R: Real> Sum<R> {
     const ZERO: Self = Self { shift: Vec3::ZERO, g: Vec3::ZERO };
 
     #[cfg_attr(optimised, inline(always))]
-    fn plus(self, shift: Vec3<Scalar>, half_turn: Vec3<Scalar>, rate: Folded<Scalar>) -> Self {
+    fn plus(self, shift: Vec3<R>, half_turn: Vec3<R>, rate: Folded<R>) -> Self {
         Self { shift: self.shift + shift.scale(rate), g: self.g + half_turn.scale(rate) }
     }
 }
 
-impl<Scalar: Real> End<Scalar> {
+impl<R: Real> End<R> {
     /// The end of the body of joint I, whose field is `field`, and its own, in the link's axes.
     #[cfg_attr(optimised, inline(always))]
-    pub(super) fn of<Tree: Bends, const I: usize, const MOVES: bool>(
-        field: &AccelerationField<Scalar>,
-        bent: &[Mode<Scalar>; MODES],
-    ) -> (Self, AccelerationField<Scalar>) {
+    pub(super) fn of<T: Bends, const I: usize, const MOVES: bool>(
+        field: &AccelerationField<R>,
+        bent: &[Mode<R>; MODES],
+    ) -> (Self, AccelerationField<R>) {
         let [mut bend, mut velocity, mut products, mut accel] = [Sum::ZERO; 4];
         for_each_mode!(K, {
-            if HasMode::<Tree, I, K>::IS {
-                let (mode, of) = (const { &Bent::<Tree, I, MOVES>::LINK.modes[K] }, bent[K]);
+            if HasMode::<T, I, K>::IS {
+                let (mode, of) = (const { &BendingBody::<T, I, MOVES>::LINK.modes[K] }, bent[K]);
                 let (shift, turn) = (Vec3::constant(mode.shift), Vec3::constant(mode.half_turn));
                 bend = bend.plus(shift, turn, of.eta);
                 velocity = velocity.plus(shift, turn, of.velocity);
@@ -74,12 +74,12 @@ impl<Scalar: Real> End<Scalar> {
             }
         });
         let mut scale = Folded::constant(2.0);
-        if Bent::<Tree, I, MOVES>::TURNS {
+        if BendingBody::<T, I, MOVES>::TURNS {
             let square = bend.g.dot(bend.g).get();
-            scale = Folded::runtime(Scalar::from_f64(2.0) / (Scalar::ONE + square));
+            scale = Folded::runtime(R::from_f64(2.0) / (R::ONE + square));
         }
         let end = Self {
-            point: Vec3::constant(Bent::<Tree, I, MOVES>::LINK.end) + bend.shift,
+            point: Vec3::constant(BendingBody::<T, I, MOVES>::LINK.end) + bend.shift,
             g: bend.g,
             scale,
         };
@@ -89,15 +89,15 @@ impl<Scalar: Real> End<Scalar> {
     /// The field that the joints on the end stand on; `along` is the field of the end in the link's
     /// axes.
     #[cfg_attr(optimised, inline(always))]
-    pub(super) fn stand<Tree: Bends, const I: usize, const MOVES: bool>(
+    pub(super) fn stand<T: Bends, const I: usize, const MOVES: bool>(
         &self,
-        along: &AccelerationField<Scalar>,
-    ) -> Stand<Scalar> {
-        if !Bent::<Tree, I, MOVES>::ADDS_TO_ANGLES {
-            return Stand::rigid(self.turned::<Tree, I, MOVES>(along));
+        along: &AccelerationField<R>,
+    ) -> Stand<R> {
+        if !BendingBody::<T, I, MOVES>::ADDS_TO_ANGLES {
+            return Stand::rigid(self.turned::<T, I, MOVES>(along));
         }
         let mut stand = Stand::rigid(*along);
-        if Bent::<Tree, I, MOVES>::TURNS {
+        if BendingBody::<T, I, MOVES>::TURNS {
             stand.sin = self.g.scale(self.scale);
             stand.cos = self.scale - Folded::ONE;
         }
@@ -108,11 +108,11 @@ impl<Scalar: Real> End<Scalar> {
     #[cfg_attr(optimised, inline(always))]
     fn moved(
         &self,
-        field: &AccelerationField<Scalar>,
-        velocity: Sum<Scalar>,
-        products: Sum<Scalar>,
-        accel: Sum<Scalar>,
-    ) -> AccelerationField<Scalar> {
+        field: &AccelerationField<R>,
+        velocity: Sum<R>,
+        products: Sum<R>,
+        accel: Sum<R>,
+    ) -> AccelerationField<R> {
         let omega = field.omega_products;
         let spin = self.omega(products.g);
         let slowing = spin.scale(self.scale * self.g.dot(products.g));
@@ -134,11 +134,11 @@ impl<Scalar: Real> End<Scalar> {
 
     /// The same in the axes of the end.
     #[cfg_attr(optimised, inline(always))]
-    pub(super) fn turned<Tree: Bends, const I: usize, const MOVES: bool>(
+    pub(super) fn turned<T: Bends, const I: usize, const MOVES: bool>(
         &self,
-        field: &AccelerationField<Scalar>,
-    ) -> AccelerationField<Scalar> {
-        if !Bent::<Tree, I, MOVES>::TURNS {
+        field: &AccelerationField<R>,
+    ) -> AccelerationField<R> {
+        if !BendingBody::<T, I, MOVES>::TURNS {
             return *field;
         }
         let axes = self.axes();
@@ -156,7 +156,7 @@ impl<Scalar: Real> End<Scalar> {
 
     /// From the link's axes to the end's: (1 − g²)/(1 + g²) 1 + 2/(1 + g²) (g gᵀ − g×).
     #[cfg_attr(optimised, inline(always))]
-    fn axes(&self) -> Mat3<Scalar> {
+    fn axes(&self) -> Mat3<R> {
         let ([x, y, z], [dx, dy, dz]) = (self.g.0, self.g.scale(self.scale).0);
         let diagonal = self.scale - Folded::ONE;
         Mat3([
@@ -168,17 +168,17 @@ impl<Scalar: Real> End<Scalar> {
 
     /// The angular velocity of ġ.
     #[cfg_attr(optimised, inline(always))]
-    fn omega(&self, g_dot: Vec3<Scalar>) -> Vec3<Scalar> {
+    fn omega(&self, g_dot: Vec3<R>) -> Vec3<R> {
         (g_dot + self.g.cross(g_dot)).scale(self.scale)
     }
 
     /// A wrench about the end in the link's axes, from those of the end.
     #[cfg_attr(optimised, inline(always))]
-    pub(super) fn turned_back<Tree: Bends, const I: usize, const MOVES: bool>(
+    pub(super) fn turned_back<T: Bends, const I: usize, const MOVES: bool>(
         &self,
-        load: Wrench<Scalar>,
-    ) -> Wrench<Scalar> {
-        if !Bent::<Tree, I, MOVES>::TURNS {
+        load: Wrench<R>,
+    ) -> Wrench<R> {
+        if !BendingBody::<T, I, MOVES>::TURNS {
             return load;
         }
         let axes = self.axes();
@@ -188,15 +188,15 @@ impl<Scalar: Real> End<Scalar> {
     /// Adds the work of a wrench about the end, in the link's axes, to the forces on the modes;
     /// returns it about the link's joint.
     #[cfg_attr(optimised, inline(always))]
-    pub(super) fn carry<Tree: Bends, const I: usize, const MOVES: bool>(
+    pub(super) fn carry<T: Bends, const I: usize, const MOVES: bool>(
         &self,
-        load: Wrench<Scalar>,
-        forces: &mut [Folded<Scalar>; MODES],
-    ) -> Wrench<Scalar> {
+        load: Wrench<R>,
+        forces: &mut [Folded<R>; MODES],
+    ) -> Wrench<R> {
         let couple = (load.n - self.g.cross(load.n)).scale(self.scale);
         for_each_mode!(K, {
-            if HasMode::<Tree, I, K>::IS {
-                let mode = const { &Bent::<Tree, I, MOVES>::LINK.modes[K] };
+            if HasMode::<T, I, K>::IS {
+                let mode = const { &BendingBody::<T, I, MOVES>::LINK.modes[K] };
                 forces[K] = forces[K]
                     + Vec3::constant(mode.shift).dot(load.f)
                     + Vec3::constant(mode.half_turn).dot(couple);

@@ -9,7 +9,7 @@
 
 use super::for_each_mode;
 use super::motion::Mode;
-use super::table::{Bends, Bent, HasMode, MODES, axial, trace};
+use super::table::{BendingBody, Bends, HasMode, MODES, axial, trace};
 use crate::engine::acceleration_field::{AccelerationField, Inertia, Wrench};
 use crate::engine::folding::{Folded, Mat3, Sym3, Vec3};
 use crate::scalar::Real;
@@ -17,16 +17,16 @@ use crate::scalar::Real;
 /// The wrench that accelerates the body of joint I, bent, and what its modes need; with stiffness
 /// and damping, if the scene has these.
 #[cfg_attr(optimised, inline(always))]
-pub(super) fn bent_wrench<Scalar, Tree, const I: usize, const MOVES: bool>(
-    field: &AccelerationField<Scalar>,
-    rigid: Inertia<Scalar>,
-    bent: &[Mode<Scalar>; MODES],
+pub(super) fn bent_wrench<R, T, const I: usize, const MOVES: bool>(
+    field: &AccelerationField<R>,
+    rigid: Inertia<R>,
+    bent: &[Mode<R>; MODES],
     elastic: bool,
-    forces: &mut [Folded<Scalar>; MODES],
-) -> Wrench<Scalar>
+    forces: &mut [Folded<R>; MODES],
+) -> Wrench<R>
 where
-    Scalar: Real,
-    Tree: Bends,
+    R: Real,
+    T: Bends,
 {
     let twice = field.omega_products + field.omega_products;
     let mut body = rigid;
@@ -34,22 +34,24 @@ where
     let (mut drift, mut push) = (Vec3::ZERO, Vec3::ZERO);
     let (mut drifts, mut drift_trace, mut couple) = (Mat3::ZERO, Folded::ZERO, Vec3::ZERO);
     for_each_mode!(K, {
-        if HasMode::<Tree, I, K>::IS {
-            let mode = const { &Bent::<Tree, I, MOVES>::LINK.modes[K] };
+        if HasMode::<T, I, K>::IS {
+            let mode = const { &BendingBody::<T, I, MOVES>::LINK.modes[K] };
             let (momentum, own) = (Vec3::constant(mode.momentum), bent[K]);
             let rest = Mat3::constant(&mode.moments);
             let (mut moments, mut force) = (rest, momentum.dot(field.a));
             let mut swing =
-                Vec3::constant(const { axial(&Bent::<Tree, I, MOVES>::LINK.modes[K].moments) });
-            let mut spread =
-                Folded::constant(const { trace(&Bent::<Tree, I, MOVES>::LINK.modes[K].moments) });
+                Vec3::constant(const { axial(&BendingBody::<T, I, MOVES>::LINK.modes[K].moments) });
+            let mut spread = Folded::constant(
+                const { trace(&BendingBody::<T, I, MOVES>::LINK.modes[K].moments) },
+            );
             for_each_mode!(L, {
-                if HasMode::<Tree, I, L>::IS {
+                if HasMode::<T, I, L>::IS {
                     let (other, product) = (bent[L], Mat3::constant(&mode.products[L]));
                     let across = Vec3::constant(
-                        const { axial(&Bent::<Tree, I, MOVES>::LINK.modes[K].products[L]) },
+                        const { axial(&BendingBody::<T, I, MOVES>::LINK.modes[K].products[L]) },
                     );
-                    let along = const { trace(&Bent::<Tree, I, MOVES>::LINK.modes[K].products[L]) };
+                    let along =
+                        const { trace(&BendingBody::<T, I, MOVES>::LINK.modes[K].products[L]) };
                     moments = moments + scaled(product, other.eta);
                     swing = swing + across.scale(other.eta);
                     spread = spread + Folded::constant(along) * other.eta;
@@ -80,12 +82,12 @@ where
 }
 
 #[cfg_attr(optimised, inline(always))]
-fn scaled<Scalar: Real>(Mat3([x, y, z]): Mat3<Scalar>, s: Folded<Scalar>) -> Mat3<Scalar> {
+fn scaled<R: Real>(Mat3([x, y, z]): Mat3<R>, s: Folded<R>) -> Mat3<R> {
     Mat3([x.scale(s), y.scale(s), z.scale(s)])
 }
 
 /// A : B, the sum of the products of their entries.
 #[cfg_attr(optimised, inline(always))]
-fn contracted<Scalar: Real>(a: &Mat3<Scalar>, b: &Mat3<Scalar>) -> Folded<Scalar> {
+fn contracted<R: Real>(a: &Mat3<R>, b: &Mat3<R>) -> Folded<R> {
     a.0[0].dot(b.0[0]) + a.0[1].dot(b.0[1]) + a.0[2].dot(b.0[2])
 }

@@ -13,9 +13,9 @@ use core::marker::PhantomData;
 
 use end::{End, Stand};
 use link::bent_wrench;
-use motion::{Measured, Mode, Moves, Of, Unit};
+use motion::{Measured, Mode, Moves, SceneType, Unit};
+use table::{BendingBody, Ends, HasMode};
 pub(crate) use table::{BendingLink, BendingMode, Bends, MODES};
-use table::{Bent, Ends, HasMode};
 
 use super::acceleration_field::{AccelerationField, Wrench};
 use super::call::Call;
@@ -41,35 +41,34 @@ use for_each_mode;
 struct Bending<
     'a,
     'b,
-    Scalar: Real,
-    Tree,
-    Effects,
+    R: Real,
+    T,
+    E,
     Course,
     const B: usize,
     const Q: usize,
     const V: usize,
     const M: usize,
 > {
-    rigid: &'a mut Task<'b, Scalar, Tree, Effects, (), B, Q, V>,
+    rigid: &'a mut Task<'b, R, T, E, (), B, Q, V>,
     moves: Course,
-    forces: &'a mut [Scalar; M],
+    forces: &'a mut [R; M],
 }
 
-impl<Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize>
-    Call<'_, Scalar, Tree, Effects, B, Q, V>
+impl<R, T, E, const B: usize, const Q: usize, const V: usize> Call<'_, R, T, E, B, Q, V>
 where
-    Scalar: Real,
-    Tree: Bends,
-    Effects: Effect<Scalar, B, V>,
+    R: Real,
+    T: Bends,
+    E: Effect<R, B, V>,
 {
     /// The torques of the joints and the forces on the modes.
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn bending_torques<const M: usize>(
         self,
-        joints: &State<Scalar, Q, V>,
-        modes: &State<Scalar, M, M>,
-    ) -> ([Scalar; V], [Scalar; M]) {
-        let moves = Measured { joints, modes, effects: PhantomData::<Of<Effects, B>> };
+        joints: &State<R, Q, V>,
+        modes: &State<R, M, M>,
+    ) -> ([R; V], [R; M]) {
+        let moves = Measured { joints, modes, effects: PhantomData::<SceneType<E, B>> };
         self.swept(joints, moves, &self.base())
     }
 
@@ -78,13 +77,13 @@ where
     #[cfg_attr(optimised, inline(always))]
     pub(crate) fn bending_inertia<const M: usize, const JOINTS: bool>(
         self,
-        eta: &[Scalar; M],
-    ) -> Blocks<Scalar, V, M> {
-        let mut m = ([[Scalar::ZERO; V]; V], [[Scalar::ZERO; V]; M], [[Scalar::ZERO; M]; M]);
+        eta: &[R; M],
+    ) -> Blocks<R, V, M> {
+        let mut m = ([[R::ZERO; V]; V], [[R::ZERO; V]; M], [[R::ZERO; M]; M]);
         for_each_joint!(
             L,
             const { is_column(L, V, M, JOINTS) },
-            column = Self::column::<M, L> as fn(_, &_) -> ([Scalar; V], [Scalar; M]),
+            column = Self::column::<M, L> as fn(_, &_) -> ([R; V], [R; M]),
             {
                 let (tau, forces) = column(self, eta);
                 // Bodies and links are in the order of the tree: what is before a coordinate has
@@ -107,33 +106,30 @@ where
 
     /// The torques and forces that a unit acceleration of coordinate L needs.
     #[cfg_attr(optimised, inline(always))]
-    fn column<const M: usize, const L: usize>(
-        self,
-        eta: &[Scalar; M],
-    ) -> ([Scalar; V], [Scalar; M]) {
-        let (moves, base) = (Unit::<Scalar, V, M, L> { eta }, AccelerationField::RESTING);
-        self.swept(&State::at([Scalar::ZERO; Q]), moves, &base)
+    fn column<const M: usize, const L: usize>(self, eta: &[R; M]) -> ([R; V], [R; M]) {
+        let (moves, base) = (Unit::<R, V, M, L> { eta }, AccelerationField::RESTING);
+        self.swept(&State::at([R::ZERO; Q]), moves, &base)
     }
 
     /// The recursion from the base.
     #[cfg_attr(optimised, inline(always))]
     fn swept<Course, const M: usize>(
         self,
-        joints: &State<Scalar, Q, V>,
+        joints: &State<R, Q, V>,
         moves: Course,
-        base: &AccelerationField<Scalar>,
-    ) -> ([Scalar; V], [Scalar; M])
+        base: &AccelerationField<R>,
+    ) -> ([R; V], [R; M])
     where
-        Course: Moves<Scalar>,
+        Course: Moves<R>,
     {
-        let (mut tau, mut forces) = ([Scalar::ZERO; V], [Scalar::ZERO; M]);
+        let (mut tau, mut forces) = ([R::ZERO; V], [R::ZERO; M]);
         let mut rigid =
             Task { call: self, back: self.turns, state: joints, tau: &mut tau, seen: () };
         let mut task = Bending { rigid: &mut rigid, moves, forces: &mut forces };
         let stand = Stand::rigid(*base);
         for_each_joint!(
             J,
-            CompiledJoint::<Tree, J>::IS_ON_BASE,
+            CompiledJoint::<T, J>::IS_ON_BASE,
             visit = Bending::visit::<J> as fn(&mut _, &_) -> _,
             {
                 let _ = visit(&mut task, &stand);
@@ -144,54 +140,53 @@ where
 }
 
 /// The blocks of M(q, η): joints, a row for each mode between it and the joints, and modes.
-pub(crate) type Blocks<Scalar, const V: usize, const M: usize> =
-    ([[Scalar; V]; V], [[Scalar; V]; M], [[Scalar; M]; M]);
+pub(crate) type Blocks<R, const V: usize, const M: usize> = ([[R; V]; V], [[R; V]; M], [[R; M]; M]);
 
 /// Whether there is a coordinate L.
 const fn is_column(l: usize, joints: usize, modes: usize, all: bool) -> bool {
     l < joints + modes && (all || l >= joints)
 }
 
-impl<Scalar, Tree, Effects, Course, const B: usize, const Q: usize, const V: usize, const M: usize>
-    Bending<'_, '_, Scalar, Tree, Effects, Course, B, Q, V, M>
+impl<R, T, E, Course, const B: usize, const Q: usize, const V: usize, const M: usize>
+    Bending<'_, '_, R, T, E, Course, B, Q, V, M>
 where
-    Scalar: Real,
-    Tree: Bends,
-    Effects: Effect<Scalar, B, V>,
-    Course: Moves<Scalar>,
+    R: Real,
+    T: Bends,
+    E: Effect<R, B, V>,
+    Course: Moves<R>,
 {
     /// Visits joint I and its descendants; returns the wrench that they need from what they stand
     /// on.
     #[cfg_attr(optimised, inline(always))]
-    fn visit<const I: usize>(&mut self, on: &Stand<Scalar>) -> Wrench<Scalar> {
+    fn visit<const I: usize>(&mut self, on: &Stand<R>) -> Wrench<R> {
         let rates = self.moves.joint(I);
         let mut bent = Mode::NO_MODES;
         for_each_mode!(K, {
-            if HasMode::<Tree, I, K>::IS {
-                bent[K] = self.moves.mode(const { Bent::<Tree, I, true>::LINK.first + K });
+            if HasMode::<T, I, K>::IS {
+                bent[K] = self.moves.mode(const { BendingBody::<T, I, true>::LINK.first + K });
             }
         });
         let at = self.stood::<I>(on);
         let mut field = on.field.across(&at, rates);
-        if Effects::BODY_POSE {
+        if E::BODY_POSE {
             field.pose = on.field.pose.transformed_by(&at);
         }
-        let moves = const { Course::ALL && Effects::BASE_MOTION };
+        let moves = const { Course::ALL && E::BASE_MOTION };
         let body = self.rigid.call.inertia::<I>(moves);
         let mut forces = [Folded::ZERO; MODES];
-        let elastic = const { Course::ALL && Effects::ELASTICITY };
+        let elastic = const { Course::ALL && E::ELASTICITY };
         let mut total = if moves {
-            bent_wrench::<Scalar, Tree, I, true>(&field, body, &bent, elastic, &mut forces)
+            bent_wrench::<R, T, I, true>(&field, body, &bent, elastic, &mut forces)
         } else {
-            bent_wrench::<Scalar, Tree, I, false>(&field, body, &bent, elastic, &mut forces)
+            bent_wrench::<R, T, I, false>(&field, body, &bent, elastic, &mut forces)
         };
-        if const { Course::ALL && Effects::WRENCH } {
+        if const { Course::ALL && E::WRENCH } {
             total = self.rigid.call.environment::<I>(&field, total);
         }
-        if !Bent::<Tree, I, true>::IS {
+        if !BendingBody::<T, I, true>::IS {
             let load = self.children::<I>(&Stand::rigid(field));
             total = total + load;
-        } else if !Bent::<Tree, I, true>::IS_LAST {
+        } else if !BendingBody::<T, I, true>::IS_LAST {
             total = total
                 + if moves {
                     self.beyond::<I, true>(&field, &bent, &mut forces)
@@ -200,14 +195,14 @@ where
                 };
         }
         for_each_mode!(K, {
-            if HasMode::<Tree, I, K>::IS {
-                self.forces[const { Bent::<Tree, I, true>::LINK.first + K }] = forces[K].get();
+            if HasMode::<T, I, K>::IS {
+                self.forces[const { BendingBody::<T, I, true>::LINK.first + K }] = forces[K].get();
             }
         });
         if Course::ALL {
             self.rigid.drive::<I>(&total);
         } else {
-            let along = total.along(CompiledJoint::<Tree, I>::JOINT, Folded::ONE);
+            let along = total.along(CompiledJoint::<T, I>::JOINT, Folded::ONE);
             self.rigid.tau[I] = along.get();
         }
         total.to_parent(&at)
@@ -217,38 +212,36 @@ where
     #[cfg_attr(optimised, inline(always))]
     fn beyond<const I: usize, const MOVES: bool>(
         &mut self,
-        field: &AccelerationField<Scalar>,
-        bent: &[Mode<Scalar>; MODES],
-        forces: &mut [Folded<Scalar>; MODES],
-    ) -> Wrench<Scalar> {
-        let (end, along) = End::of::<Tree, I, MOVES>(field, bent);
-        let stand = end.stand::<Tree, I, MOVES>(&along);
+        field: &AccelerationField<R>,
+        bent: &[Mode<R>; MODES],
+        forces: &mut [Folded<R>; MODES],
+    ) -> Wrench<R> {
+        let (end, along) = End::of::<T, I, MOVES>(field, bent);
+        let stand = end.stand::<T, I, MOVES>(&along);
         let mut load = self.children::<I>(&stand);
-        if !Bent::<Tree, I, MOVES>::ADDS_TO_ANGLES {
-            load = end.turned_back::<Tree, I, MOVES>(load);
+        if !BendingBody::<T, I, MOVES>::ADDS_TO_ANGLES {
+            load = end.turned_back::<T, I, MOVES>(load);
         }
-        if Bent::<Tree, I, MOVES>::HAS_BODY_ON_END {
-            let at = end.turned::<Tree, I, MOVES>(&along);
-            let ends = Call::<Scalar, Ends<Tree>, Effects, B, Q, V>::new(
-                self.rigid.call.turns,
-                self.rigid.call.effects,
-            );
+        if BendingBody::<T, I, MOVES>::HAS_BODY_ON_END {
+            let at = end.turned::<T, I, MOVES>(&along);
+            let ends =
+                Call::<R, Ends<T>, E, B, Q, V>::new(self.rigid.call.turns, self.rigid.call.effects);
             let mut fixed = at.wrench(&ends.inertia::<I>(MOVES));
-            if const { Course::ALL && Effects::WRENCH } {
+            if const { Course::ALL && E::WRENCH } {
                 fixed = ends.environment::<I>(&at, fixed);
             }
-            load = load + end.turned_back::<Tree, I, MOVES>(fixed);
+            load = load + end.turned_back::<T, I, MOVES>(fixed);
         }
-        end.carry::<Tree, I, MOVES>(load, forces)
+        end.carry::<T, I, MOVES>(load, forces)
     }
 
     /// The sum over the children of joint I.
     #[cfg_attr(optimised, inline(always))]
-    fn children<const I: usize>(&mut self, on: &Stand<Scalar>) -> Wrench<Scalar> {
+    fn children<const I: usize>(&mut self, on: &Stand<R>) -> Wrench<R> {
         let mut total = Wrench::ZERO;
         for_each_joint!(
             J,
-            JointPair::<Tree, I, J>::IS_CHILD,
+            JointPair::<T, I, J>::IS_CHILD,
             visit = Self::visit::<J> as fn(&mut _, &_) -> _,
             {
                 total = total + visit(self, on);
@@ -259,9 +252,9 @@ where
 
     /// The displacement of joint I, its angle with that of what it stands on.
     #[cfg_attr(optimised, inline(always))]
-    fn stood<const I: usize>(&self, on: &Stand<Scalar>) -> Displacement<Scalar, Tree, I> {
+    fn stood<const I: usize>(&self, on: &Stand<R>) -> Displacement<R, T, I> {
         let at = self.rigid.call.displacement::<I>();
-        let axis = super::folding::Vec3::constant(CompiledJoint::<Tree, I>::JOINT.rot.z_axis);
+        let axis = super::folding::Vec3::constant(CompiledJoint::<T, I>::JOINT.rot.z_axis);
         let (s, c) = (Folded::runtime(at.turn.sin), Folded::runtime(at.turn.cos));
         let (sin, cos) = (on.sin.dot(axis), on.cos);
         let turn = JointCoordinate {

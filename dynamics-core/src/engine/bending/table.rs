@@ -40,14 +40,14 @@ pub(crate) trait Bends: Compiled {
 }
 
 /// The bodies that are fixed on the ends of a robot's links.
-pub(super) struct Ends<Tree>(PhantomData<Tree>);
+pub(super) struct Ends<T>(PhantomData<T>);
 
-impl<Tree: Bends> Compiled for Ends<Tree> {
-    const LINKS: &'static [Link<f64>] = Tree::LINKS;
-    const JOINTS: &'static [Joint] = Tree::END_JOINTS;
-    const PLACES: &'static [BodyPlacement] = Tree::END_PLACES;
-    const LENGTH: f64 = Tree::LENGTH;
-    const SUPPORT: &'static [u64] = Tree::SUPPORT;
+impl<T: Bends> Compiled for Ends<T> {
+    const LINKS: &'static [Link<f64>] = T::LINKS;
+    const JOINTS: &'static [Joint] = T::END_JOINTS;
+    const PLACES: &'static [BodyPlacement] = T::END_PLACES;
+    const LENGTH: f64 = T::LENGTH;
+    const SUPPORT: &'static [u64] = T::SUPPORT;
 }
 
 /// The modes of a body, in the frame of its joint; none of a rigid one.
@@ -196,11 +196,11 @@ pub(super) const fn axial(m: &DMat3) -> DVec3 {
 }
 
 /// The body of joint I, on a base that moves or at rest.
-pub(super) struct Bent<Tree, const I: usize, const MOVES: bool>(PhantomData<Tree>);
+pub(super) struct BendingBody<T, const I: usize, const MOVES: bool>(PhantomData<T>);
 
-impl<Tree: Bends, const I: usize, const MOVES: bool> Bent<Tree, I, MOVES> {
+impl<T: Bends, const I: usize, const MOVES: bool> BendingBody<T, I, MOVES> {
     pub(super) const LINK: &'static BendingLink = {
-        let links = if MOVES { Tree::MOVING } else { Tree::AT_REST };
+        let links = if MOVES { T::MOVING } else { T::AT_REST };
         if I < links.len() { &links[I] } else { &BendingLink::RIGID }
     };
     /// Whether it has modes.
@@ -211,8 +211,8 @@ impl<Tree: Bends, const I: usize, const MOVES: bool> Bent<Tree, I, MOVES> {
     /// larger, and nothing is rotated twice.
     pub(super) const ADDS_TO_ANGLES: bool = {
         let (mut all, mut j) = (true, 0);
-        while j < Tree::JOINTS.len() {
-            let joint = &Tree::JOINTS[j];
+        while j < T::JOINTS.len() {
+            let joint = &T::JOINTS[j];
             if joint.parent == I {
                 let at_end = joint.pos.x == 0.0 && joint.pos.y == 0.0 && joint.pos.z == 0.0;
                 all &= matches!(joint.motion, JointMotion::Turn)
@@ -224,12 +224,12 @@ impl<Tree: Bends, const I: usize, const MOVES: bool> Bent<Tree, I, MOVES> {
         all
     };
     /// Whether a body is fixed on its end.
-    pub(super) const HAS_BODY_ON_END: bool = CompiledJoint::<Ends<Tree>, I>::BODIES > 0;
+    pub(super) const HAS_BODY_ON_END: bool = CompiledJoint::<Ends<T>, I>::BODIES > 0;
     /// Whether nothing is on its end.
     pub(super) const IS_LAST: bool = {
         let (mut last, mut j) = (!Self::HAS_BODY_ON_END, 0);
-        while j < Tree::JOINTS.len() {
-            last &= Tree::JOINTS[j].parent != CompiledJoint::<Tree, I>::LAST;
+        while j < T::JOINTS.len() {
+            last &= T::JOINTS[j].parent != CompiledJoint::<T, I>::LAST;
             j += 1;
         }
         last
@@ -237,8 +237,8 @@ impl<Tree: Bends, const I: usize, const MOVES: bool> Bent<Tree, I, MOVES> {
 }
 
 /// Whether the body of joint I has a K-th mode.
-pub(super) struct HasMode<Tree, const I: usize, const K: usize>(PhantomData<Tree>);
+pub(super) struct HasMode<T, const I: usize, const K: usize>(PhantomData<T>);
 
-impl<Tree: Bends, const I: usize, const K: usize> HasMode<Tree, I, K> {
-    pub(super) const IS: bool = K < Bent::<Tree, I, true>::LINK.count;
+impl<T: Bends, const I: usize, const K: usize> HasMode<T, I, K> {
+    pub(super) const IS: bool = K < BendingBody::<T, I, true>::LINK.count;
 }

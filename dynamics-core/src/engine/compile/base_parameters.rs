@@ -68,19 +68,19 @@ pub(super) const fn regroup<const V: usize>(
 
 /// The parameters that a parent receives at the joint's origin: a mass, the first moment of a rod
 /// along z, and a second moment.
-pub(super) struct Passed {
+pub(super) struct Transfer {
     pub(super) mass: f64,
     pub(super) rod: f64,
     pub(super) spread: DMat3,
 }
 
-impl Passed {
+impl Transfer {
     const NOTHING: Self = Self { mass: 0.0, rod: 0.0, spread: DMat3::ZERO };
 }
 
 /// Takes from a body what the joint that moves it passes to the end of a parent that bends.
-const fn passed_to_end(body: &mut Joint, by: &Joint) -> Passed {
-    let mut passed = Passed::NOTHING;
+const fn passed_to_end(body: &mut Joint, by: &Joint) -> Transfer {
+    let mut passed = Transfer::NOTHING;
     let turns = matches!(by.motion, JointMotion::Turn | JointMotion::Spherical);
     if turns && by.pos.x == 0.0 && by.pos.y == 0.0 && by.pos.z == 0.0 {
         passed.mass = body.mass;
@@ -90,8 +90,8 @@ const fn passed_to_end(body: &mut Joint, by: &Joint) -> Passed {
 }
 
 /// Takes from a body what its joint passes to the parent.
-pub(super) const fn passed(body: &mut Joint, motion: JointMotion) -> Passed {
-    let mut passed = Passed::NOTHING;
+pub(super) const fn passed(body: &mut Joint, motion: JointMotion) -> Transfer {
+    let mut passed = Transfer::NOTHING;
     if matches!(motion, JointMotion::Slide) {
         passed.spread = body.second;
         body.second = DMat3::ZERO;

@@ -14,35 +14,35 @@ use crate::math::const_eval::{dot, mul, scale, sqrt, transpose};
 use crate::model::{BASE, Bodies, JointKind};
 
 /// The cut between the K-th body of the list and its parent, beside joint I or the base.
-pub(crate) struct Cut<Tree, List, const N: usize, const I: usize, const K: usize>(
-    PhantomData<(Tree, List)>,
+pub(crate) struct Cut<T, List, const N: usize, const I: usize, const K: usize>(
+    PhantomData<(T, List)>,
 );
 
-impl<Tree: Compiled, List: Bodies<N>, const N: usize, const I: usize, const K: usize>
-    Cut<Tree, List, N, I, K>
+impl<T: Compiled, List: Bodies<N>, const N: usize, const I: usize, const K: usize>
+    Cut<T, List, N, I, K>
 {
     const BODY: usize = if K < N { List::NUMBERS[K] } else { BASE };
     /// The place of the body.
     pub(crate) const PLACE: &'static BodyPlacement = {
         assert!(
-            K >= N || Self::BODY < Tree::PLACES.len(),
+            K >= N || Self::BODY < T::PLACES.len(),
             "a named body is one that the robot does not have: bodies are numbered from 0"
         );
-        &place::<Tree>(Self::BODY)
+        &place::<T>(Self::BODY)
     };
-    const LAST: usize = CompiledJoint::<Tree, I>::LAST;
+    const LAST: usize = CompiledJoint::<T, I>::LAST;
     /// Whether there is such a body, and it moves with the joint, or stands on the base.
     pub(crate) const IS_ON_JOINT: bool = K < N && Self::PLACE.joint == Self::LAST;
     /// Whether there is such a body, and the joint is on it or on what it carries as one with it.
     pub(crate) const CARRIES_JOINT: bool =
-        K < N && is_parent::<Tree>(Self::PLACE.joint, I) && is_joint_beyond::<Tree>(Self::BODY, I);
+        K < N && is_parent::<T>(Self::PLACE.joint, I) && is_joint_beyond::<T>(Self::BODY, I);
     /// Whether everything that moves with the joint is beyond the cut, and what regrouping left to
     /// it is all that its joint does not pass on: on the base, less is left.
-    pub(crate) const IS_WHOLE: bool = joint::<Tree>(joint::<Tree>(I).first).parent != BASE
-        && is_whole::<Tree>(Self::BODY, Self::LAST);
+    pub(crate) const IS_WHOLE: bool =
+        joint::<T>(joint::<T>(I).first).parent != BASE && is_whole::<T>(Self::BODY, Self::LAST);
     /// The parameters that the joint passes to its parent.
     pub(crate) const PASSED: &'static Distribution = &if Self::IS_ON_JOINT {
-        passed_by(carried::<Tree>(Self::LAST, BASE), joint::<Tree>(I).motion)
+        passed_by(carried::<T>(Self::LAST, BASE), joint::<T>(I).motion)
     } else {
         Distribution::NOTHING
     };
@@ -56,51 +56,51 @@ impl<Tree: Compiled, List: Bodies<N>, const N: usize, const I: usize, const K: u
     };
     /// Those beyond the cut, without what is left beyond the joints there.
     pub(crate) const CARRIED: &'static Distribution = &if Self::IS_ON_JOINT {
-        carried::<Tree>(Self::LAST, Self::BODY)
+        carried::<T>(Self::LAST, Self::BODY)
     } else {
         Distribution::NOTHING
     };
     /// Whether a body is beyond the cut, for each body.
     pub(crate) const fn is_beyond(body: usize) -> bool {
-        K < N && body < Tree::LINKS.len() && is_beyond::<Tree>(Self::BODY, body)
+        K < N && body < T::LINKS.len() && is_beyond::<T>(Self::BODY, body)
     }
 }
 
 /// Whether everything that moves with joint `l` is beyond those of these bodies that do.
-pub(crate) const fn are_whole<Tree: Compiled>(bodies: &[usize], l: usize) -> bool {
+pub(crate) const fn are_whole<T: Compiled>(bodies: &[usize], l: usize) -> bool {
     let (mut whole, mut k) = (true, 0);
     while k < bodies.len() {
-        whole &= place::<Tree>(bodies[k]).joint != l || is_whole::<Tree>(bodies[k], l);
+        whole &= place::<T>(bodies[k]).joint != l || is_whole::<T>(bodies[k], l);
         k += 1;
     }
     whole
 }
 
 /// Whether everything that moves with joint `l` is beyond `body`.
-const fn is_whole<Tree: Compiled>(body: usize, l: usize) -> bool {
+const fn is_whole<T: Compiled>(body: usize, l: usize) -> bool {
     let (mut whole, mut k) = (true, 0);
-    while k < Tree::PLACES.len() {
-        whole &= Tree::PLACES[k].joint != l || is_beyond::<Tree>(body, k);
+    while k < T::PLACES.len() {
+        whole &= T::PLACES[k].joint != l || is_beyond::<T>(body, k);
         k += 1;
     }
     whole
 }
 
 /// Whether body `k` is `body`, or is carried by it; all are beyond the base.
-const fn is_beyond<Tree: Compiled>(body: usize, mut k: usize) -> bool {
+const fn is_beyond<T: Compiled>(body: usize, mut k: usize) -> bool {
     while body != BASE && k != BASE && k > body {
-        k = Tree::LINKS[k].parent;
+        k = T::LINKS[k].parent;
     }
     body == BASE || k == body
 }
 
 /// Whether joint `j` is beyond `body`.
-const fn is_joint_beyond<Tree: Compiled>(body: usize, j: usize) -> bool {
+const fn is_joint_beyond<T: Compiled>(body: usize, j: usize) -> bool {
     let mut k = 0;
-    while k < Tree::LINKS.len() {
-        let link = &Tree::LINKS[k];
+    while k < T::LINKS.len() {
+        let link = &T::LINKS[k];
         if link.idx_v == j && !matches!(link.joint.kind, JointKind::Fixed) {
-            return is_beyond::<Tree>(body, k);
+            return is_beyond::<T>(body, k);
         }
         k += 1;
     }
@@ -109,12 +109,12 @@ const fn is_joint_beyond<Tree: Compiled>(body: usize, j: usize) -> bool {
 }
 
 /// The bodies on coordinate `l` beyond `body`, with what the joints on them pass to them.
-const fn carried<Tree: Compiled>(l: usize, body: usize) -> Distribution {
-    let (length, mut sum, mut k) = (Tree::LENGTH, Distribution::NOTHING, 0);
-    while k < Tree::PLACES.len() {
-        let BodyPlacement { joint, rot, pos } = Tree::PLACES[k];
-        if joint == l && is_beyond::<Tree>(body, k) {
-            let link = &Tree::LINKS[k];
+const fn carried<T: Compiled>(l: usize, body: usize) -> Distribution {
+    let (length, mut sum, mut k) = (T::LENGTH, Distribution::NOTHING, 0);
+    while k < T::PLACES.len() {
+        let BodyPlacement { joint, rot, pos } = T::PLACES[k];
+        if joint == l && is_beyond::<T>(body, k) {
+            let link = &T::LINKS[k];
             let own = Distribution {
                 mass: link.inertia.mass * length * length,
                 moment: scale(link.inertia.first_moment, length),
@@ -125,10 +125,10 @@ const fn carried<Tree: Compiled>(l: usize, body: usize) -> Distribution {
         k += 1;
     }
     let mut j = 0;
-    while j < Tree::JOINTS.len() {
-        let by = &Tree::JOINTS[j];
-        if by.parent == l && by.first == j && is_joint_beyond::<Tree>(body, j) {
-            let all = carried::<Tree>(last::<Tree>(j), BASE);
+    while j < T::JOINTS.len() {
+        let by = &T::JOINTS[j];
+        if by.parent == l && by.first == j && is_joint_beyond::<T>(body, j) {
+            let all = carried::<T>(last::<T>(j), BASE);
             sum = sum.plus(passed_by(all, by.motion), &by.rot, by.pos);
         }
         j += 1;

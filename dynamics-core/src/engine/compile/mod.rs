@@ -26,8 +26,8 @@ pub(crate) use base_parameters::{mat_add, outer};
 pub(crate) use cut::{Cut, are_whole};
 pub(crate) use remainder::{Distribution, Remainder};
 pub(crate) use topology::{
-    Compiled, CompiledJoint, CompiledRobot, JointAndBody, JointPair, is_parent, is_slide_beyond,
-    joint, last, load, loads, place, support, supports,
+    Compiled, CompiledJoint, CompiledRobot, JointAndBody, JointPair, has_subtree_functions,
+    is_parent, is_slide_beyond, joint, last, load, loads, place, support, supports,
 };
 pub(crate) use tree::{BendingTree, BodyPlacement, CompiledTree, Joint, JointMotion, OnEnd};
 

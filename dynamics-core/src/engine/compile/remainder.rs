@@ -20,14 +20,14 @@ pub(crate) struct Distribution {
 }
 
 /// The remainder of a compiled robot of B bodies and V joints.
-pub(crate) struct Remainder<Tree, const B: usize, const V: usize>(PhantomData<Tree>);
+pub(crate) struct Remainder<T, const B: usize, const V: usize>(PhantomData<T>);
 
-impl<Tree: Compiled, const B: usize, const V: usize> Remainder<Tree, B, V> {
+impl<T: Compiled, const B: usize, const V: usize> Remainder<T, B, V> {
     /// The bodies of the description less those of the engine: the same at all q, so that q = 0
     /// gives it.
     pub(crate) const AT_BASE: &'static Distribution = &{
-        let all = described::<Tree, B>();
-        let moving = regrouped::<Tree, V>();
+        let all = described::<T, B>();
+        let moving = regrouped::<T, V>();
         // Differences below the rounding of what they are of.
         let size = sqrt(dot(all.moment, all.moment));
         let second = &all.second;
@@ -67,12 +67,12 @@ impl Distribution {
 }
 
 /// All bodies of the description at q = 0.
-const fn described<Tree: Compiled, const B: usize>() -> Distribution {
-    let length = Tree::LENGTH;
+const fn described<T: Compiled, const B: usize>() -> Distribution {
+    let length = T::LENGTH;
     let (mut rots, mut places) = ([DMat3::IDENTITY; B], [DVec3::ZERO; B]);
     let (mut sum, mut i) = (Distribution::NOTHING, 0);
     while i < B {
-        let link = &Tree::LINKS[i];
+        let link = &T::LINKS[i];
         rots[i] = transpose(&link.placement.rot);
         places[i] = link.placement.pos;
         if link.parent != BASE {
@@ -92,11 +92,11 @@ const fn described<Tree: Compiled, const B: usize>() -> Distribution {
 }
 
 /// The bodies of the engine at q = 0.
-const fn regrouped<Tree: Compiled, const V: usize>() -> Distribution {
+const fn regrouped<T: Compiled, const V: usize>() -> Distribution {
     let (mut rots, mut places) = ([DMat3::IDENTITY; V], [DVec3::ZERO; V]);
     let (mut sum, mut i) = (Distribution::NOTHING, 0);
     while i < V {
-        let joint = &Tree::JOINTS[i];
+        let joint = &T::JOINTS[i];
         (rots[i], places[i]) = (joint.rot, joint.pos);
         if joint.parent != BASE {
             let (rot, pos) = (&rots[joint.parent], places[joint.parent]);

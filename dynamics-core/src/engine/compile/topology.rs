@@ -43,17 +43,13 @@ pub(crate) trait Compiled {
     };
 }
 
-/// The robot `Arm`, compiled.
-pub(crate) struct CompiledRobot<Arm, const B: usize, const Q: usize, const V: usize>(
-    PhantomData<Arm>,
-);
+/// The robot `T`, compiled.
+pub(crate) struct CompiledRobot<T, const B: usize, const Q: usize, const V: usize>(PhantomData<T>);
 
-impl<Arm: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>
-    CompiledRobot<Arm, B, Q, V>
-{
+impl<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize> CompiledRobot<T, B, Q, V> {
     const TREE: &'static CompiledTree<B, V> = &{
         assert!(V <= 64, "the engine takes up to 64 velocity coordinates; use `Core`");
-        compile(&Arm::MODEL, Arm::NEGLIGIBLE)
+        compile(&T::MODEL, T::NEGLIGIBLE)
     };
 
     /// For a robot of revolute joints alone: whether the limits of all of them are within two turns
@@ -70,10 +66,10 @@ impl<Arm: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>
     };
 }
 
-impl<Arm: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize> Compiled
-    for CompiledRobot<Arm, B, Q, V>
+impl<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize> Compiled
+    for CompiledRobot<T, B, Q, V>
 {
-    const LINKS: &'static [Link<f64>] = &Arm::MODEL.links;
+    const LINKS: &'static [Link<f64>] = &T::MODEL.links;
     const JOINTS: &'static [Joint] = &Self::TREE.joints;
     const PLACES: &'static [BodyPlacement] = &Self::TREE.places;
     const LENGTH: f64 = Self::TREE.length;
@@ -95,48 +91,48 @@ pub(crate) const fn support<const V: usize>(joints: &[Joint; V]) -> [u64; V] {
 }
 
 /// Whether joint `i`, or the base, is the parent of joint `j`.
-pub(crate) const fn is_parent<Tree: Compiled>(i: usize, j: usize) -> bool {
-    j < Tree::JOINTS.len() && Tree::JOINTS[j].parent == i
+pub(crate) const fn is_parent<T: Compiled>(i: usize, j: usize) -> bool {
+    j < T::JOINTS.len() && T::JOINTS[j].parent == i
 }
 
 /// Whether joint `k` is joint `i` or supports it.
-pub(crate) const fn supports<Tree: Compiled>(k: usize, i: usize) -> bool {
-    let n = Tree::SUPPORT.len();
-    k < n && i < n && Tree::SUPPORT[i] & (1 << k) != 0
+pub(crate) const fn supports<T: Compiled>(k: usize, i: usize) -> bool {
+    let n = T::SUPPORT.len();
+    k < n && i < n && T::SUPPORT[i] & (1 << k) != 0
 }
 
 /// Whether joint `k` supports joint `i`.
-pub(crate) const fn is_ancestor<Tree: Compiled>(k: usize, i: usize) -> bool {
-    k != i && supports::<Tree>(k, i)
+pub(crate) const fn is_ancestor<T: Compiled>(k: usize, i: usize) -> bool {
+    k != i && supports::<T>(k, i)
 }
 
 /// Whether joint `k` supports joint `i`, another one, which moves its body's origin in the parent's
 /// frame.
-pub(crate) const fn is_slide_beyond<Tree: Compiled>(k: usize, i: usize) -> bool {
-    if !is_ancestor::<Tree>(k, i) {
+pub(crate) const fn is_slide_beyond<T: Compiled>(k: usize, i: usize) -> bool {
+    if !is_ancestor::<T>(k, i) {
         return false;
     }
-    let joint = &Tree::JOINTS[i];
-    joint.first != Tree::JOINTS[k].first
+    let joint = &T::JOINTS[i];
+    joint.first != T::JOINTS[k].first
         && (joint.prismatic || matches!(joint.motion, JointMotion::Screw))
 }
 
 /// Whether joint `i` is revolute and has no children, and the inertia left to its body is Σ =
 /// diag(a, a, 0) alone.
-const fn is_round<Tree: Compiled>(i: usize) -> bool {
+const fn is_round<T: Compiled>(i: usize) -> bool {
     let mut k = 0;
-    while k < Tree::JOINTS.len() {
-        if is_parent::<Tree>(i, k) {
+    while k < T::JOINTS.len() {
+        if is_parent::<T>(i, k) {
             return false;
         }
         k += 1;
     }
-    let Joint { moment: h, second, .. } = joint::<Tree>(i);
+    let Joint { moment: h, second, .. } = joint::<T>(i);
     let (x, y) = (second.x_axis, second.y_axis);
     let sides = [h.x, h.y, x.y, x.z, y.z, x.x - y.y];
     // If the base moves, more than this Σ is left to a body on the base.
-    let turns = matches!(joint::<Tree>(i).motion, JointMotion::Turn);
-    let mut all = turns && joint::<Tree>(i).parent != BASE;
+    let turns = matches!(joint::<T>(i).motion, JointMotion::Turn);
+    let mut all = turns && joint::<T>(i).parent != BASE;
     k = 0;
     while k < sides.len() {
         all &= sides[k] == 0.0;
@@ -146,32 +142,32 @@ const fn is_round<Tree: Compiled>(i: usize) -> bool {
 }
 
 /// The placement of a body of the description; beyond the last one, the base.
-pub(crate) const fn place<Tree: Compiled>(body: usize) -> BodyPlacement {
-    if body < Tree::PLACES.len() { Tree::PLACES[body] } else { AT_BASE }
+pub(crate) const fn place<T: Compiled>(body: usize) -> BodyPlacement {
+    if body < T::PLACES.len() { T::PLACES[body] } else { AT_BASE }
 }
 
 /// The last coordinate of the joint of coordinate `i`: that of its body.
-pub(crate) const fn last<Tree: Compiled>(i: usize) -> usize {
-    let joint = joint::<Tree>(i);
+pub(crate) const fn last<T: Compiled>(i: usize) -> usize {
+    let joint = joint::<T>(i);
     joint.first + joint.count - 1
 }
 
 /// Whether joint `i` is one of several joints in a row on parallel axes, of which the first is on
 /// the joint on the base and perpendicular to it.
-const fn is_parallel<Tree: Compiled>(i: usize) -> bool {
-    let own = joint::<Tree>(i);
-    let first = joint::<Tree>(own.parent);
+const fn is_parallel<T: Compiled>(i: usize) -> bool {
+    let own = joint::<T>(i);
+    let first = joint::<T>(own.parent);
     if own.parent == BASE || !is_turn(&own) {
         return false;
     }
     if first.parent != BASE {
-        return follows(&own) && is_parallel::<Tree>(own.parent);
+        return follows(&own) && is_parallel::<T>(own.parent);
     }
     let z = own.rot.z_axis;
     let perpendicular = z.z == 0.0 && own.pos.x * z.x + own.pos.y * z.y == 0.0;
     let mut k = 0;
-    while k < Tree::JOINTS.len() {
-        if Tree::JOINTS[k].parent == i && follows(&Tree::JOINTS[k]) {
+    while k < T::JOINTS.len() {
+        if T::JOINTS[k].parent == i && follows(&T::JOINTS[k]) {
             return perpendicular && is_turn(&first);
         }
         k += 1;
@@ -189,20 +185,20 @@ const fn is_turn(joint: &Joint) -> bool {
 }
 
 /// The last ancestor of joint `i` that is one of them, or the base.
-const fn last_parallel<Tree: Compiled>(i: usize) -> usize {
-    let mut k = joint::<Tree>(i).parent;
-    while k != BASE && !is_parallel::<Tree>(k) {
-        k = joint::<Tree>(k).parent;
+const fn last_parallel<T: Compiled>(i: usize) -> usize {
+    let mut k = joint::<T>(i).parent;
+    while k != BASE && !is_parallel::<T>(k) {
+        k = joint::<T>(k).parent;
     }
     k
 }
 
 /// The spin of joint `i` without those of its children on parallel axes.
-const fn own_spin<Tree: Compiled>(i: usize) -> f64 {
-    let (mut spin, mut k) = (joint::<Tree>(i).spin, 0);
-    while k < Tree::JOINTS.len() {
-        if Tree::JOINTS[k].parent == i && is_parallel::<Tree>(k) {
-            spin -= Tree::JOINTS[k].spin;
+const fn own_spin<T: Compiled>(i: usize) -> f64 {
+    let (mut spin, mut k) = (joint::<T>(i).spin, 0);
+    while k < T::JOINTS.len() {
+        if T::JOINTS[k].parent == i && is_parallel::<T>(k) {
+            spin -= T::JOINTS[k].spin;
         }
         k += 1;
     }
@@ -210,19 +206,19 @@ const fn own_spin<Tree: Compiled>(i: usize) -> f64 {
 }
 
 /// The joint on the base that supports joint `i`.
-const fn root<Tree: Compiled>(i: usize) -> usize {
+const fn root<T: Compiled>(i: usize) -> usize {
     let mut k = i;
-    while joint::<Tree>(k).parent != BASE {
-        k = joint::<Tree>(k).parent;
+    while joint::<T>(k).parent != BASE {
+        k = joint::<T>(k).parent;
     }
     k
 }
 
 /// The number of `loaded` bodies that move with joint `i`.
-pub(crate) const fn loads<Tree: Compiled>(i: usize, loaded: &[bool]) -> usize {
+pub(crate) const fn loads<T: Compiled>(i: usize, loaded: &[bool]) -> usize {
     let (mut count, mut body) = (0, 0);
     while body < loaded.len() {
-        if loaded[body] && Tree::PLACES[body].joint == i {
+        if loaded[body] && T::PLACES[body].joint == i {
             count += 1;
         }
         body += 1;
@@ -231,10 +227,10 @@ pub(crate) const fn loads<Tree: Compiled>(i: usize, loaded: &[bool]) -> usize {
 }
 
 /// The `k`-th of them, or the number of all bodies.
-pub(crate) const fn load<Tree: Compiled>(i: usize, k: usize, loaded: &[bool]) -> usize {
+pub(crate) const fn load<T: Compiled>(i: usize, k: usize, loaded: &[bool]) -> usize {
     let (mut count, mut body) = (0, 0);
     while body < loaded.len() {
-        if loaded[body] && Tree::PLACES[body].joint == i {
+        if loaded[body] && T::PLACES[body].joint == i {
             if count == k {
                 return body;
             }
@@ -246,10 +242,10 @@ pub(crate) const fn load<Tree: Compiled>(i: usize, k: usize, loaded: &[bool]) ->
 }
 
 /// The number of bodies that move with joint `i` as one.
-const fn bodies_on<Tree: Compiled>(i: usize) -> usize {
+const fn bodies_on<T: Compiled>(i: usize) -> usize {
     let (mut count, mut body) = (0, 0);
-    while body < Tree::PLACES.len() {
-        if Tree::PLACES[body].joint == i {
+    while body < T::PLACES.len() {
+        if T::PLACES[body].joint == i {
             count += 1;
         }
         body += 1;
@@ -258,12 +254,12 @@ const fn bodies_on<Tree: Compiled>(i: usize) -> usize {
 }
 
 /// The `k`-th body that moves with joint `i`, and its placement; beyond the last one, the base.
-const fn body_on<Tree: Compiled>(i: usize, k: usize) -> (usize, BodyPlacement) {
+const fn body_on<T: Compiled>(i: usize, k: usize) -> (usize, BodyPlacement) {
     let (mut count, mut body) = (0, 0);
-    while body < Tree::PLACES.len() {
-        if Tree::PLACES[body].joint == i {
+    while body < T::PLACES.len() {
+        if T::PLACES[body].joint == i {
             if count == k {
-                return (body, Tree::PLACES[body]);
+                return (body, T::PLACES[body]);
             }
             count += 1;
         }
@@ -273,18 +269,18 @@ const fn body_on<Tree: Compiled>(i: usize, k: usize) -> (usize, BodyPlacement) {
 }
 
 /// Joint `i`; beyond the last one, the padding joint.
-pub(crate) const fn joint<Tree: Compiled>(i: usize) -> Joint {
-    if i < Tree::JOINTS.len() { Tree::JOINTS[i] } else { PADDING_JOINT }
+pub(crate) const fn joint<T: Compiled>(i: usize) -> Joint {
+    if i < T::JOINTS.len() { T::JOINTS[i] } else { PADDING_JOINT }
 }
 
 /// Joint I of a compiled robot, by constants with names: the compiler evaluates them once, and an
 /// inline `const` block in each instance of the function around it, of which there is one for each
 /// scalar, set of effects and joint.
-pub(crate) struct CompiledJoint<Tree, const I: usize>(PhantomData<Tree>);
+pub(crate) struct CompiledJoint<T, const I: usize>(PhantomData<T>);
 
-impl<Tree: Compiled, const I: usize> CompiledJoint<Tree, I> {
+impl<T: Compiled, const I: usize> CompiledJoint<T, I> {
     /// The joint; beyond the last one, the padding joint.
-    pub(crate) const JOINT: &'static Joint = &joint::<Tree>(I);
+    pub(crate) const JOINT: &'static Joint = &joint::<T>(I);
     /// Whether its velocity is that of a translation.
     pub(crate) const PRISMATIC: bool = Self::JOINT.prismatic;
     /// The motion that it gives the body.
@@ -303,75 +299,89 @@ impl<Tree: Compiled, const I: usize> CompiledJoint<Tree, I> {
     /// The position that belongs to the velocity, if any.
     pub(crate) const POSITION: Option<usize> = Self::JOINT.position;
     /// The first of them.
-    pub(crate) const FIRST: &'static Joint = &joint::<Tree>(Self::JOINT.first);
+    pub(crate) const FIRST: &'static Joint = &joint::<T>(Self::JOINT.first);
     /// The last of them, by whose number the body is known.
-    pub(crate) const LAST: usize = if I < Tree::JOINTS.len() { last::<Tree>(I) } else { I };
+    pub(crate) const LAST: usize = if I < T::JOINTS.len() { last::<T>(I) } else { I };
     /// The same, with the inertia of the body.
-    pub(crate) const BODY: &'static Joint = &joint::<Tree>(Self::LAST);
+    pub(crate) const BODY: &'static Joint = &joint::<T>(Self::LAST);
     /// The parent, or the padding joint.
-    pub(crate) const PARENT: &'static Joint = &joint::<Tree>(Self::JOINT.parent);
+    pub(crate) const PARENT: &'static Joint = &joint::<T>(Self::JOINT.parent);
     /// The first coordinate of the parent's joint, or the padding joint.
-    pub(crate) const PARENT_FIRST: &'static Joint = &joint::<Tree>(Self::PARENT.first);
+    pub(crate) const PARENT_FIRST: &'static Joint = &joint::<T>(Self::PARENT.first);
     /// Whether its parent is the base.
-    pub(crate) const IS_ON_BASE: bool = is_parent::<Tree>(BASE, I);
+    pub(crate) const IS_ON_BASE: bool = is_parent::<T>(BASE, I);
     /// The number of bodies that move with it as one.
-    pub(crate) const BODIES: usize = bodies_on::<Tree>(Self::LAST);
+    pub(crate) const BODIES: usize = bodies_on::<T>(Self::LAST);
     /// Whether it is a last joint, and what regrouping left to its body is the same after any turn.
-    pub(crate) const IS_ROUND: bool = is_round::<Tree>(I);
+    pub(crate) const IS_ROUND: bool = is_round::<T>(I);
     /// Whether it is one of several joints in a row on parallel axes, perpendicular to that of the
     /// joint on the base.
-    pub(crate) const IS_PARALLEL: bool = is_parallel::<Tree>(I);
+    pub(crate) const IS_PARALLEL: bool = is_parallel::<T>(I);
     /// Whether CRBA multiplies its wrench by the motion of the joint on the base in the frame of
     /// one of them.
-    pub(crate) const MEETS_ROOT: bool = Self::IS_PARALLEL || last_parallel::<Tree>(I) != BASE;
+    pub(crate) const MEETS_ROOT: bool = Self::IS_PARALLEL || last_parallel::<T>(I) != BASE;
     /// The inertia that only its own rotation feels, without the part that it shares with children
     /// on parallel axes.
-    pub(crate) const OWN_SPIN: f64 = own_spin::<Tree>(I);
+    pub(crate) const OWN_SPIN: f64 = own_spin::<T>(I);
     /// Whether its parent is the joint on the base.
     pub(crate) const PARENT_ON_BASE: bool =
         Self::JOINT.parent != BASE && Self::PARENT.parent == BASE;
     /// The joint on the base that supports it.
-    pub(crate) const ROOT: usize = root::<Tree>(I);
+    pub(crate) const ROOT: usize = root::<T>(I);
 }
 
 /// Joints I and J of a compiled robot.
-pub(crate) struct JointPair<Tree, const I: usize, const J: usize>(PhantomData<Tree>);
+pub(crate) struct JointPair<T, const I: usize, const J: usize>(PhantomData<T>);
 
-impl<Tree: Compiled, const I: usize, const J: usize> JointPair<Tree, I, J> {
+impl<T: Compiled, const I: usize, const J: usize> JointPair<T, I, J> {
     /// Whether J's wrench, in the frame of I's parent, meets the motion of the joint on the base
     /// there.
-    pub(crate) const IS_MEETING: bool = !CompiledJoint::<Tree, J>::IS_PARALLEL
-        && last_parallel::<Tree>(J) != BASE
-        && last_parallel::<Tree>(J) == CompiledJoint::<Tree, I>::JOINT.parent;
+    pub(crate) const IS_MEETING: bool = !CompiledJoint::<T, J>::IS_PARALLEL
+        && last_parallel::<T>(J) != BASE
+        && last_parallel::<T>(J) == CompiledJoint::<T, I>::JOINT.parent;
     /// Whether I is the parent of J.
-    pub(crate) const IS_PARENT: bool = is_parent::<Tree>(I, J);
+    pub(crate) const IS_PARENT: bool = is_parent::<T>(I, J);
     /// Whether the body of joint I is the parent of J.
-    pub(crate) const IS_CHILD: bool = is_parent::<Tree>(CompiledJoint::<Tree, I>::LAST, J);
+    pub(crate) const IS_CHILD: bool = is_parent::<T>(CompiledJoint::<T, I>::LAST, J);
     /// Whether J is one of the coordinates that move the body of joint I at once.
-    pub(crate) const IS_COORDINATE: bool = I < Tree::JOINTS.len()
-        && J < Tree::JOINTS.len()
-        && Tree::JOINTS[I].first == Tree::JOINTS[J].first;
+    pub(crate) const IS_COORDINATE: bool =
+        I < T::JOINTS.len() && J < T::JOINTS.len() && T::JOINTS[I].first == T::JOINTS[J].first;
     /// Whether I is J or supports it.
-    pub(crate) const SUPPORTS: bool = supports::<Tree>(I, J);
+    pub(crate) const SUPPORTS: bool = supports::<T>(I, J);
     /// Whether I supports J.
-    pub(crate) const IS_ANCESTOR: bool = is_ancestor::<Tree>(I, J);
+    pub(crate) const IS_ANCESTOR: bool = is_ancestor::<T>(I, J);
     /// Whether I supports J, which moves its body's origin in the frame of I.
-    pub(crate) const IS_SLIDE_BEYOND: bool = is_slide_beyond::<Tree>(I, J);
+    pub(crate) const IS_SLIDE_BEYOND: bool = is_slide_beyond::<T>(I, J);
     /// Whether more than J bodies move with joint I.
-    pub(crate) const HAS_BODY: bool = Self::BODY.0 < Tree::PLACES.len();
+    pub(crate) const HAS_BODY: bool = Self::BODY.0 < T::PLACES.len();
     /// The J-th body that moves with joint I, and its placement; beyond the last one, the base.
     pub(crate) const BODY: &'static (usize, BodyPlacement) =
-        &body_on::<Tree>(CompiledJoint::<Tree, I>::LAST, J);
+        &body_on::<T>(CompiledJoint::<T, I>::LAST, J);
 }
 
 /// Joint I of a compiled robot, and a body of the description.
-pub(crate) struct JointAndBody<Tree, const I: usize, const BODY: usize>(PhantomData<Tree>);
+pub(crate) struct JointAndBody<T, const I: usize, const BODY: usize>(PhantomData<T>);
 
-impl<Tree: Compiled, const I: usize, const BODY: usize> JointAndBody<Tree, I, BODY> {
+impl<T: Compiled, const I: usize, const BODY: usize> JointAndBody<T, I, BODY> {
     /// The placement of the body.
-    pub(crate) const PLACE: &'static BodyPlacement = &place::<Tree>(BODY);
+    pub(crate) const PLACE: &'static BodyPlacement = &place::<T>(BODY);
     /// Whether the body moves with the joint as one.
     pub(crate) const IS_ON_JOINT: bool = Self::PLACE.joint == I;
     /// Whether the joint moves the body.
-    pub(crate) const SUPPORTS: bool = supports::<Tree>(I, Self::PLACE.joint);
+    pub(crate) const SUPPORTS: bool = supports::<T>(I, Self::PLACE.joint);
+}
+
+/// Robots of up to this number of joints are one function.
+const WHOLE: usize = 16;
+
+/// Whether a robot is split, in a scene with wrenches on bodies or without.
+pub(crate) const fn has_subtree_functions<T: Compiled>(wrench: bool) -> bool {
+    let (mut joints, mut i) = (0, 0);
+    while i < T::JOINTS.len() {
+        if T::JOINTS[i].first == i {
+            joints += 1;
+        }
+        i += 1;
+    }
+    wrench && joints > WHOLE
 }

@@ -11,33 +11,33 @@ use crate::scalar::Real;
 
 /// The inertia of a body and its descendants, its rates, and the wrench that it needs.
 #[derive(Clone, Copy)]
-pub(super) struct Composite<Scalar> {
-    pub(super) inertia: Inertia<Scalar>,
+pub(super) struct Composite<R> {
+    pub(super) inertia: Inertia<R>,
     /// P.
-    pub(super) momentum: Vec3<Scalar>,
+    pub(super) momentum: Vec3<R>,
     /// D, whose column k is ∫ r ṙ_k dm.
-    pub(super) product: Mat3<Scalar>,
-    pub(super) wrench: Wrench<Scalar>,
+    pub(super) product: Mat3<R>,
+    pub(super) wrench: Wrench<R>,
 }
 
 /// The coefficients of the torque by which a joint feels a change: g δa + κ β + 2 s δω.
 #[derive(Clone, Copy)]
-pub(super) struct Felt<Scalar> {
+pub(super) struct Felt<R> {
     /// (g, κ): the wrench of a unit acceleration.
-    pub(super) unit: Wrench<Scalar>,
-    pub(super) rate: Vec3<Scalar>,
+    pub(super) unit: Wrench<R>,
+    pub(super) rate: Vec3<R>,
 }
 
 /// S of a coordinate, in units of length.
 #[cfg_attr(optimised, inline(always))]
-pub(super) fn subspace<Scalar: Real>(joint: &Joint) -> Twist<Scalar> {
+pub(super) fn subspace<R: Real>(joint: &Joint) -> Twist<R> {
     Twist::along(joint, 1.0, Folded::ONE)
 }
 
-impl<Scalar: Real> Composite<Scalar> {
+impl<R: Real> Composite<R> {
     /// A body alone: P = ω × h, D = Σ \[ω\]×ᵀ.
     #[cfg_attr(optimised, inline(always))]
-    pub(super) fn of(inertia: Inertia<Scalar>, field: &AccelerationField<Scalar>) -> Self {
+    pub(super) fn of(inertia: Inertia<R>, field: &AccelerationField<R>) -> Self {
         let ([wx, wy, wz], [x, y, z]) = (field.omega_products.0, inertia.second.columns());
         let product =
             Mat3([z.scale(wy) - y.scale(wz), x.scale(wz) - z.scale(wx), y.scale(wx) - x.scale(wy)]);
@@ -47,7 +47,7 @@ impl<Scalar: Real> Composite<Scalar> {
 
     /// The wrench by which a change is felt, at the origin.
     #[cfg_attr(optimised, inline(always))]
-    pub(super) fn wrench_by(&self, change: &Change<Scalar>) -> Wrench<Scalar> {
+    pub(super) fn wrench_by(&self, change: &Change<R>) -> Wrench<R> {
         let (h, s, d) = (self.inertia.moment, &self.inertia.second, &self.product.0);
         let (w, beta) = (change.omega, change.beta);
         let [x, y, z] = s.columns();
@@ -61,7 +61,7 @@ impl<Scalar: Real> Composite<Scalar> {
 
     /// The coefficients of a joint's torque, in units of length.
     #[cfg_attr(optimised, inline(always))]
-    pub(super) fn felt(&self, joint: &Joint) -> Felt<Scalar> {
+    pub(super) fn felt(&self, joint: &Joint) -> Felt<R> {
         let Mat3([x, y, z]) = self.product;
         let ([xx, xy, xz], [yx, yy, yz], [zx, zy, zz]) = (x.0, y.0, z.0);
         let turned = match joint.axis {
@@ -77,7 +77,7 @@ impl<Scalar: Real> Composite<Scalar> {
 
     /// The change of the composite's wrench as the joint moves it.
     #[cfg_attr(optimised, inline(always))]
-    pub(super) fn moved_wrench(&self, joint: &Joint) -> Wrench<Scalar> {
+    pub(super) fn moved_wrench(&self, joint: &Joint) -> Wrench<R> {
         let (Wrench { f, n }, s) = (self.wrench, subspace(joint));
         Wrench { f: s.ang.cross(f), n: s.ang.cross(n) + s.lin.cross(f) }
     }
@@ -85,17 +85,16 @@ impl<Scalar: Real> Composite<Scalar> {
     /// The same in the frame of joint I's parent and about its origin, which is `offset` away and
     /// moves more slowly by `step`.
     #[cfg_attr(optimised, inline(always))]
-    pub(super) fn to_parent<Tree: Compiled, const I: usize>(
+    pub(super) fn to_parent<T: Compiled, const I: usize>(
         self,
-        at: &Displacement<Scalar, Tree, I>,
-        step: Vec3<Scalar>,
-        offset: Vec3<Scalar>,
+        at: &Displacement<R, T, I>,
+        step: Vec3<R>,
+        offset: Vec3<R>,
     ) -> Self {
         let turned = self.inertia.turned(at);
-        let h = rotate_to_parent::<Scalar, Tree, I>(turned.moment);
-        let p = rotate_to_parent::<Scalar, Tree, I>(at.leave(self.momentum));
-        let Mat3([x, y, z]) =
-            rotate_matrix_to_parent::<Scalar, Tree, I>(&at.leave_matrix(&self.product));
+        let h = rotate_to_parent::<R, T, I>(turned.moment);
+        let p = rotate_to_parent::<R, T, I>(at.leave(self.momentum));
+        let Mat3([x, y, z]) = rotate_matrix_to_parent::<R, T, I>(&at.leave_matrix(&self.product));
         let m = self.inertia.mass;
         let ([px, py, pz], [ux, uy, uz]) = (p.0, step.0);
         let there = h + offset.scale(m);
@@ -113,7 +112,7 @@ impl<Scalar: Real> Composite<Scalar> {
     }
 }
 
-impl<Scalar: Real> core::ops::Add for Composite<Scalar> {
+impl<R: Real> core::ops::Add for Composite<R> {
     type Output = Self;
     #[cfg_attr(optimised, inline(always))]
     fn add(self, o: Self) -> Self {
@@ -126,22 +125,22 @@ impl<Scalar: Real> core::ops::Add for Composite<Scalar> {
     }
 }
 
-impl<Scalar: Real> Felt<Scalar> {
+impl<R: Real> Felt<R> {
     #[cfg_attr(optimised, inline(always))]
-    pub(super) fn of(&self, change: &Change<Scalar>) -> Folded<Scalar> {
+    pub(super) fn of(&self, change: &Change<R>) -> Folded<R> {
         let half = self.rate.dot(change.omega);
         self.unit.f.dot(change.accel) + self.unit.n.dot(change.beta) + half + half
     }
 
     /// The same in the frame of joint I's parent, at whose origin the change is then.
     #[cfg_attr(optimised, inline(always))]
-    pub(super) fn to_parent<Tree: Compiled, const I: usize>(
+    pub(super) fn to_parent<T: Compiled, const I: usize>(
         self,
-        at: &Displacement<Scalar, Tree, I>,
-        step: Vec3<Scalar>,
+        at: &Displacement<R, T, I>,
+        step: Vec3<R>,
     ) -> Self {
         let unit = self.unit.to_parent(at);
-        let rate = rotate_to_parent::<Scalar, Tree, I>(at.leave(self.rate));
+        let rate = rotate_to_parent::<R, T, I>(at.leave(self.rate));
         Self { unit, rate: rate + step.cross(unit.f) }
     }
 }

@@ -39,7 +39,7 @@ use crate::state::{Configuration, RobotState, State};
 use crate::trig::Kernel;
 use composite::Composite;
 
-impl<Arm, Sines> Engine<Arm, Sines> {
+impl<T, K> Engine<T, K> {
     /// ∂τ/∂q and ∂τ/∂q̇ of inverse dynamics τ = ID(q, q̇, q̈) under the effects of the scene,
     /// N·m/rad and N·m·s/rad between revolute joints; ∂τ/∂q̈ is M, that of [`Engine::crba`].
     ///
@@ -66,20 +66,19 @@ impl<Arm, Sines> Engine<Arm, Sines> {
     #[doc(alias = "computeRNEADerivatives")]
     #[inline(never)]
     #[must_use]
-    pub fn rnea_derivatives<Scalar: Real, Effects, const B: usize, const Q: usize, const V: usize>(
-        state: impl RobotState<Scalar, Q, V>,
-        effects: &Effects,
-    ) -> TorqueGradient<Scalar, V>
+    pub fn rnea_derivatives<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        effects: &E,
+    ) -> TorqueGradient<R, V>
     where
-        Arm: Robot<B, Q, V>,
-        Sines: Kernel<Scalar>,
-        Effects: Effect<Scalar, B, V>,
+        T: Robot<B, Q, V>,
+        K: Kernel<R>,
+        E: Effect<R, B, V>,
     {
         scene_is_taken!();
-        const { named_derivatives::<Scalar, Effects, B, V>() };
+        const { named_derivatives::<R, E, B, V>() };
         let trig = state.configuration().trig_or(Self::trig_source());
-        let mut gradient =
-            TorqueGradient { dq: [[Scalar::ZERO; V]; V], dqd: [[Scalar::ZERO; V]; V] };
+        let mut gradient = TorqueGradient { dq: [[R::ZERO; V]; V], dqd: [[R::ZERO; V]; V] };
         let call = Self::call(trig.borrow(), effects);
         call.torque_gradient(state.state(), &mut gradient);
         gradient
@@ -88,49 +87,44 @@ impl<Arm, Sines> Engine<Arm, Sines> {
 
 /// The change of all motion beyond a joint by its position or its rate: see the module.
 #[derive(Clone, Copy)]
-struct Change<Scalar> {
-    omega: Vec3<Scalar>,
-    accel: Vec3<Scalar>,
-    beta: Vec3<Scalar>,
+struct Change<R> {
+    omega: Vec3<R>,
+    accel: Vec3<R>,
+    beta: Vec3<R>,
 }
 
-impl<Scalar: Real> Change<Scalar> {
+impl<R: Real> Change<R> {
     /// The same acceleration everywhere.
     #[cfg_attr(optimised, inline(always))]
-    fn shift(accel: Vec3<Scalar>) -> Self {
+    fn shift(accel: Vec3<R>) -> Self {
         Self { omega: Vec3::ZERO, accel, beta: Vec3::ZERO }
     }
 }
 
 /// The data that all bodies share.
-struct Task<'a, Scalar: Real, Tree, Effects, const B: usize, const Q: usize, const V: usize> {
-    call: Call<'a, Scalar, Tree, Effects, B, Q, V>,
-    state: &'a State<Scalar, Q, V>,
+struct Task<'a, R: Real, T, E, const B: usize, const Q: usize, const V: usize> {
+    call: Call<'a, R, T, E, B, Q, V>,
+    state: &'a State<R, Q, V>,
     /// The parts of the changes by each joint of one coordinate, and by others.
-    kept: [Kept<Scalar>; V],
-    carried: [several::Kept<Scalar>; V],
-    gradient: &'a mut TorqueGradient<Scalar, V>,
+    kept: [StoredField<R>; V],
+    carried: [several::StoredTerms<R>; V],
+    gradient: &'a mut TorqueGradient<R, V>,
 }
 
-impl<Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize>
-    Call<'_, Scalar, Tree, Effects, B, Q, V>
+impl<R, T, E, const B: usize, const Q: usize, const V: usize> Call<'_, R, T, E, B, Q, V>
 where
-    Scalar: Real,
-    Tree: Compiled,
-    Effects: Effect<Scalar, B, V>,
+    R: Real,
+    T: Compiled,
+    E: Effect<R, B, V>,
 {
     #[cfg_attr(optimised, inline(always))]
-    fn torque_gradient(
-        self,
-        state: &State<Scalar, Q, V>,
-        gradient: &mut TorqueGradient<Scalar, V>,
-    ) {
+    fn torque_gradient(self, state: &State<R, Q, V>, gradient: &mut TorqueGradient<R, V>) {
         let base = self.base();
-        let (kept, carried) = ([Kept::default(); V], [several::Kept::default(); V]);
+        let (kept, carried) = ([StoredField::default(); V], [several::StoredTerms::default(); V]);
         let mut task = Task { call: self, state, kept, carried, gradient };
         for_each_joint!(
             J,
-            CompiledJoint::<Tree, J>::IS_ON_BASE,
+            CompiledJoint::<T, J>::IS_ON_BASE,
             visit = Task::visit::<J> as fn(&mut _, &_) -> _,
             {
                 let _ = visit(&mut task, &base);
@@ -139,39 +133,38 @@ where
     }
 }
 
-impl<Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize>
-    Task<'_, Scalar, Tree, Effects, B, Q, V>
+impl<R, T, E, const B: usize, const Q: usize, const V: usize> Task<'_, R, T, E, B, Q, V>
 where
-    Scalar: Real,
-    Tree: Compiled,
-    Effects: Effect<Scalar, B, V>,
+    R: Real,
+    T: Compiled,
+    E: Effect<R, B, V>,
 {
     /// Visits joint I and its descendants; returns their composite in the frame of the parent.
     #[cfg_attr(optimised, inline(always))]
-    fn visit<const I: usize>(&mut self, parent: &AccelerationField<Scalar>) -> Composite<Scalar> {
-        let joint = CompiledJoint::<Tree, I>::JOINT;
-        let length_inv = Folded::constant(Tree::LENGTH_INV);
+    fn visit<const I: usize>(&mut self, parent: &AccelerationField<R>) -> Composite<R> {
+        let joint = CompiledJoint::<T, I>::JOINT;
+        let length_inv = Folded::constant(T::LENGTH_INV);
         let unit = if joint.prismatic { length_inv } else { Folded::constant(1.0) };
         let rates = JointRates {
             velocity: Folded::ZERO,
-            omega_products: Folded::runtime_if(Effects::VELOCITY_PRODUCTS, self.state.qd[I]) * unit,
-            accel: Folded::runtime_if(Effects::ACCELERATIONS, self.state.qdd[I]) * unit,
+            omega_products: Folded::runtime_if(E::VELOCITY_PRODUCTS, self.state.qd[I]) * unit,
+            accel: Folded::runtime_if(E::ACCELERATIONS, self.state.qdd[I]) * unit,
         };
         let at = self.call.displacement::<I>();
-        let several = CompiledJoint::<Tree, I>::COUNT > 1;
+        let several = CompiledJoint::<T, I>::COUNT > 1;
         let field =
             if several { self.across_several::<I>(parent, &at) } else { parent.across(&at, rates) };
         let offset = Vec3::constant(joint.pos) + at.shift();
         let own = at.leave(self.velocity::<I>().lin);
-        let step = parent.omega_products.cross(offset) + rotate_to_parent::<Scalar, Tree, I>(own);
-        self.kept[I] = Kept::of(&field, step);
+        let step = parent.omega_products.cross(offset) + rotate_to_parent::<R, T, I>(own);
+        self.kept[I] = StoredField::of(&field, step);
 
-        let inertia = self.call.inertia::<I>(Effects::BASE_MOTION);
+        let inertia = self.call.inertia::<I>(E::BASE_MOTION);
         let mut all = Composite::of(inertia, &field);
         for_each_joint!(
             J,
-            JointPair::<Tree, I, J>::IS_CHILD,
-            visit = Self::visit::<J> as fn(&mut _, &_) -> Composite<Scalar>,
+            JointPair::<T, I, J>::IS_CHILD,
+            visit = Self::visit::<J> as fn(&mut _, &_) -> Composite<R>,
             {
                 all = all + visit(self, &field);
             }
@@ -186,25 +179,24 @@ where
 
     /// The velocity of joint I in the velocity products, along the axes of its body.
     #[cfg_attr(optimised, inline(always))]
-    fn velocity<const I: usize>(&self) -> Twist<Scalar> {
-        let (joint, moves) = (CompiledJoint::<Tree, I>::JOINT, Effects::VELOCITY_PRODUCTS);
-        if CompiledJoint::<Tree, I>::COUNT > 1 {
-            return Twist::of::<Tree, V, I>(&self.state.qd, moves);
+    fn velocity<const I: usize>(&self) -> Twist<R> {
+        let (joint, moves) = (CompiledJoint::<T, I>::JOINT, E::VELOCITY_PRODUCTS);
+        if CompiledJoint::<T, I>::COUNT > 1 {
+            return Twist::of::<T, V, I>(&self.state.qd, moves);
         }
-        Twist::along(joint, Tree::LENGTH_INV, Folded::runtime_if(moves, self.state.qd[I]))
+        Twist::along(joint, T::LENGTH_INV, Folded::runtime_if(moves, self.state.qd[I]))
     }
 
     /// v(0) of joint K's body less its parent's, of which the components are known zeros that no
     /// offset and no rotation of the parent give.
     #[cfg_attr(optimised, inline(always))]
-    fn step<const K: usize>(&self) -> Vec3<Scalar> {
+    fn step<const K: usize>(&self) -> Vec3<R> {
         let [x, y, z] = self.kept[K].step;
-        let offset = CompiledJoint::<Tree, K>::JOINT.pos;
-        let shifts = CompiledJoint::<Tree, K>::SHIFTS;
-        let turns = !CompiledJoint::<Tree, K>::PARENT_ON_BASE || Effects::BASE_MOTION;
-        let load = |needed: bool, x: Scalar| {
-            Folded::runtime_if(Effects::VELOCITY_PRODUCTS && (shifts || needed), x)
-        };
+        let offset = CompiledJoint::<T, K>::JOINT.pos;
+        let shifts = CompiledJoint::<T, K>::SHIFTS;
+        let turns = !CompiledJoint::<T, K>::PARENT_ON_BASE || E::BASE_MOTION;
+        let load =
+            |needed: bool, x: R| Folded::runtime_if(E::VELOCITY_PRODUCTS && (shifts || needed), x);
         Vec3([
             load(offset.y != 0.0 || (turns && offset.z != 0.0), x),
             load(offset.x != 0.0 || (turns && offset.z != 0.0), y),
@@ -215,16 +207,16 @@ where
     /// The changes by the parent of joint K: ω and α of a revolute joint on a base at rest are
     /// along z.
     #[cfg_attr(optimised, inline(always))]
-    fn changes_of_parent<const K: usize>(&self) -> [Change<Scalar>; 2] {
-        let joint = CompiledJoint::<Tree, K>::JOINT;
+    fn changes_of_parent<const K: usize>(&self) -> [Change<R>; 2] {
+        let joint = CompiledJoint::<T, K>::JOINT;
         let kept = &self.kept[joint.parent];
-        let moves = !CompiledJoint::<Tree, K>::PARENT_ON_BASE || Effects::BASE_MOTION;
-        let rates = moves && Effects::VELOCITY_PRODUCTS;
+        let moves = !CompiledJoint::<T, K>::PARENT_ON_BASE || E::BASE_MOTION;
+        let rates = moves && E::VELOCITY_PRODUCTS;
         let [w0, w1] = kept.turning.map(|x| Folded::runtime_if(rates, x));
         let [a0, a1] = kept.accel.map(Folded::runtime);
         let [u0, u1, u2] = kept.along.map(|x| Folded::runtime_if(moves, x));
         changes_by(
-            CompiledJoint::<Tree, K>::PARENT,
+            CompiledJoint::<T, K>::PARENT,
             Vec3([w0, w1, Folded::ZERO]),
             Vec3([a0, a1, Folded::ZERO]),
             Vec3([u0, u1, u2]),
@@ -235,12 +227,12 @@ where
     #[cfg_attr(optimised, inline(always))]
     fn pair_up<const I: usize>(
         &mut self,
-        all: &Composite<Scalar>,
-        changes: &[Change<Scalar>; 2],
-        unit: Folded<Scalar>,
+        all: &Composite<R>,
+        changes: &[Change<R>; 2],
+        unit: Folded<R>,
     ) {
-        let joint = CompiledJoint::<Tree, I>::JOINT;
-        let length_inv = Folded::constant(Tree::LENGTH_INV);
+        let joint = CompiledJoint::<T, I>::JOINT;
+        let length_inv = Folded::constant(T::LENGTH_INV);
         let [by_position, by_rate] = changes;
         let (by_q, by_qd) = (all.wrench_by(by_position), all.wrench_by(by_rate));
         let mut own = TorqueDerivatives::default();
@@ -255,29 +247,29 @@ where
     #[cfg_attr(optimised, inline(always))]
     fn pair_up_inward<const I: usize>(
         &mut self,
-        all: &Composite<Scalar>,
+        all: &Composite<R>,
         c: usize,
-        [mut by_q, mut by_qd]: [Wrench<Scalar>; 2],
-        unit: Folded<Scalar>,
+        [mut by_q, mut by_qd]: [Wrench<R>; 2],
+        unit: Folded<R>,
     ) {
-        let joint = &Tree::JOINTS[c];
-        let length_inv = Folded::constant(Tree::LENGTH_INV);
+        let joint = &T::JOINTS[c];
+        let length_inv = Folded::constant(T::LENGTH_INV);
         let one = Folded::constant(1.0);
         // Forces along a prismatic joint are in units of length.
         let of = |joint: &Joint| if joint.prismatic { length_inv } else { one };
         let mut felt = all.felt(joint);
         by_q = by_q + all.moved_wrench(joint);
         for_each_joint_reversed!(K, {
-            if JointPair::<Tree, K, I>::SUPPORTS {
-                let other = CompiledJoint::<Tree, K>::JOINT;
+            if JointPair::<T, K, I>::SUPPORTS {
+                let other = CompiledJoint::<T, K>::JOINT;
                 if other.parent != BASE && other.first == K {
                     let at = self.call.displacement::<K>();
                     (by_q, by_qd) = (by_q.to_parent(&at), by_qd.to_parent(&at));
                     felt = felt.to_parent(&at, self.step::<K>());
-                    let (j, parent) = (other.parent, CompiledJoint::<Tree, K>::PARENT);
+                    let (j, parent) = (other.parent, CompiledJoint::<T, K>::PARENT);
                     if parent.count > 1 {
                         let scales = [unit, of(joint)];
-                        let first = CompiledJoint::<Tree, K>::PARENT_FIRST;
+                        let first = CompiledJoint::<T, K>::PARENT_FIRST;
                         self.pair_up_with_several(first, c, &[by_q, by_qd], &felt, scales);
                     } else {
                         let [by_position, by_rate] = self.changes_of_parent::<K>();
@@ -296,19 +288,19 @@ where
 
 /// The field of a joint's body as far as the joints beyond it need it, in memory.
 #[derive(Clone, Copy, Default)]
-struct Kept<Scalar> {
+struct StoredField<R> {
     /// ω × z and a × z, without their z.
-    turning: [Scalar; 2],
-    accel: [Scalar; 2],
+    turning: [R; 2],
+    accel: [R; 2],
     /// U z.
-    along: [Scalar; 3],
+    along: [R; 3],
     /// v(0) less the parent's, in the parent's frame.
-    step: [Scalar; 3],
+    step: [R; 3],
 }
 
-impl<Scalar: Real> Kept<Scalar> {
+impl<R: Real> StoredField<R> {
     #[cfg_attr(optimised, inline(always))]
-    fn of(field: &AccelerationField<Scalar>, step: Vec3<Scalar>) -> Self {
+    fn of(field: &AccelerationField<R>, step: Vec3<R>) -> Self {
         let ([wx, wy, _], [ax, ay, _]) = (field.omega_products.0, field.a.0);
         let [ux, uy, uz] = field.u.0[2].0;
         let [sx, sy, sz] = step.0;
@@ -323,19 +315,19 @@ impl<Scalar: Real> Kept<Scalar> {
 
 /// The changes by a joint's position and by its rate, in the frame of its body.
 #[cfg_attr(optimised, inline(always))]
-fn changes<Scalar: Real>(joint: &Joint, field: &AccelerationField<Scalar>) -> [Change<Scalar>; 2] {
-    let cross_z = |v: Vec3<Scalar>| Vec3([v.0[1], -v.0[0], Folded::ZERO]);
+fn changes<R: Real>(joint: &Joint, field: &AccelerationField<R>) -> [Change<R>; 2] {
+    let cross_z = |v: Vec3<R>| Vec3([v.0[1], -v.0[0], Folded::ZERO]);
     changes_by(joint, cross_z(field.omega_products), cross_z(field.a), field.u.0[2])
 }
 
 /// The same from ω × z, a × z and U z; a screw turns and slides.
 #[cfg_attr(optimised, inline(always))]
-fn changes_by<Scalar: Real>(
+fn changes_by<R: Real>(
     joint: &Joint,
-    w: Vec3<Scalar>,
-    accel: Vec3<Scalar>,
-    along: Vec3<Scalar>,
-) -> [Change<Scalar>; 2] {
+    w: Vec3<R>,
+    accel: Vec3<R>,
+    along: Vec3<R>,
+) -> [Change<R>; 2] {
     if joint.prismatic {
         return [Change::shift(along), Change::shift(w + w)];
     }

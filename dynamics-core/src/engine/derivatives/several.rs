@@ -26,33 +26,33 @@ use crate::engine::joint_rates::{SeveralRates, Twist};
 use crate::model::BASE;
 use crate::scalar::Real;
 
-/// The vectors of [`Carried`], in memory.
+/// The vectors of [`ChangeTerms`], in memory.
 #[derive(Clone, Copy, Default)]
-pub(super) struct Kept<Scalar>([[Scalar; 3]; 5]);
+pub(super) struct StoredTerms<R>([[R; 3]; 5]);
 
 /// The quantities of which the changes by a joint are made, along the axes of its body.
-struct Carried<Scalar> {
+struct ChangeTerms<R> {
     /// A.
-    accel: Vec3<Scalar>,
+    accel: Vec3<R>,
     /// α_λ and ω_λ.
-    alpha: Vec3<Scalar>,
-    omega: Vec3<Scalar>,
+    alpha: Vec3<R>,
+    omega: Vec3<R>,
     /// ω_λ + ω.
-    both: Vec3<Scalar>,
+    both: Vec3<R>,
     /// v_J.
-    v: Vec3<Scalar>,
+    v: Vec3<R>,
 }
 
-impl<Scalar: Real> Carried<Scalar> {
+impl<R: Real> ChangeTerms<R> {
     /// U_λ x.
     #[cfg_attr(optimised, inline(always))]
-    fn field(&self, x: Vec3<Scalar>) -> Vec3<Scalar> {
+    fn field(&self, x: Vec3<R>) -> Vec3<R> {
         self.alpha.cross(x) + self.omega.cross(self.omega.cross(x))
     }
 
     /// The wrenches by which the position and the rate of a coordinate are felt.
     #[cfg_attr(optimised, inline(always))]
-    fn wrenches(&self, all: &Composite<Scalar>, joint: &Joint) -> [Wrench<Scalar>; 2] {
+    fn wrenches(&self, all: &Composite<R>, joint: &Joint) -> [Wrench<R>; 2] {
         let Twist { ang, lin } = subspace(joint);
         let omega = self.omega.cross(ang);
         let swung = omega.cross(self.v);
@@ -64,29 +64,28 @@ impl<Scalar: Real> Carried<Scalar> {
     }
 }
 
-impl<Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize>
-    Task<'_, Scalar, Tree, Effects, B, Q, V>
+impl<R, T, E, const B: usize, const Q: usize, const V: usize> Task<'_, R, T, E, B, Q, V>
 where
-    Scalar: Real,
-    Tree: Compiled,
-    Effects: Effect<Scalar, B, V>,
+    R: Real,
+    T: Compiled,
+    E: Effect<R, B, V>,
 {
     /// The field behind a joint, of which I is the first coordinate.
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn across_several<const I: usize>(
         &mut self,
-        parent: &AccelerationField<Scalar>,
-        at: &Displacement<Scalar, Tree, I>,
-    ) -> AccelerationField<Scalar> {
-        let joint = CompiledJoint::<Tree, I>::JOINT;
+        parent: &AccelerationField<R>,
+        at: &Displacement<R, T, I>,
+    ) -> AccelerationField<R> {
+        let joint = CompiledJoint::<T, I>::JOINT;
         let products = self.velocity::<I>();
-        let accel = Twist::of::<Tree, V, I>(&self.state.qdd, Effects::ACCELERATIONS);
+        let accel = Twist::of::<T, V, I>(&self.state.qdd, E::ACCELERATIONS);
         let rates = SeveralRates { velocity: Twist::ZERO, products, accel };
         let field = parent.across_several(at, &rates);
         let (rot, p) = (Mat3::constant(&joint.rot), Vec3::constant(joint.pos) + at.shift());
         let omega = at.enter(&rot, parent.omega_products);
-        let numbers = |v: Vec3<Scalar>| v.0.map(Folded::get);
-        self.carried[I] = Kept([
+        let numbers = |v: Vec3<R>| v.0.map(Folded::get);
+        self.carried[I] = StoredTerms([
             numbers(at.enter(&rot, parent.a + parent.u.mul(p))),
             numbers(at.enter(&rot, parent.alpha)),
             numbers(omega),
@@ -98,42 +97,42 @@ where
 
     /// The motion that carries the joint of this first coordinate, from memory.
     #[cfg_attr(optimised, inline(always))]
-    fn carried(&self, first: &Joint) -> Carried<Scalar> {
+    fn carried(&self, first: &Joint) -> ChangeTerms<R> {
         let moves = Self::moves(first);
-        let load = |needed: bool, v: [Scalar; 3]| Vec3(v.map(|x| Folded::runtime_if(needed, x)));
-        let Kept([accel, alpha, omega, both, v]) = self.carried[first.first];
-        Carried {
+        let load = |needed: bool, v: [R; 3]| Vec3(v.map(|x| Folded::runtime_if(needed, x)));
+        let StoredTerms([accel, alpha, omega, both, v]) = self.carried[first.first];
+        ChangeTerms {
             accel: load(true, accel),
             alpha: load(moves, alpha),
-            omega: load(moves && Effects::VELOCITY_PRODUCTS, omega),
-            both: load(Effects::VELOCITY_PRODUCTS, both),
-            v: load(Effects::VELOCITY_PRODUCTS, v),
+            omega: load(moves && E::VELOCITY_PRODUCTS, omega),
+            both: load(E::VELOCITY_PRODUCTS, both),
+            v: load(E::VELOCITY_PRODUCTS, v),
         }
     }
 
     /// Whether the parent of a joint may move.
     #[cfg_attr(optimised, inline(always))]
     fn moves(first: &Joint) -> bool {
-        first.parent != BASE || Effects::BASE_MOTION
+        first.parent != BASE || E::BASE_MOTION
     }
 
     /// The entries of the coordinates of joint I with each other and with its ancestors.
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn pair_up_several<const I: usize>(
         &mut self,
-        all: &Composite<Scalar>,
-        at: &Displacement<Scalar, Tree, I>,
+        all: &Composite<R>,
+        at: &Displacement<R, T, I>,
     ) {
         self.pair_up_axis::<I>(all, I);
         self.pair_up_axis::<I>(all, I + 1);
         self.pair_up_axis::<I>(all, I + 2);
         for_each_joint!(K, {
-            if JointPair::<Tree, I, K>::IS_COORDINATE {
-                let joint = CompiledJoint::<Tree, K>::JOINT;
+            if JointPair::<T, I, K>::IS_COORDINATE {
+                let joint = CompiledJoint::<T, K>::JOINT;
                 let mut own = TorqueDerivatives::default();
                 self.call.effects.slopes(K, self.call.joint_state::<K>(self.state), &mut own);
                 self.gradient.dqd[K][K] += own.dqd;
-                if own.dq != Scalar::ZERO && joint.prismatic {
+                if own.dq != R::ZERO && joint.prismatic {
                     // A position is along an axis of the joint's frame, its change along the body's.
                     let along = K - joint.axis;
                     for (j, e) in [DVec3::X, DVec3::Y, DVec3::Z].into_iter().enumerate() {
@@ -152,14 +151,14 @@ where
     /// The columns of coordinate `c` of joint I, and of a free joint's translation along its axis,
     /// which has products in common with it: in the joint's rows, and with the ancestors.
     #[cfg_attr(optimised, inline(always))]
-    fn pair_up_axis<const I: usize>(&mut self, all: &Composite<Scalar>, c: usize) {
-        let first = CompiledJoint::<Tree, I>::JOINT;
-        let (length_inv, one) = (Folded::constant(Tree::LENGTH_INV), Folded::constant(1.0));
-        let unit = if Tree::JOINTS[c].prismatic { length_inv } else { one };
+    fn pair_up_axis<const I: usize>(&mut self, all: &Composite<R>, c: usize) {
+        let first = CompiledJoint::<T, I>::JOINT;
+        let (length_inv, one) = (Folded::constant(T::LENGTH_INV), Folded::constant(1.0));
+        let unit = if T::JOINTS[c].prismatic { length_inv } else { one };
         let carried = self.carried(first);
-        let by_turn = carried.wrenches(all, &Tree::JOINTS[c]);
+        let by_turn = carried.wrenches(all, &T::JOINTS[c]);
         if first.count > 3 {
-            let by_shift = carried.wrenches(all, &Tree::JOINTS[c + 3]);
+            let by_shift = carried.wrenches(all, &T::JOINTS[c + 3]);
             self.write_column(first, c, &by_turn, unit);
             self.write_column(first, c + 3, &by_shift, length_inv);
             self.pair_up_inward::<I>(all, c + 3, by_shift, length_inv);
@@ -177,14 +176,14 @@ where
         &mut self,
         first: &Joint,
         c: usize,
-        wrenches: &[Wrench<Scalar>; 2],
-        felt: &Felt<Scalar>,
-        [unit, scale]: [Folded<Scalar>; 2],
+        wrenches: &[Wrench<R>; 2],
+        felt: &Felt<R>,
+        [unit, scale]: [Folded<R>; 2],
     ) {
         self.write_column(first, c, wrenches, unit);
-        let Carried { accel, alpha, omega, both, v } = self.carried(first);
+        let ChangeTerms { accel, alpha, omega, both, v } = self.carried(first);
         let Wrench { f, n } = felt.unit;
-        let along = scale * Folded::constant(Tree::LENGTH_INV);
+        let along = scale * Folded::constant(T::LENGTH_INV);
         let swung = v.cross(f);
         let by_spin = n.cross(omega) + swung + swung + felt.rate + felt.rate;
         let by_turn = f.cross(accel) + n.cross(alpha) + by_spin.cross(omega);
@@ -204,10 +203,10 @@ where
         &mut self,
         first: &Joint,
         column: usize,
-        [by_q, by_qd]: &[Wrench<Scalar>; 2],
-        unit: Folded<Scalar>,
+        [by_q, by_qd]: &[Wrench<R>; 2],
+        unit: Folded<R>,
     ) {
-        let along = unit * Folded::constant(Tree::LENGTH_INV);
+        let along = unit * Folded::constant(T::LENGTH_INV);
         let TorqueGradient { dq, dqd } = &mut *self.gradient;
         for (rows, by) in [(dq, by_q), (dqd, by_qd)] {
             let by = spread(first.motion, by.n.scale(unit), by.f.scale(along));
@@ -226,11 +225,11 @@ where
 
 /// The coordinates of a joint, rotations first.
 #[cfg_attr(optimised, inline(always))]
-fn spread<Scalar: Real>(
+fn spread<R: Real>(
     motion: JointMotion,
-    Vec3([a, b, c]): Vec3<Scalar>,
-    Vec3([x, y, z]): Vec3<Scalar>,
-) -> [Folded<Scalar>; 6] {
+    Vec3([a, b, c]): Vec3<R>,
+    Vec3([x, y, z]): Vec3<R>,
+) -> [Folded<R>; 6] {
     let zero = Folded::ZERO;
     if matches!(motion, JointMotion::Planar) {
         [c, x, y, zero, zero, zero]
@@ -241,11 +240,11 @@ fn spread<Scalar: Real>(
 
 /// Three or six entries of a row.
 #[cfg_attr(optimised, inline(always))]
-fn write<Scalar: Real, const V: usize>(
-    row: &mut [Scalar; V],
+fn write<R: Real, const V: usize>(
+    row: &mut [R; V],
     first: usize,
     count: usize,
-    by: [Folded<Scalar>; 6],
+    by: [Folded<R>; 6],
 ) {
     row[first] = by[0].get();
     row[first + 1] = by[1].get();

@@ -19,8 +19,8 @@ const MINUS: u8 = 4;
 /// A number with a tag for its compile-time value: any, 0 or 1, and a sign. Two scalars, which
 /// rustc keeps out of memory.
 #[derive(Clone, Copy)]
-pub(crate) struct Folded<Scalar> {
-    magnitude: Scalar,
+pub(crate) struct Folded<R> {
+    magnitude: R,
     tags: u8,
 }
 
@@ -34,24 +34,21 @@ fn either(condition: bool, yes: u8, no: u8) -> u8 {
     (yes & mask) | (no & !mask)
 }
 
-impl<Scalar: Real> Folded<Scalar> {
-    pub(crate) const ZERO: Self = Self { magnitude: Scalar::ZERO, tags: ZERO };
+impl<R: Real> Folded<R> {
+    pub(crate) const ZERO: Self = Self { magnitude: R::ZERO, tags: ZERO };
 
-    pub(crate) const ONE: Self = Self { magnitude: Scalar::ONE, tags: ONE };
+    pub(crate) const ONE: Self = Self { magnitude: R::ONE, tags: ONE };
 
     /// A number known only at run time.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn runtime(value: Scalar) -> Self {
+    pub(crate) fn runtime(value: R) -> Self {
         Self { magnitude: value, tags: 0 }
     }
 
     /// A number known at run time if `needed`, else zero.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn runtime_if(needed: bool, value: Scalar) -> Self {
-        Self {
-            magnitude: Scalar::either(needed, value, Scalar::ZERO),
-            tags: either(needed, 0, ZERO),
-        }
+    pub(crate) fn runtime_if(needed: bool, value: R) -> Self {
+        Self { magnitude: R::either(needed, value, R::ZERO), tags: either(needed, 0, ZERO) }
     }
 
     /// A constant of the robot.
@@ -60,13 +57,13 @@ impl<Scalar: Real> Folded<Scalar> {
         let minus = value < 0.0;
         let size = f64::either(minus, -value, value);
         let size_tag = either(size == 0.0, ZERO, either(size == 1.0, ONE, 0));
-        Self { magnitude: Scalar::from_f64(size), tags: size_tag | either(minus, MINUS, 0) }
+        Self { magnitude: R::from_f64(size), tags: size_tag | either(minus, MINUS, 0) }
     }
 
     /// The plain number.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn get(self) -> Scalar {
-        Scalar::either(self.is(MINUS), -self.magnitude, self.magnitude)
+    pub(crate) fn get(self) -> R {
+        R::either(self.is(MINUS), -self.magnitude, self.magnitude)
     }
 
     #[cfg_attr(optimised, inline(always))]
@@ -75,24 +72,24 @@ impl<Scalar: Real> Folded<Scalar> {
     }
 }
 
-impl<Scalar: Real> Add for Folded<Scalar> {
+impl<R: Real> Add for Folded<R> {
     type Output = Self;
     #[cfg_attr(optimised, inline(always))]
     fn add(self, o: Self) -> Self {
         let (a, b) = (self.magnitude, o.magnitude);
         let opposite = (self.tags ^ o.tags) & MINUS != 0;
-        let first = Scalar::either(self.is(MINUS), b, a);
-        let second = Scalar::either(self.is(MINUS), a, b);
-        let sum = Scalar::either(opposite, first - second, a + b);
+        let first = R::either(self.is(MINUS), b, a);
+        let second = R::either(self.is(MINUS), a, b);
+        let sum = R::either(opposite, first - second, a + b);
         let minus = self.tags & o.tags & MINUS;
         Self {
-            magnitude: Scalar::either(self.is(ZERO), b, Scalar::either(o.is(ZERO), a, sum)),
+            magnitude: R::either(self.is(ZERO), b, R::either(o.is(ZERO), a, sum)),
             tags: either(self.is(ZERO), o.tags, either(o.is(ZERO), self.tags, minus)),
         }
     }
 }
 
-impl<Scalar: Real> Sub for Folded<Scalar> {
+impl<R: Real> Sub for Folded<R> {
     type Output = Self;
     #[cfg_attr(optimised, inline(always))]
     fn sub(self, o: Self) -> Self {
@@ -100,24 +97,24 @@ impl<Scalar: Real> Sub for Folded<Scalar> {
     }
 }
 
-impl<Scalar: Real> Mul for Folded<Scalar> {
+impl<R: Real> Mul for Folded<R> {
     type Output = Self;
     #[cfg_attr(optimised, inline(always))]
     fn mul(self, o: Self) -> Self {
         let (a, b) = (self.magnitude, o.magnitude);
         let zero = self.is(ZERO) | o.is(ZERO);
-        let product = Scalar::either(self.is(ONE), b, Scalar::either(o.is(ONE), a, a * b));
+        let product = R::either(self.is(ONE), b, R::either(o.is(ONE), a, a * b));
         // The tags of the factor that is not one.
         let other = either(self.is(ONE), o.tags, either(o.is(ONE), self.tags, 0));
         let minus = (self.tags ^ o.tags) & MINUS;
         Self {
-            magnitude: Scalar::either(zero, Scalar::ZERO, product),
+            magnitude: R::either(zero, R::ZERO, product),
             tags: either(zero, ZERO, (other & !MINUS) | minus),
         }
     }
 }
 
-impl<Scalar: Real> Neg for Folded<Scalar> {
+impl<R: Real> Neg for Folded<R> {
     type Output = Self;
     #[cfg_attr(optimised, inline(always))]
     fn neg(self) -> Self {

@@ -13,105 +13,93 @@ const CROSS: usize = 1;
 
 /// R v of joint I.
 #[cfg_attr(optimised, inline(always))]
-pub(crate) fn rotate_to_parent<Scalar: Real, Tree, const I: usize>(v: Vec3<Scalar>) -> Vec3<Scalar>
+pub(crate) fn rotate_to_parent<R: Real, T, const I: usize>(v: Vec3<R>) -> Vec3<R>
 where
-    Tree: Compiled,
+    T: Compiled,
 {
-    product::<Scalar, Tree, ROT, I>(v)
+    product::<R, T, ROT, I>(v)
 }
 
 /// p × v, p the offset from the origin of joint I's parent to its own, without the joint's own
 /// translation.
 #[cfg_attr(optimised, inline(always))]
-pub(crate) fn constant_offset_cross<Scalar: Real, Tree, const I: usize>(
-    v: Vec3<Scalar>,
-) -> Vec3<Scalar>
+pub(crate) fn constant_offset_cross<R: Real, T, const I: usize>(v: Vec3<R>) -> Vec3<R>
 where
-    Tree: Compiled,
+    T: Compiled,
 {
-    product::<Scalar, Tree, CROSS, I>(v)
+    product::<R, T, CROSS, I>(v)
 }
 
 /// R M Rᵀ of joint I.
 #[cfg_attr(optimised, inline(always))]
-pub(crate) fn rotate_matrix_to_parent<Scalar: Real, Tree, const I: usize>(
-    m: &Mat3<Scalar>,
-) -> Mat3<Scalar>
+pub(crate) fn rotate_matrix_to_parent<R: Real, T, const I: usize>(m: &Mat3<R>) -> Mat3<R>
 where
-    Tree: Compiled,
+    T: Compiled,
 {
-    let half = columns_rotated::<Scalar, Tree, I>(*m);
-    let rows = columns_rotated::<Scalar, Tree, I>(Mat3(half.rows()));
+    let half = columns_rotated::<R, T, I>(*m);
+    let rows = columns_rotated::<R, T, I>(Mat3(half.rows()));
     Mat3(rows.rows())
 }
 
 #[cfg_attr(optimised, inline(always))]
-fn columns_rotated<Scalar: Real, Tree, const I: usize>(
-    Mat3([x, y, z]): Mat3<Scalar>,
-) -> Mat3<Scalar>
+fn columns_rotated<R: Real, T, const I: usize>(Mat3([x, y, z]): Mat3<R>) -> Mat3<R>
 where
-    Tree: Compiled,
+    T: Compiled,
 {
     Mat3([
-        rotate_to_parent::<Scalar, Tree, I>(x),
-        rotate_to_parent::<Scalar, Tree, I>(y),
-        rotate_to_parent::<Scalar, Tree, I>(z),
+        rotate_to_parent::<R, T, I>(x),
+        rotate_to_parent::<R, T, I>(y),
+        rotate_to_parent::<R, T, I>(z),
     ])
 }
 
 /// R S Rᵀ of joint I.
 #[cfg_attr(optimised, inline(always))]
-pub(crate) fn rotate_symmetric_to_parent<Scalar: Real, Tree, const I: usize>(
-    s: Sym3<Scalar>,
-) -> Sym3<Scalar>
+pub(crate) fn rotate_symmetric_to_parent<R: Real, T, const I: usize>(s: Sym3<R>) -> Sym3<R>
 where
-    Tree: Compiled,
+    T: Compiled,
 {
-    Sym3::of(&rotate_matrix_to_parent::<Scalar, Tree, I>(&Mat3(s.columns())))
+    Sym3::of(&rotate_matrix_to_parent::<R, T, I>(&Mat3(s.columns())))
 }
 
 #[cfg_attr(optimised, inline(always))]
-fn product<Scalar: Real, Tree, const M: usize, const I: usize>(v: Vec3<Scalar>) -> Vec3<Scalar>
+fn product<R: Real, T, const M: usize, const I: usize>(v: Vec3<R>) -> Vec3<R>
 where
-    Tree: Compiled,
+    T: Compiled,
 {
-    Vec3([
-        row::<Scalar, Tree, M, I, 0>(v),
-        row::<Scalar, Tree, M, I, 1>(v),
-        row::<Scalar, Tree, M, I, 2>(v),
-    ])
+    Vec3([row::<R, T, M, I, 0>(v), row::<R, T, M, I, 1>(v), row::<R, T, M, I, 2>(v)])
 }
 
 #[cfg_attr(optimised, inline(always))]
-fn row<Scalar: Real, Tree, const M: usize, const I: usize, const K: usize>(
-    Vec3([x, y, z]): Vec3<Scalar>,
-) -> Folded<Scalar>
+fn row<R: Real, T, const M: usize, const I: usize, const K: usize>(
+    Vec3([x, y, z]): Vec3<R>,
+) -> Folded<R>
 where
-    Tree: Compiled,
+    T: Compiled,
 {
     let mut sum = Folded::ZERO;
-    if Entry::<Tree, M, I, K, 0>::IS_NONZERO {
-        sum = Folded::constant(Entry::<Tree, M, I, K, 0>::VALUE) * x;
+    if Entry::<T, M, I, K, 0>::IS_NONZERO {
+        sum = Folded::constant(Entry::<T, M, I, K, 0>::VALUE) * x;
     }
-    if Entry::<Tree, M, I, K, 1>::IS_NONZERO {
-        sum = sum + Folded::constant(Entry::<Tree, M, I, K, 1>::VALUE) * y;
+    if Entry::<T, M, I, K, 1>::IS_NONZERO {
+        sum = sum + Folded::constant(Entry::<T, M, I, K, 1>::VALUE) * y;
     }
-    if Entry::<Tree, M, I, K, 2>::IS_NONZERO {
-        sum = sum + Folded::constant(Entry::<Tree, M, I, K, 2>::VALUE) * z;
+    if Entry::<T, M, I, K, 2>::IS_NONZERO {
+        sum = sum + Folded::constant(Entry::<T, M, I, K, 2>::VALUE) * z;
     }
     sum
 }
 
 /// Row K, column L of matrix M of joint I.
-struct Entry<Tree, const M: usize, const I: usize, const K: usize, const L: usize>(
-    core::marker::PhantomData<Tree>,
+struct Entry<T, const M: usize, const I: usize, const K: usize, const L: usize>(
+    core::marker::PhantomData<T>,
 );
 
-impl<Tree, const M: usize, const I: usize, const K: usize, const L: usize> Entry<Tree, M, I, K, L>
+impl<T, const M: usize, const I: usize, const K: usize, const L: usize> Entry<T, M, I, K, L>
 where
-    Tree: Compiled,
+    T: Compiled,
 {
-    const VALUE: f64 = entry(CompiledJoint::<Tree, I>::JOINT, M, K, L);
+    const VALUE: f64 = entry(CompiledJoint::<T, I>::JOINT, M, K, L);
     const IS_NONZERO: bool = Self::VALUE != 0.0;
 }
 

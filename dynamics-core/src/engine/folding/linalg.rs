@@ -8,13 +8,13 @@ use glam::{DMat3, DVec3};
 
 /// A vector.
 #[derive(Clone, Copy)]
-pub(crate) struct Vec3<Scalar>(pub(crate) [Folded<Scalar>; 3]);
+pub(crate) struct Vec3<R>(pub(crate) [Folded<R>; 3]);
 
 /// A matrix, by columns.
 #[derive(Clone, Copy)]
-pub(crate) struct Mat3<Scalar>(pub(crate) [Vec3<Scalar>; 3]);
+pub(crate) struct Mat3<R>(pub(crate) [Vec3<R>; 3]);
 
-impl<Scalar: Real> Vec3<Scalar> {
+impl<R: Real> Vec3<R> {
     pub(crate) const ZERO: Self = Self([Folded::ZERO; 3]);
 
     #[cfg_attr(optimised, inline(always))]
@@ -24,27 +24,27 @@ impl<Scalar: Real> Vec3<Scalar> {
 
     /// A vector of run-time numbers.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn runtime(v: Scalar::Vec3) -> Self {
+    pub(crate) fn runtime(v: R::Vec3) -> Self {
         let [x, y, z] = v.array();
         Self([Folded::runtime(x), Folded::runtime(y), Folded::runtime(z)])
     }
 
     /// The plain vector.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn get(self) -> Scalar::Vec3 {
+    pub(crate) fn get(self) -> R::Vec3 {
         let [x, y, z] = self.0;
-        Scalar::Vec3::new(x.get(), y.get(), z.get())
+        R::Vec3::new(x.get(), y.get(), z.get())
     }
 
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn scale(self, s: Folded<Scalar>) -> Self {
+    pub(crate) fn scale(self, s: Folded<R>) -> Self {
         let [x, y, z] = self.0;
         Self([x * s, y * s, z * s])
     }
 
     /// The component of the axis of this number.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn along_axis(self, axis: usize) -> Folded<Scalar> {
+    pub(crate) fn along_axis(self, axis: usize) -> Folded<R> {
         let [x, y, z] = self.0;
         match axis {
             0 => x,
@@ -54,7 +54,7 @@ impl<Scalar: Real> Vec3<Scalar> {
     }
 
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn dot(self, o: Self) -> Folded<Scalar> {
+    pub(crate) fn dot(self, o: Self) -> Folded<R> {
         let ([ax, ay, az], [bx, by, bz]) = (self.0, o.0);
         ax * bx + ay * by + az * bz
     }
@@ -67,20 +67,20 @@ impl<Scalar: Real> Vec3<Scalar> {
 
     /// Rz(q) v: out of the body's frame.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn turn(self, sin: Folded<Scalar>, cos: Folded<Scalar>) -> Self {
+    pub(crate) fn turn(self, sin: Folded<R>, cos: Folded<R>) -> Self {
         let [x, y, z] = self.0;
         Self([cos * x - sin * y, sin * x + cos * y, z])
     }
 
     /// Rz(q)ᵀ v: into the body's frame.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn turn_back(self, sin: Folded<Scalar>, cos: Folded<Scalar>) -> Self {
+    pub(crate) fn turn_back(self, sin: Folded<R>, cos: Folded<R>) -> Self {
         let [x, y, z] = self.0;
         Self([cos * x + sin * y, cos * y - sin * x, z])
     }
 }
 
-impl<Scalar: Real> Add for Vec3<Scalar> {
+impl<R: Real> Add for Vec3<R> {
     type Output = Self;
     #[cfg_attr(optimised, inline(always))]
     fn add(self, o: Self) -> Self {
@@ -89,7 +89,7 @@ impl<Scalar: Real> Add for Vec3<Scalar> {
     }
 }
 
-impl<Scalar: Real> Sub for Vec3<Scalar> {
+impl<R: Real> Sub for Vec3<R> {
     type Output = Self;
     #[cfg_attr(optimised, inline(always))]
     fn sub(self, o: Self) -> Self {
@@ -98,7 +98,7 @@ impl<Scalar: Real> Sub for Vec3<Scalar> {
     }
 }
 
-impl<Scalar: Real> Neg for Vec3<Scalar> {
+impl<R: Real> Neg for Vec3<R> {
     type Output = Self;
     #[cfg_attr(optimised, inline(always))]
     fn neg(self) -> Self {
@@ -107,7 +107,7 @@ impl<Scalar: Real> Neg for Vec3<Scalar> {
     }
 }
 
-impl<Scalar: Real> Mat3<Scalar> {
+impl<R: Real> Mat3<R> {
     pub(crate) const ZERO: Self = Self([Vec3::ZERO; 3]);
 
     #[cfg_attr(optimised, inline(always))]
@@ -117,7 +117,7 @@ impl<Scalar: Real> Mat3<Scalar> {
 
     /// The rows.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn rows(&self) -> [Vec3<Scalar>; 3] {
+    pub(crate) fn rows(&self) -> [Vec3<R>; 3] {
         let [x, y, z] = self.0;
         [
             Vec3([x.0[0], y.0[0], z.0[0]]),
@@ -128,23 +128,23 @@ impl<Scalar: Real> Mat3<Scalar> {
 
     /// M v.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn mul(&self, v: Vec3<Scalar>) -> Vec3<Scalar> {
+    pub(crate) fn mul(&self, v: Vec3<R>) -> Vec3<R> {
         let ([x, y, z], [a, b, c]) = (self.0, v.0);
         x.scale(a) + y.scale(b) + z.scale(c)
     }
 
     /// Mᵀ v.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn transpose_mul(&self, v: Vec3<Scalar>) -> Vec3<Scalar> {
+    pub(crate) fn transpose_mul(&self, v: Vec3<R>) -> Vec3<R> {
         let [x, y, z] = self.0;
         Vec3([x.dot(v), y.dot(v), z.dot(v)])
     }
 }
 
-impl<Scalar: Real> Mat3<Scalar> {
+impl<R: Real> Mat3<R> {
     /// Rz M Rzᵀ.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn rotated_about_z(&self, sin: Folded<Scalar>, cos: Folded<Scalar>) -> Self {
+    pub(crate) fn rotated_about_z(&self, sin: Folded<R>, cos: Folded<R>) -> Self {
         let [Vec3([xx, yx, zx]), Vec3([xy, yy, zy]), Vec3([xz, yz, zz])] = self.0;
         let w = sin * (xx - yy) + cos * (xy + yx);
         let (step, bend) = (sin * w, cos * w);
@@ -156,7 +156,7 @@ impl<Scalar: Real> Mat3<Scalar> {
     }
 }
 
-impl<Scalar: Real> Add for Mat3<Scalar> {
+impl<R: Real> Add for Mat3<R> {
     type Output = Self;
     #[cfg_attr(optimised, inline(always))]
     fn add(self, o: Self) -> Self {
@@ -167,16 +167,16 @@ impl<Scalar: Real> Add for Mat3<Scalar> {
 
 /// A symmetric matrix, by its upper triangle.
 #[derive(Clone, Copy)]
-pub(crate) struct Sym3<Scalar> {
-    pub(crate) xx: Folded<Scalar>,
-    pub(crate) xy: Folded<Scalar>,
-    pub(crate) xz: Folded<Scalar>,
-    pub(crate) yy: Folded<Scalar>,
-    pub(crate) yz: Folded<Scalar>,
-    pub(crate) zz: Folded<Scalar>,
+pub(crate) struct Sym3<R> {
+    pub(crate) xx: Folded<R>,
+    pub(crate) xy: Folded<R>,
+    pub(crate) xz: Folded<R>,
+    pub(crate) yy: Folded<R>,
+    pub(crate) yz: Folded<R>,
+    pub(crate) zz: Folded<R>,
 }
 
-impl<Scalar: Real> Sym3<Scalar> {
+impl<R: Real> Sym3<R> {
     pub(crate) const ZERO: Self = Self {
         xx: Folded::ZERO,
         xy: Folded::ZERO,
@@ -188,14 +188,14 @@ impl<Scalar: Real> Sym3<Scalar> {
 
     /// A matrix that is symmetric but for rounding.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn of(m: &Mat3<Scalar>) -> Self {
+    pub(crate) fn of(m: &Mat3<R>) -> Self {
         let [x, y, z] = m.0;
         Self { xx: x.0[0], xy: y.0[0], xz: z.0[0], yy: y.0[1], yz: z.0[1], zz: z.0[2] }
     }
 
     /// The columns.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn columns(&self) -> [Vec3<Scalar>; 3] {
+    pub(crate) fn columns(&self) -> [Vec3<R>; 3] {
         [
             Vec3([self.xx, self.xy, self.xz]),
             Vec3([self.xy, self.yy, self.yz]),
@@ -205,7 +205,7 @@ impl<Scalar: Real> Sym3<Scalar> {
 
     /// Rz S Rzᵀ, by five products.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn turn(self, sin: Folded<Scalar>, cos: Folded<Scalar>) -> Self {
+    pub(crate) fn turn(self, sin: Folded<R>, cos: Folded<R>) -> Self {
         let bend = cos * self.xy;
         let w = sin * (self.xx - self.yy) + bend + bend;
         let step = sin * w;
@@ -221,7 +221,7 @@ impl<Scalar: Real> Sym3<Scalar> {
 
     /// a bᵀ + b aᵀ.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn both(a: Vec3<Scalar>, b: Vec3<Scalar>) -> Self {
+    pub(crate) fn both(a: Vec3<R>, b: Vec3<R>) -> Self {
         let ([ax, ay, az], [bx, by, bz]) = (a.0, b.0);
         let (xx, yy, zz) = (ax * bx, ay * by, az * bz);
         Self {
@@ -236,13 +236,13 @@ impl<Scalar: Real> Sym3<Scalar> {
 
     /// s a aᵀ.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn square(a: Vec3<Scalar>, s: Folded<Scalar>) -> Self {
+    pub(crate) fn square(a: Vec3<R>, s: Folded<R>) -> Self {
         let ([x, y, z], [sx, sy, sz]) = (a.0, a.scale(s).0);
         Self { xx: sx * x, xy: sx * y, xz: sx * z, yy: sy * y, yz: sy * z, zz: sz * z }
     }
 }
 
-impl<Scalar: Real> Add for Sym3<Scalar> {
+impl<R: Real> Add for Sym3<R> {
     type Output = Self;
     #[cfg_attr(optimised, inline(always))]
     fn add(self, o: Self) -> Self {

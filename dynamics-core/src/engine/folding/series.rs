@@ -12,9 +12,9 @@ use crate::scalar::Real;
 
 /// The coefficients of 1, t and t².
 #[derive(Clone, Copy)]
-pub(crate) struct Series<Arm>(pub(crate) [Arm; 3]);
+pub(crate) struct Series<T>(pub(crate) [T; 3]);
 
-impl<Arm: Add<Output = Arm>> Add for Series<Arm> {
+impl<T: Add<Output = T>> Add for Series<T> {
     type Output = Self;
     #[cfg_attr(optimised, inline(always))]
     fn add(self, o: Self) -> Self {
@@ -23,37 +23,37 @@ impl<Arm: Add<Output = Arm>> Add for Series<Arm> {
     }
 }
 
-impl<Scalar: Real> Series<Folded<Scalar>> {
+impl<R: Real> Series<Folded<R>> {
     /// A polynomial of run-time numbers.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn runtime([a, b, c]: [Scalar; 3]) -> Self {
+    pub(crate) fn runtime([a, b, c]: [R; 3]) -> Self {
         Self([Folded::runtime(a), Folded::runtime(b), Folded::runtime(c)])
     }
 
     /// The same by a number that does not change.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn times(self, s: Folded<Scalar>) -> Self {
+    pub(crate) fn times(self, s: Folded<R>) -> Self {
         let [a, b, c] = self.0;
         Self([a * s, b * s, c * s])
     }
 }
 
-impl<Scalar: Real> Series<Vec3<Scalar>> {
+impl<R: Real> Series<Vec3<R>> {
     /// A vector that does not change.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn constant(v: Vec3<Scalar>) -> Self {
+    pub(crate) fn constant(v: Vec3<R>) -> Self {
         Self([v, Vec3::ZERO, Vec3::ZERO])
     }
 
     /// The polynomials of the components along z.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn z(&self) -> Series<Folded<Scalar>> {
+    pub(crate) fn z(&self) -> Series<Folded<R>> {
         let [a, b, c] = self.0;
         Series([a.0[2], b.0[2], c.0[2]])
     }
 
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn scale(self, o: Series<Folded<Scalar>>) -> Self {
+    pub(crate) fn scale(self, o: Series<Folded<R>>) -> Self {
         let ([a, b, c], [d, e, f]) = (self.0, o.0);
         Self([a.scale(d), a.scale(e) + b.scale(d), a.scale(f) + b.scale(e) + c.scale(d)])
     }
@@ -66,16 +66,16 @@ impl<Scalar: Real> Series<Vec3<Scalar>> {
 
     /// Mᵀ v of a matrix that does not change.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn times_transposed(self, m: &Mat3<Scalar>) -> Self {
+    pub(crate) fn times_transposed(self, m: &Mat3<R>) -> Self {
         let [a, b, c] = self.0;
         Self([m.transpose_mul(a), m.transpose_mul(b), m.transpose_mul(c)])
     }
 }
 
-impl<Scalar: Real> Series<Mat3<Scalar>> {
+impl<R: Real> Series<Mat3<R>> {
     /// M v.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn mul(&self, v: Series<Vec3<Scalar>>) -> Series<Vec3<Scalar>> {
+    pub(crate) fn mul(&self, v: Series<Vec3<R>>) -> Series<Vec3<R>> {
         let ([a, b, c], [d, e, f]) = (&self.0, v.0);
         Series([a.mul(d), a.mul(e) + b.mul(d), a.mul(f) + b.mul(e) + c.mul(d)])
     }
@@ -83,18 +83,18 @@ impl<Scalar: Real> Series<Mat3<Scalar>> {
 
 /// The rotation Rz(q(t)) of a revolute joint: the sine and the cosine at t = 0, and the rates.
 #[derive(Clone, Copy)]
-pub(crate) struct Turn<Scalar> {
-    sin: Folded<Scalar>,
-    cos: Folded<Scalar>,
-    rate: Folded<Scalar>,
-    half_rate: Folded<Scalar>,
-    half_accel: Folded<Scalar>,
+pub(crate) struct Turn<R> {
+    sin: Folded<R>,
+    cos: Folded<R>,
+    rate: Folded<R>,
+    half_rate: Folded<R>,
+    half_accel: Folded<R>,
 }
 
-impl<Scalar: Real> Turn<Scalar> {
+impl<R: Real> Turn<R> {
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn new(turn: JointCoordinate<Scalar>, rate: Scalar, accel: Scalar) -> Self {
-        let half = Scalar::from_f64(0.5);
+    pub(crate) fn new(turn: JointCoordinate<R>, rate: R, accel: R) -> Self {
+        let half = R::from_f64(0.5);
         Self {
             sin: Folded::runtime(turn.sin),
             cos: Folded::runtime(turn.cos),
@@ -106,13 +106,13 @@ impl<Scalar: Real> Turn<Scalar> {
 
     /// Rzᵀ v at t = 0.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn enter_now(&self, v: Vec3<Scalar>) -> Vec3<Scalar> {
+    pub(crate) fn enter_now(&self, v: Vec3<R>) -> Vec3<R> {
         v.turn_back(self.sin, self.cos)
     }
 
     /// Rzᵀ v: into the body's frame. The derivative of y = Rzᵀ x is Rzᵀ ẋ − q̇ z × y.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn enter(&self, v: Series<Vec3<Scalar>>) -> Series<Vec3<Scalar>> {
+    pub(crate) fn enter(&self, v: Series<Vec3<R>>) -> Series<Vec3<R>> {
         let [a, b, c] = v.0;
         let (a, b, c) = (self.enter_now(a), self.enter_now(b), self.enter_now(c));
         let once = b - about_z(self.rate, a);
@@ -122,7 +122,7 @@ impl<Scalar: Real> Turn<Scalar> {
 
     /// Rz v: out of the body's frame.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn leave(&self, v: Series<Vec3<Scalar>>) -> Series<Vec3<Scalar>> {
+    pub(crate) fn leave(&self, v: Series<Vec3<R>>) -> Series<Vec3<R>> {
         let [a, b, c] = v.0;
         let once = b + about_z(self.rate, a);
         let twice = c + about_z(self.half_rate, b + once) + about_z(self.half_accel, a);
@@ -136,6 +136,6 @@ impl<Scalar: Real> Turn<Scalar> {
 
 /// w z × v.
 #[cfg_attr(optimised, inline(always))]
-fn about_z<Scalar: Real>(w: Folded<Scalar>, Vec3([x, y, _]): Vec3<Scalar>) -> Vec3<Scalar> {
+fn about_z<R: Real>(w: Folded<R>, Vec3([x, y, _]): Vec3<R>) -> Vec3<R> {
     Vec3([-(w * y), w * x, Folded::ZERO])
 }

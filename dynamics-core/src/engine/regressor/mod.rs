@@ -17,7 +17,7 @@ use super::call::Call;
 use super::compile::{Compiled, CompiledJoint, JointPair};
 use super::folding::Folded;
 use super::joint_rates::Twist;
-use super::named::{AllBodies, Named, joints};
+use super::named::{AllBodies, ListedBody, joints};
 use super::pass::{Motions, Nothing, Pass, sweep};
 use super::{Engine, only_if};
 use crate::effects::Effect;
@@ -26,7 +26,7 @@ use crate::scalar::Real;
 use crate::state::{Configuration, RobotState, State};
 use crate::trig::Kernel;
 
-impl<Arm, Sines> Engine<Arm, Sines> {
+impl<T, K> Engine<T, K> {
     /// The regressor Y of the joints' torques, by coordinates, bodies and parameters, N·m or N per
     /// unit of each parameter, as [`crate::algorithms::regressor`] computes it.
     ///
@@ -51,14 +51,14 @@ impl<Arm, Sines> Engine<Arm, Sines> {
     #[doc(alias = "parameter identification")]
     #[inline(never)]
     #[must_use]
-    pub fn regressor<Scalar: Real, Effects, const B: usize, const Q: usize, const V: usize>(
-        state: impl RobotState<Scalar, Q, V>,
-        effects: &Effects,
-    ) -> [[[Scalar; 10]; B]; V]
+    pub fn regressor<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        effects: &E,
+    ) -> [[[R; 10]; B]; V]
     where
-        Arm: Robot<B, Q, V>,
-        Sines: Kernel<Scalar>,
-        Effects: Effect<Scalar, B, V>,
+        T: Robot<B, Q, V>,
+        K: Kernel<R>,
+        E: Effect<R, B, V>,
     {
         scene_is_taken!();
         let configuration = state.configuration();
@@ -90,21 +90,21 @@ impl<Arm, Sines> Engine<Arm, Sines> {
     #[inline(never)]
     #[must_use]
     pub fn regressor_columns<
-        Scalar: Real,
-        Effects,
+        R: Real,
+        E,
         const BODY: usize,
         const B: usize,
         const Q: usize,
         const V: usize,
     >(
-        state: impl RobotState<Scalar, Q, V>,
-        effects: &Effects,
+        state: impl RobotState<R, Q, V>,
+        effects: &E,
         body: OnBody<BODY>,
-    ) -> [[Scalar; 10]; V]
+    ) -> [[R; 10]; V]
     where
-        Arm: Robot<B, Q, V>,
-        Sines: Kernel<Scalar>,
-        Effects: Effect<Scalar, B, V>,
+        T: Robot<B, Q, V>,
+        K: Kernel<R>,
+        E: Effect<R, B, V>,
     {
         scene_is_taken!();
         let _ = body;
@@ -116,21 +116,20 @@ impl<Arm, Sines> Engine<Arm, Sines> {
     }
 }
 
-impl<Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize>
-    Call<'_, Scalar, Tree, Effects, B, Q, V>
+impl<R, T, E, const B: usize, const Q: usize, const V: usize> Call<'_, R, T, E, B, Q, V>
 where
-    Scalar: Real,
-    Tree: Compiled,
-    Effects: Effect<Scalar, B, V>,
+    R: Real,
+    T: Compiled,
+    E: Effect<R, B, V>,
 {
     /// The columns of the bodies of the list.
     #[cfg_attr(optimised, inline(always))]
     fn regressor_columns<List: Bodies<N>, const N: usize>(
         self,
-        state: &State<Scalar, Q, V>,
-    ) -> [[[Scalar; 10]; N]; V] {
-        let mut y = [[[Scalar::ZERO; 10]; N]; V];
-        let mut pass = Columns::<Scalar, Tree, List, Effects, N, B, Q, V> {
+        state: &State<R, Q, V>,
+    ) -> [[[R; 10]; N]; V] {
+        let mut y = [[[R::ZERO; 10]; N]; V];
+        let mut pass = Columns::<R, T, List, E, N, B, Q, V> {
             call: self,
             state,
             y: &mut y,
@@ -145,82 +144,71 @@ where
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn regressed_field<const I: usize>(
         self,
-        parent: &AccelerationField<Scalar>,
-        state: &State<Scalar, Q, V>,
-    ) -> AccelerationField<Scalar> {
+        parent: &AccelerationField<R>,
+        state: &State<R, Q, V>,
+    ) -> AccelerationField<R> {
         let motions = Motions {
             turns: self.turns,
             qd: &state.qd,
             qdd: &state.qdd,
             velocity: false,
-            products: Effects::VELOCITY_PRODUCTS,
-            accel: Effects::ACCELERATIONS,
+            products: E::VELOCITY_PRODUCTS,
+            accel: E::ACCELERATIONS,
         };
-        motions.field::<Tree, I>(parent)
+        motions.field::<T, I>(parent)
     }
 }
 
 /// A body's field, and its motion at unit rate of each coordinate, in its joint's frame.
 #[derive(Clone, Copy)]
-struct Moving<Scalar, const V: usize> {
-    field: AccelerationField<Scalar>,
-    by: [Twist<Scalar>; V],
+struct Moving<R, const V: usize> {
+    field: AccelerationField<R>,
+    by: [Twist<R>; V],
 }
 
-struct Columns<
-    'a,
-    Scalar,
-    Tree,
-    List,
-    Effects,
-    const N: usize,
-    const B: usize,
-    const Q: usize,
-    const V: usize,
-> {
-    call: Call<'a, Scalar, Tree, Effects, B, Q, V>,
-    state: &'a State<Scalar, Q, V>,
-    y: &'a mut [[[Scalar; 10]; N]; V],
+struct Columns<'a, R, T, List, E, const N: usize, const B: usize, const Q: usize, const V: usize> {
+    call: Call<'a, R, T, E, B, Q, V>,
+    state: &'a State<R, Q, V>,
+    y: &'a mut [[[R; 10]; N]; V],
     types: PhantomData<List>,
 }
 
 impl<
-    Scalar: Real,
-    Tree: Compiled,
+    R: Real,
+    T: Compiled,
     List: Bodies<N>,
-    Effects,
+    E,
     const N: usize,
     const B: usize,
     const Q: usize,
     const V: usize,
-> Pass for Columns<'_, Scalar, Tree, List, Effects, N, B, Q, V>
+> Pass for Columns<'_, R, T, List, E, N, B, Q, V>
 where
-    Effects: Effect<Scalar, B, V>,
+    E: Effect<R, B, V>,
 {
-    type Tree = Tree;
-    type Outward = Moving<Scalar, V>;
+    type Tree = T;
+    type Outward = Moving<R, V>;
     type Inward = Nothing;
     const NOTHING: Nothing = Nothing;
-    const JOINTS: u64 = joints::<Tree>(&List::NUMBERS);
+    const JOINTS: u64 = joints::<T>(&List::NUMBERS);
 
     #[cfg_attr(optimised, inline(always))]
-    fn enter<const I: usize>(&mut self, parent: &Moving<Scalar, V>) -> Moving<Scalar, V> {
+    fn enter<const I: usize>(&mut self, parent: &Moving<R, V>) -> Moving<R, V> {
         let field = self.call.regressed_field::<I>(&parent.field, self.state);
         let at = self.call.displacement::<I>();
         let mut body = Moving { field, by: parent.by };
         for_each_joint!(K, {
-            if JointPair::<Tree, I, K>::IS_COORDINATE {
-                body.by[K] =
-                    Twist::along(CompiledJoint::<Tree, K>::JOINT, Tree::LENGTH_INV, Folded::ONE);
-            } else if JointPair::<Tree, K, I>::IS_ANCESTOR {
+            if JointPair::<T, I, K>::IS_COORDINATE {
+                body.by[K] = Twist::along(CompiledJoint::<T, K>::JOINT, T::LENGTH_INV, Folded::ONE);
+            } else if JointPair::<T, K, I>::IS_ANCESTOR {
                 body.by[K] = parent.by[K].carried(&at);
             }
         });
-        const { Named::<Tree, List, N, I, 0>::ARE_FEW };
+        const { ListedBody::<T, List, N, I, 0>::ARE_FEW };
         for_each_joint!(N_TH, {
             if let Some(see) = const {
                 only_if(
-                    Named::<Tree, List, N, I, N_TH>::IS_SOME,
+                    ListedBody::<T, List, N, I, N_TH>::IS_SOME,
                     Self::see::<I, N_TH> as fn(&mut _, &_),
                 )
             } {
@@ -231,28 +219,25 @@ where
     }
 
     #[cfg_attr(optimised, inline(always))]
-    fn leave<const I: usize>(&mut self, _: &Moving<Scalar, V>, _: Nothing) -> Nothing {
+    fn leave<const I: usize>(&mut self, _: &Moving<R, V>, _: Nothing) -> Nothing {
         Nothing
     }
 }
 
-impl<Scalar, Tree, List, Effects, const N: usize, const B: usize, const Q: usize, const V: usize>
-    Columns<'_, Scalar, Tree, List, Effects, N, B, Q, V>
+impl<R, T, List, E, const N: usize, const B: usize, const Q: usize, const V: usize>
+    Columns<'_, R, T, List, E, N, B, Q, V>
 where
-    Scalar: Real,
-    Tree: Compiled,
+    R: Real,
+    T: Compiled,
     List: Bodies<N>,
 {
     /// Writes the columns of the K-th of the bodies of the list that move with joint I.
     #[cfg_attr(optimised, inline(always))]
-    fn see<const I: usize, const K: usize>(
-        y: &mut [[[Scalar; 10]; N]; V],
-        body: &Moving<Scalar, V>,
-    ) {
-        let (at, place) = Named::<Tree, List, N, I, K>::BODY;
-        let power = BodyPower::of(&body.field, place, Tree::LENGTH);
+    fn see<const I: usize, const K: usize>(y: &mut [[[R; 10]; N]; V], body: &Moving<R, V>) {
+        let (at, place) = ListedBody::<T, List, N, I, K>::BODY;
+        let power = BodyPower::of(&body.field, place, T::LENGTH);
         for_each_joint!(J, {
-            if JointPair::<Tree, I, J>::IS_COORDINATE || JointPair::<Tree, J, I>::IS_ANCESTOR {
+            if JointPair::<T, I, J>::IS_COORDINATE || JointPair::<T, J, I>::IS_ANCESTOR {
                 y[J][*at] = power.per_parameter(&body.by[J]);
             }
         });

@@ -7,22 +7,22 @@ use crate::engine::joint_rates::Twist;
 use crate::scalar::Real;
 
 /// The motion of a body, as the field of the accelerations of its points: a(r) = point + U r.
-pub(super) struct BodyPower<Scalar> {
-    rot: Mat3<Scalar>,
-    pos: Vec3<Scalar>,
-    length: Folded<Scalar>,
-    omega: Vec3<Scalar>,
-    alpha: Vec3<Scalar>,
+pub(super) struct BodyPower<R> {
+    rot: Mat3<R>,
+    pos: Vec3<R>,
+    length: Folded<R>,
+    omega: Vec3<R>,
+    alpha: Vec3<R>,
     /// The acceleration of the origin, less gravity, m/s².
-    point: Vec3<Scalar>,
-    u: Mat3<Scalar>,
+    point: Vec3<R>,
+    u: Mat3<R>,
 }
 
-impl<Scalar: Real> BodyPower<Scalar> {
+impl<R: Real> BodyPower<R> {
     /// The motion of the body at `place` on a joint whose field is `field`.
     #[cfg_attr(optimised, inline(always))]
     pub(super) fn of(
-        field: &AccelerationField<Scalar>,
+        field: &AccelerationField<R>,
         place: &'static BodyPlacement,
         length: f64,
     ) -> Self {
@@ -45,7 +45,7 @@ impl<Scalar: Real> BodyPower<Scalar> {
     /// sᵀ A: of f = m p + U h and n = h × p + Ī α + ω × Ī ω, RBDA (2.58), the power along the
     /// motion s of the joint's frame per unit of m, h and Ī.
     #[cfg_attr(optimised, inline(always))]
-    pub(super) fn per_parameter(&self, s: &Twist<Scalar>) -> [Scalar; 10] {
+    pub(super) fn per_parameter(&self, s: &Twist<R>) -> [R; 10] {
         let w = self.rot.transpose_mul(s.ang);
         let along = self.rot.transpose_mul(s.lin + s.ang.cross(self.pos));
         let along = along.scale(self.length);

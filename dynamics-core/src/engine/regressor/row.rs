@@ -9,7 +9,7 @@ use crate::engine::call::Call;
 use crate::engine::compile::{Compiled, CompiledJoint, JointPair};
 use crate::engine::folding::Folded;
 use crate::engine::joint_rates::Twist;
-use crate::engine::named::{AllBodies, Named};
+use crate::engine::named::{AllBodies, ListedBody};
 use crate::engine::pass::{Nothing, Pass, sweep};
 use crate::engine::{Engine, only_if};
 use crate::model::Robot;
@@ -17,7 +17,7 @@ use crate::scalar::Real;
 use crate::state::{Configuration, RobotState, State};
 use crate::trig::Kernel;
 
-impl<Arm, Sines> Engine<Arm, Sines> {
+impl<T, K> Engine<T, K> {
     /// The row of the regressor of one coordinate, by bodies: its torque per unit of each body's
     /// parameters, N·m or N, as [`crate::algorithms::regressor_row`] computes it.
     ///
@@ -39,15 +39,15 @@ impl<Arm, Sines> Engine<Arm, Sines> {
     /// ```
     #[cfg_attr(optimised, inline(always))]
     #[must_use]
-    pub fn regressor_row<Scalar: Real, Effects, const B: usize, const Q: usize, const V: usize>(
-        state: impl RobotState<Scalar, Q, V>,
-        effects: &Effects,
+    pub fn regressor_row<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        effects: &E,
         coordinate: usize,
-    ) -> [[Scalar; 10]; B]
+    ) -> [[R; 10]; B]
     where
-        Arm: Robot<B, Q, V>,
-        Sines: Kernel<Scalar>,
-        Effects: Effect<Scalar, B, V>,
+        T: Robot<B, Q, V>,
+        K: Kernel<R>,
+        E: Effect<R, B, V>,
     {
         Self::regressor_row_of_bodies(state, effects, coordinate, &[true; B])
     }
@@ -73,28 +73,22 @@ impl<Arm, Sines> Engine<Arm, Sines> {
     /// ```
     #[inline(never)]
     #[must_use]
-    pub fn regressor_row_of_bodies<
-        Scalar: Real,
-        Effects,
-        const B: usize,
-        const Q: usize,
-        const V: usize,
-    >(
-        state: impl RobotState<Scalar, Q, V>,
-        effects: &Effects,
+    pub fn regressor_row_of_bodies<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        effects: &E,
         coordinate: usize,
         bodies: &[bool; B],
-    ) -> [[Scalar; 10]; B]
+    ) -> [[R; 10]; B]
     where
-        Arm: Robot<B, Q, V>,
-        Sines: Kernel<Scalar>,
-        Effects: Effect<Scalar, B, V>,
+        T: Robot<B, Q, V>,
+        K: Kernel<R>,
+        E: Effect<R, B, V>,
     {
         scene_is_taken!();
         let configuration = state.configuration();
         let trig = configuration.trig_or(Self::trig_source());
         let call = Self::call(trig.borrow(), effects);
-        let mut y = [[Scalar::ZERO; 10]; B];
+        let mut y = [[R::ZERO; 10]; B];
         let mut pass = Row { call, state: state.state(), coordinate, bodies, y: &mut y };
         let at_base = Moving { field: call.base(), by: Twist::ZERO };
         let Nothing = sweep(&mut pass, &at_base);
@@ -104,54 +98,50 @@ impl<Arm, Sines> Engine<Arm, Sines> {
 
 /// A body's field, and its motion at unit rate of the coordinate, in its joint's frame.
 #[derive(Clone, Copy)]
-struct Moving<Scalar> {
-    field: AccelerationField<Scalar>,
-    by: Twist<Scalar>,
+struct Moving<R> {
+    field: AccelerationField<R>,
+    by: Twist<R>,
 }
 
-struct Row<'a, Scalar, Tree, Effects, const B: usize, const Q: usize, const V: usize> {
-    call: Call<'a, Scalar, Tree, Effects, B, Q, V>,
-    state: &'a State<Scalar, Q, V>,
+struct Row<'a, R, T, E, const B: usize, const Q: usize, const V: usize> {
+    call: Call<'a, R, T, E, B, Q, V>,
+    state: &'a State<R, Q, V>,
     coordinate: usize,
     bodies: &'a [bool; B],
-    y: &'a mut [[Scalar; 10]; B],
+    y: &'a mut [[R; 10]; B],
 }
 
-impl<Scalar: Real, Tree: Compiled, Effects, const B: usize, const Q: usize, const V: usize> Pass
-    for Row<'_, Scalar, Tree, Effects, B, Q, V>
+impl<R: Real, T: Compiled, E, const B: usize, const Q: usize, const V: usize> Pass
+    for Row<'_, R, T, E, B, Q, V>
 where
-    Effects: Effect<Scalar, B, V>,
+    E: Effect<R, B, V>,
 {
-    type Tree = Tree;
-    type Outward = Moving<Scalar>;
+    type Tree = T;
+    type Outward = Moving<R>;
     type Inward = Nothing;
     const NOTHING: Nothing = Nothing;
 
     #[cfg_attr(optimised, inline(always))]
-    fn enter<const I: usize>(&mut self, parent: &Moving<Scalar>) -> Moving<Scalar> {
+    fn enter<const I: usize>(&mut self, parent: &Moving<R>) -> Moving<R> {
         let field = self.call.regressed_field::<I>(&parent.field, self.state);
         let at = self.call.displacement::<I>();
         let mut by = parent.by.carried(&at);
         for_each_joint!(K, {
-            if JointPair::<Tree, I, K>::IS_COORDINATE {
+            if JointPair::<T, I, K>::IS_COORDINATE {
                 // A coordinate that moves an ancestor does not move this joint: one of the two
                 // motions is zero.
-                let rate = Folded::runtime(Scalar::either(
-                    self.coordinate == K,
-                    Scalar::ONE,
-                    Scalar::ZERO,
-                ));
-                let own = Twist::along(CompiledJoint::<Tree, K>::JOINT, Tree::LENGTH_INV, rate);
+                let rate = Folded::runtime(R::either(self.coordinate == K, R::ONE, R::ZERO));
+                let own = Twist::along(CompiledJoint::<T, K>::JOINT, T::LENGTH_INV, rate);
                 (by.ang, by.lin) = (by.ang + own.ang, by.lin + own.lin);
             }
         });
         let body = Moving { field, by };
-        const { Named::<Tree, AllBodies, B, I, 0>::ARE_FEW };
+        const { ListedBody::<T, AllBodies, B, I, 0>::ARE_FEW };
         for_each_joint!(N_TH, {
             if let Some(see) = const {
                 only_if(
-                    Named::<Tree, AllBodies, B, I, N_TH>::IS_SOME,
-                    see::<Scalar, Tree, B, I, N_TH> as See<Scalar, B>,
+                    ListedBody::<T, AllBodies, B, I, N_TH>::IS_SOME,
+                    see::<R, T, B, I, N_TH> as See<R, B>,
                 )
             } {
                 see(self.y, self.bodies, &body);
@@ -161,22 +151,22 @@ where
     }
 
     #[cfg_attr(optimised, inline(always))]
-    fn leave<const I: usize>(&mut self, _: &Moving<Scalar>, _: Nothing) -> Nothing {
+    fn leave<const I: usize>(&mut self, _: &Moving<R>, _: Nothing) -> Nothing {
         Nothing
     }
 }
 
-type See<Scalar, const B: usize> = fn(&mut [[Scalar; 10]; B], &[bool; B], &Moving<Scalar>);
+type See<R, const B: usize> = fn(&mut [[R; 10]; B], &[bool; B], &Moving<R>);
 
 /// Writes the entries of the K-th body that moves with joint I.
 #[cfg_attr(optimised, inline(always))]
-fn see<Scalar: Real, Tree: Compiled, const B: usize, const I: usize, const K: usize>(
-    y: &mut [[Scalar; 10]; B],
+fn see<R: Real, T: Compiled, const B: usize, const I: usize, const K: usize>(
+    y: &mut [[R; 10]; B],
     bodies: &[bool; B],
-    body: &Moving<Scalar>,
+    body: &Moving<R>,
 ) {
-    let (at, place) = Named::<Tree, AllBodies, B, I, K>::BODY;
+    let (at, place) = ListedBody::<T, AllBodies, B, I, K>::BODY;
     if bodies[*at] {
-        y[*at] = BodyPower::of(&body.field, place, Tree::LENGTH).per_parameter(&body.by);
+        y[*at] = BodyPower::of(&body.field, place, T::LENGTH).per_parameter(&body.by);
     }
 }

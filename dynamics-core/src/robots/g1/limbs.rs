@@ -3,7 +3,7 @@
 use core::f64::consts::PI;
 
 use crate::model::{BASE, Body, Joint, JointLimits};
-use crate::robots::welded_part::Part;
+use crate::robots::welded_part::WeldedPart;
 
 const X: [f64; 3] = [1.0, 0.0, 0.0];
 const Y: [f64; 3] = [0.0, 1.0, 0.0];
@@ -32,8 +32,8 @@ const fn sideways(
 }
 
 /// A part of the left side (`left` 1), or its mirror image (-1).
-const fn part(left: f64, mass: f64, [x, y, z]: [f64; 3], i: [f64; 6]) -> Part {
-    Part {
+const fn part(left: f64, mass: f64, [x, y, z]: [f64; 3], i: [f64; 6]) -> WeldedPart {
+    WeldedPart {
         mass,
         com: [x, left * y, z],
         inertia: [i[0], left * i[1], i[2], i[3], left * i[4], i[5]],
@@ -222,12 +222,12 @@ pub(super) const fn arm(
 
 /// Three bodies from waist to torso, the head welded on; `first` is the index of the first.
 pub(super) const fn waist(first: usize) -> [Body; 3] {
-    let head = Part {
+    let head = WeldedPart {
         mass: 1.036,
         com: [0.005267, 0.000299, 0.449869],
         inertia: [0.004085051, -2.543e-6, -6.9455e-5, 0.004185212, -3.726e-6, 0.001807911],
     };
-    let torso = Part {
+    let torso = WeldedPart {
         mass: 6.78,
         com: [0.000931, 0.000346, 0.15082],
         inertia: [0.05905, 3.3302e-5, -0.0017715, 0.047014, -2.2399e-5, 0.025652],

@@ -19,7 +19,7 @@ const LOWERED: f64 = 1e-3;
 
 /// A kind of friction at a joint.
 #[derive(Clone, Debug, Serialize)]
-pub struct Carried {
+pub struct FrictionKind {
     pub joint: String,
     pub effect: JointEffect,
     /// The residuals of torques that were not fitted without it and with it, RMS, relative to the
@@ -35,7 +35,7 @@ pub(crate) fn carried<const V: usize>(
     options: &Options,
     [fitted, held]: [&Comparison<V>; 2],
     names: &[String],
-) -> Vec<Carried> {
+) -> Vec<FrictionKind> {
     use JointEffect::{Asymmetric, Load, Preslide, Stribeck};
     let speeds = SPEEDS.map(|times| (Stribeck, Some(times * options.width)));
     let all = speeds.into_iter().chain([(Asymmetric, None), (Load, None)]);
@@ -70,13 +70,13 @@ pub(crate) fn carried<const V: usize>(
             (left - rows * by).norm() / (held.times.len() as f64).sqrt() / largest
         };
         let before = share(None);
-        let of = |&(effect, speed)| Carried {
+        let of = |&(effect, speed)| FrictionKind {
             joint: joint.clone(),
             effect,
             residuals: [before, share(Some((effect, speed)))],
             speed,
         };
-        let mut own: Vec<Carried> = kinds.iter().map(of).collect();
+        let mut own: Vec<FrictionKind> = kinds.iter().map(of).collect();
         own.retain(|one| one.residuals[1] < (LEFT * before).min(before - LOWERED));
         own.sort_by(|a, b| a.residuals[1].total_cmp(&b.residuals[1]));
         // The best speed of Stribeck's effect.

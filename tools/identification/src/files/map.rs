@@ -259,7 +259,7 @@ fn named(pattern: &str, index: usize, joint: &str) -> String {
 fn listed(titles: &[String]) -> String {
     let more = if titles.len() > LISTED { ", …" } else { "" };
     let shown: Vec<String> =
-        titles.iter().take(LISTED).map(|t| super::reading::shortened(t)).collect();
+        titles.iter().take(LISTED).map(|t| super::messages::shortened(t)).collect();
     shown.join(", ") + more
 }
 

@@ -115,7 +115,7 @@ impl<F: FnMut(Message) -> Checked<()>> Reader<'_, F> {
                         other => {
                             return Err(wrong(format!(
                                 "compressed by {}; `mcap compress --compression zstd` writes what is read",
-                                super::reading::shortened(other)
+                                shortened(other)
                             )));
                         }
                     }
@@ -219,4 +219,9 @@ impl Cdr<'_> {
         self.at += count;
         Some(String::from_utf8_lossy(text.strip_suffix(&[0])?).into_owned())
     }
+}
+
+/// A field for a message.
+pub(crate) fn shortened(field: &str) -> String {
+    robot_import::text::visible(&field.chars().take(40).collect::<String>())
 }

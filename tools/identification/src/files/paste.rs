@@ -7,14 +7,14 @@ use robot_import::write;
 
 use crate::OF_JOINT;
 
-use super::report::{Found, Gear, rounded};
+use super::report::{Findings, Gear, rounded};
 use super::robot::Robot;
 
 /// The width with which the importer writes Coulomb friction.
 const WIDTH: &str = "Width::f32(0.02)";
 
 /// The Rust file of the robot, as `cargo xtask import` writes it, with what was found.
-pub fn file(robot: &Robot, found: &Found) -> String {
+pub fn file(robot: &Robot, found: &Findings) -> String {
     let imported = &robot.imported;
     let mut tree = imported.tree.clone();
     for ((body, own), joint) in tree.bodies.iter_mut().zip(&found.bodies).zip(&found.joints) {
@@ -69,7 +69,7 @@ pub fn lines(file: &str) -> String {
 
 /// The constant torques, and the friction of further kinds, if the recording shows some; the
 /// importer knows none.
-fn others(found: &Found, width: &str) -> String {
+fn others(found: &Findings, width: &str) -> String {
     let list = |of: &dyn Fn(&[f64; OF_JOINT]) -> f64| -> Vec<f64> {
         found.joints.iter().map(|joint| rounded(of(&joint.after))).collect()
     };
@@ -106,7 +106,7 @@ fn others(found: &Found, width: &str) -> String {
 }
 
 /// The constant of the gears, if their friction was found; the importer knows none.
-fn gears(found: &Found, width: &str) -> String {
+fn gears(found: &Findings, width: &str) -> String {
     let each: Vec<_> = found.joints.iter().filter_map(|joint| joint.gear).collect();
     let list = |of: &dyn Fn(&Gear) -> f64| {
         let numbers: Vec<String> = each.iter().map(|g| format!("{:?}", rounded(of(g)))).collect();
@@ -135,7 +135,7 @@ fn gears(found: &Found, width: &str) -> String {
 
 /// Initialisers for C: of each body the fields of `<name>_load` in the header of a project, and of
 /// each joint its friction.
-pub fn c(found: &Found) -> String {
+pub fn c(found: &Findings) -> String {
     let list = |numbers: &[f64]| {
         let each: Vec<String> = numbers.iter().map(|x| format!("{:?}f", rounded(*x))).collect();
         format!("{{{}}}", each.join(", "))

@@ -91,7 +91,7 @@ impl Rows {
         }
         let wrong = |at: usize, expected| Problem::Value {
             column: columns.titles[at].clone(),
-            text: shortened(field(at)),
+            text: messages::shortened(field(at)),
             expected,
         };
         let real = |at: usize, largest: f64| match field(at) {
@@ -143,9 +143,4 @@ impl Rows {
             _ => self.made(joints, columns.held),
         }
     }
-}
-
-/// A field for a message.
-pub(crate) fn shortened(field: &str) -> String {
-    robot_import::text::visible(&field.chars().take(40).collect::<String>())
 }

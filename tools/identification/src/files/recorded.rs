@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::TickRecording;
 
 use super::error::{Error, Problem, Result};
-use super::resample::{self, Sampling};
+use super::resample::{self, Row, Sampling};
 
 /// The largest number that a position or a torque of an arm may be.
 pub(crate) const LARGEST: f64 = 1e6;
@@ -25,9 +25,6 @@ pub struct Recorded {
     /// Whether a torque is held until the next tick; otherwise it is that of its position.
     pub held: bool,
 }
-
-/// Positions and torques of a tick.
-pub type Row = (Vec<f64>, Vec<f64>);
 
 /// Rows as they come.
 #[derive(Default)]

@@ -9,7 +9,7 @@ use serde::Serialize;
 use crate::OF_JOINT;
 
 use super::attempt::{JointEffect, OfOneJoint};
-use super::kinds::Carried;
+use super::kinds::FrictionKind;
 use super::mistakes::{IMPOSSIBLE, Mistake};
 use super::resample::Sampling;
 
@@ -18,7 +18,7 @@ const DIGITS: usize = 6;
 
 /// The findings about a robot from a recording; its fields are those of the JSON.
 #[derive(Clone, Debug, Serialize)]
-pub struct Found {
+pub struct Findings {
     pub robot: String,
     /// Ticks in which the controller made the torque.
     pub ticks: usize,
@@ -49,7 +49,7 @@ pub struct Found {
     pub joints: Vec<JointFound>,
     pub bodies: Vec<BodyFound>,
     /// The kinds of friction that were not identified and lower the residuals.
-    pub kinds: Vec<Carried>,
+    pub kinds: Vec<FrictionKind>,
     /// Torques of the held-out part.
     #[serde(skip)]
     pub traces: Vec<Trace>,
@@ -79,8 +79,8 @@ pub struct JointFound {
     /// The deviations, if the number is a base parameter of its own.
     pub deviations: [Option<f64>; OF_JOINT],
     pub gear: Option<Gear>,
-    pub fitted: Part,
-    pub held_out: Option<Part>,
+    pub fitted: RecordingPart,
+    pub held_out: Option<RecordingPart>,
     /// Whether its residuals are noise, of which deviations follow.
     pub is_noise: bool,
 }
@@ -98,7 +98,7 @@ pub struct Gear {
 
 /// A part of a recording at a joint, N·m or N.
 #[derive(Clone, Copy, Debug, Default, Serialize)]
-pub struct Part {
+pub struct RecordingPart {
     pub largest_torque: f64,
     /// Residuals of the description, and of the findings.
     pub residuals: [Residuals; 2],
@@ -180,7 +180,7 @@ fn short(x: f64) -> String {
     }
 }
 
-impl Found {
+impl Findings {
     /// The joint whose residuals are the largest share of its torque, held out or else fitted, and
     /// that share.
     pub fn worst(&self) -> Option<(&JointFound, f64)> {
@@ -388,7 +388,7 @@ impl Found {
     fn residuals(&self, text: &mut String, held: &str) {
         let titles =
             ["joint", "largest torque", "description, RMS", "found, RMS", "found, largest"];
-        let mut table = |title: &str, of: &dyn Fn(&JointFound) -> Option<Part>| {
+        let mut table = |title: &str, of: &dyn Fn(&JointFound) -> Option<RecordingPart>| {
             let mut rows = vec![titles.map(str::to_owned)];
             for joint in &self.joints {
                 let Some(part) = of(joint) else { continue };
@@ -425,7 +425,7 @@ impl Found {
     }
 }
 
-impl Found {
+impl Findings {
     /// The kinds of friction that the recording carries, and whether deviations are intervals.
     fn friction(&self, text: &mut String, held: &str) {
         for one in &self.kinds {

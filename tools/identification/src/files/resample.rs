@@ -9,7 +9,6 @@ use std::f64::consts::TAU;
 use serde::Serialize;
 
 use super::error::Problem;
-use super::recorded::Row;
 
 /// Rows that are off the grid by less than this share of an interval are taken as they are.
 const EVEN: f64 = 0.01;
@@ -20,6 +19,9 @@ const INTERVALS: std::ops::RangeInclusive<f64> = 2e-5..=0.5;
 /// The largest jitter, RMS, of an interval, and the largest share of times that go back.
 const JITTER: f64 = 0.4;
 const BACKWARD: f64 = 0.01;
+
+/// Positions and torques of a tick.
+pub type Row = (Vec<f64>, Vec<f64>);
 
 /// The rows of a record that were left out, and how it was made even.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]

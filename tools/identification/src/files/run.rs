@@ -15,7 +15,9 @@ use super::error::{Error, Result};
 use super::kinds;
 use super::mistakes;
 use super::recorded::Recorded;
-use super::report::{BodyFound, Found, Gear, JointFound, Numbers, ParameterFound, Part, Trace};
+use super::report::{
+    BodyFound, Findings, Gear, JointFound, Numbers, ParameterFound, RecordingPart, Trace,
+};
 use super::robot::Robot;
 
 /// The most points of a trace.
@@ -34,7 +36,7 @@ pub fn identify(
     recording: (&Path, &Recorded),
     other: Option<(&Path, &Recorded)>,
     options: &Options,
-) -> Result<Found> {
+) -> Result<Findings> {
     let names = robot.joints();
     if [JointEffect::Load, JointEffect::Preslide].iter().all(|one| options.effects.contains(one)) {
         let reason = "gears have one kind of friction: --effects with load or with preslide";
@@ -74,7 +76,7 @@ fn of_size<const V: usize>(
     (path, recorded): (&Path, &Recorded),
     other: Option<(&Path, &Recorded)>,
     options: &Options,
-) -> Result<Found> {
+) -> Result<Findings> {
     let task = Task { robot, path, options, held: recorded.held };
     let whole: TickRecording<V> = recorded.ticks(path)?;
     let (fitted_part, held) = match other {
@@ -165,7 +167,7 @@ fn of_size<const V: usize>(
         let excess = excess * attempt.stribeck.map_or(0.0, |speed| bell(s, qd, speed));
         viscous * qd + s * (coulomb + asymmetry * s) + excess
     };
-    Ok(Found {
+    Ok(Findings {
         robot: robot.imported.name.clone(),
         ticks: whole.ticks(),
         tick,
@@ -190,8 +192,8 @@ fn of_size<const V: usize>(
 }
 
 /// The residuals of a joint.
-fn part<const V: usize>(compared: &Comparison<V>, joint: usize) -> Part {
-    let mut part = Part::default();
+fn part<const V: usize>(compared: &Comparison<V>, joint: usize) -> RecordingPart {
+    let mut part = RecordingPart::default();
     let count = compared.measured.len() as f64;
     for (k, measured) in compared.measured.iter().enumerate() {
         let measured = measured[joint];

@@ -8,7 +8,7 @@ use dynamics_core::effects::{Coulomb, RIGID_BODY, Viscous, Width};
 use dynamics_core::state::State;
 use identification::files::error::Result;
 use identification::files::recorded::Recorded;
-use identification::files::report::Found;
+use identification::files::report::Findings;
 use identification::files::robot::Robot;
 use identification::files::run::{self, JointEffect, Options};
 use robot_import::import::Options as Selection;
@@ -123,7 +123,7 @@ pub fn read(text: &str) -> Result<Recorded> {
 }
 
 /// The report about the arm whose description is off.
-pub fn identified(text: &str) -> Result<Found> {
+pub fn identified(text: &str) -> Result<Findings> {
     let recorded = read(text)?;
     run::identify(&off(), (Path::new("run.csv"), &recorded), None, &OPTIONS())
 }

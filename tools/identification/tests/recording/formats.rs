@@ -3,7 +3,7 @@
 
 use identification::files::map::Map;
 use identification::files::mistakes::Mistake;
-use identification::files::report::Found;
+use identification::files::report::Findings;
 use identification::files::run::{JointEffect, Options};
 
 use crate::arm::OPTIONS;
@@ -70,14 +70,14 @@ fn formats() -> [Format; 5] {
 }
 
 impl Format {
-    fn found(&self, wrong: Wrong) -> Found {
+    fn found(&self, wrong: Wrong) -> Findings {
         let text = (self.text)(&samples((self.times)().into_iter(), wrong));
         let recorded = read(&text, self.map.as_deref()).expect("a log");
         identified(&recorded, &OPTIONS())
     }
 
     /// The arm in the project's own format at the same rate. There a torque is held for a tick.
-    fn converted(&self) -> Found {
+    fn converted(&self) -> Findings {
         let seconds = (self.times)().last().copied().expect("times");
         let text =
             own(&samples(even(self.rate, seconds), Wrong { late: -0.5 / self.rate, ..RIGHT }));

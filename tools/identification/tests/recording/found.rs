@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use identification::files::error::Error;
-use identification::files::report::Found;
+use identification::files::report::Findings;
 use identification::files::robot::Robot;
 use identification::files::{paste, picture, run};
 use robot_import::inertia::MassProperties;
@@ -14,7 +14,7 @@ const SIZE: [f64; 2] = [0.9, 1.1];
 const RATES: [f64; 2] = [1.7, 2.6];
 
 /// The description with what was found, as it is pasted.
-fn pasted(found: &Found) -> Robot {
+fn pasted(found: &Findings) -> Robot {
     let mut robot = off();
     let bodies = &mut robot.imported.tree.bodies;
     for ((body, own), joint) in bodies.iter_mut().zip(&found.bodies).zip(&found.joints) {

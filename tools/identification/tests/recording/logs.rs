@@ -11,7 +11,7 @@ use dynamics_core::state::State;
 use identification::files::error::Result;
 use identification::files::map::Map;
 use identification::files::recorded::Recorded;
-use identification::files::report::Found;
+use identification::files::report::Findings;
 use identification::files::robot::Robot;
 use identification::files::run::{self, Options};
 use robot_import::import::Options as Selection;
@@ -260,10 +260,10 @@ pub fn read(bytes: &[u8], map: Option<&str>) -> Result<Recorded> {
     Recorded::from(Path::new("log"), bytes, &so101().joints(), map.as_ref())
 }
 
-pub fn tried(recorded: &Recorded) -> Result<Found> {
+pub fn tried(recorded: &Recorded) -> Result<Findings> {
     run::identify(&so101(), (Path::new("log"), recorded), None, &OPTIONS())
 }
 
-pub fn identified(recorded: &Recorded, options: &Options) -> Found {
+pub fn identified(recorded: &Recorded, options: &Options) -> Findings {
     run::identify(&so101(), (Path::new("log"), recorded), None, options).expect("parameters")
 }

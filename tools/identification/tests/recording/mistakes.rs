@@ -4,7 +4,7 @@ use std::path::Path;
 
 use identification::files::mistakes::Mistake;
 use identification::files::paste;
-use identification::files::report::{Found, rounded};
+use identification::files::report::{Findings, rounded};
 
 use crate::arm::*;
 
@@ -37,7 +37,7 @@ fn same(_: usize, x: f64) -> f64 {
     x
 }
 
-fn found(text: &str) -> Found {
+fn found(text: &str) -> Findings {
     identified(text).expect("parameters")
 }
 

@@ -68,7 +68,7 @@ const NOT_DYNAMICS: [&str; 30] = [
 
 /// The parts that are left out, one entry for all parts that have the same.
 #[derive(Default)]
-struct Found {
+struct Omissions {
     /// Unknown names, and the links or joints with them.
     unknown: BTreeMap<Vec<String>, Vec<String>>,
     /// Gears without the inertia of a rotor, and the joints with them.
@@ -76,7 +76,7 @@ struct Found {
     notes: Vec<String>,
 }
 
-impl Found {
+impl Omissions {
     fn gear(&mut self, gear: &str, joint: &str) {
         let joints = self.gears.entry(gear.to_owned()).or_default();
         joints.push(joint.to_owned());
@@ -88,7 +88,7 @@ impl Found {
 /// # Errors
 /// A number that is read and is none.
 pub fn read(root: Node<'_, '_>, joints: &mut [Joint]) -> Result<Vec<String>> {
-    let mut found = Found::default();
+    let mut found = Omissions::default();
     let names = joints.iter().enumerate();
     let index: HashMap<String, usize> = names.map(|(j, joint)| (joint.name.clone(), j)).collect();
     for part in children(root, "link").chain(children(root, "joint")) {
@@ -234,7 +234,7 @@ fn transmission(
     node: Node<'_, '_>,
     joints: &mut [Joint],
     index: &HashMap<String, usize>,
-    found: &mut Found,
+    found: &mut Omissions,
 ) -> Result<()> {
     let of_joints: Vec<&str> =
         children(node, "joint").filter_map(|joint| joint.attribute("name")).collect();
@@ -302,7 +302,7 @@ fn transmission(
 }
 
 /// Gears of `<ros2_control>`, and the names of its parameters.
-fn ros2_control(node: Node<'_, '_>, found: &mut Found) {
+fn ros2_control(node: Node<'_, '_>, found: &mut Omissions) {
     let what = format!("The <ros2_control> `{}`", name_of(node));
     let reductions = node
         .descendants()

@@ -1,10 +1,11 @@
 //! The choice of a form: which code computes inverse dynamics, M and forward dynamics of a robot.
 //!
-//! The textbook's passes ([`crate::algorithms`]) take every tree and joint. Chains have passes of
-//! their own ([`chains`]), and a model whose joints are known at run time to be all revolute, or
-//! revolute and fixed, is seen through a view whose code asks for no other kind. The choice changes
-//! neither signature nor meaning; what the compiler knows of a robot leaves one form in the machine
-//! code.
+//! The textbook's passes ([`crate::algorithms`]) take every tree and joint; chains have passes of
+//! their own ([`chain`]). The choice changes neither signature nor meaning, and a robot that is
+//! known to the compiler has one form in the machine code. A model that is read at run time is
+//! asked whether it is a chain of revolute joints.
+
+mod chain;
 
 use core::borrow::Borrow;
 
@@ -12,14 +13,13 @@ use crate::algorithms::aba::aba as textbook_aba;
 use crate::algorithms::crba::crba as textbook_crba;
 use crate::algorithms::rnea::rnea as textbook_rnea;
 use crate::algorithms::{MassMatrix, NotPositiveDefinite, Prescribed};
-use crate::chains;
 use crate::effects::{Effect, Scene};
 use crate::model::RobotModel;
 use crate::scalar::Real;
 use crate::state::{Configuration, RobotState, entry};
 
-/// `$chain` if the robot is seen as a chain of revolute joints, where `$views` allows it, or is a
-/// chain by its type, where `$chains` says so; else `$tree`. Both see the robot as `$robot`;
+/// `$chain` if the robot is a chain of revolute joints at run time, where `$views` allows it, or is
+/// a chain by its type, where `$chains` says so; else `$tree`. Both see the robot as `$robot`;
 /// `$viewed` is whether it is a view.
 macro_rules! by_form {
     (
@@ -32,16 +32,6 @@ macro_rules! by_form {
         {
             let ($robot, $viewed) = (&view, true);
             $chain
-        } else if const { $D::MAY_BE_REVOLUTE }
-            && let Some(view) = $robot.as_all_revolute()
-        {
-            let $robot = &view;
-            $tree
-        } else if const { $D::MAY_HAVE_FIXED }
-            && let Some(view) = $robot.as_revolute_or_fixed()
-        {
-            let $robot = &view;
-            $tree
         } else if const { $chains } {
             let $viewed = false;
             $chain
@@ -103,7 +93,7 @@ where
         robot: D, viewed;
         views E::VELOCITY_PRODUCTS,
         chains E::VELOCITY_PRODUCTS && D::CHAIN && D::KINDS.are_revolute();
-        chains::rnea(robot, trig, state, effects, viewed),
+        chain::rnea(robot, trig, state, effects, viewed),
         textbook_rnea(robot, trig, state, effects, |_, _| ())
     )
 }
@@ -159,7 +149,7 @@ where
         robot: D, _viewed;
         views true,
         chains D::CHAIN && D::SINGLE;
-        chains::crba(robot, trig, effects),
+        chain::crba(robot, trig, effects),
         textbook_crba(robot, trig, effects)
     )
 }
@@ -233,7 +223,7 @@ where
         robot: D, _viewed;
         views true,
         chains D::CHAIN && D::SINGLE;
-        chains::aba(robot, trig, state, effects, tau),
+        chain::aba(robot, trig, state, effects, tau),
         Ok(textbook_aba(robot, trig, state, effects, given)?.qdd)
     )
 }

@@ -10,8 +10,8 @@ use heapless::Vec;
 
 use super::across::{Across, AcrossZ};
 use crate::algorithms::NotPositiveDefinite;
+use crate::algorithms::aba::JointFactor;
 use crate::algorithms::pivot_check::{Magnitude, PivotCheck};
-use crate::algorithms::prescribed::JointFactor;
 use crate::algorithms::rnea::external_force;
 use crate::algorithms::rotors::with_rotor;
 use crate::algorithms::tree_pass::per_body;
@@ -27,7 +27,7 @@ use crate::state::{JointTrig, State, entry};
 
 /// The result of the first pass for a body: its part of X, c, and pᴬ of the body alone.
 struct Body<R: Real, X: Across<R>> {
-    x: X::Kept,
+    x: X::Memo,
     c: AcrossZ<R>,
     pa: Force<R>,
 }
@@ -99,7 +99,7 @@ where
         let u_a = ia.along(&s);
         let mut d = s.dot(u_a);
         add_inertia(effects, i, &mut d);
-        PivotCheck::of(magnitude).check((&link, 0), turns, (u_a, d), i)?;
+        PivotCheck::of(magnitude).check(&link, 0, turns, u_a, d)?;
         let d_inv = R::ONE / d;
         let tau = transmitted(effects, i, joint_state(&link, state, i), entry(tau, i));
         let u = tau - joint_torque(effects, &link, state, i) - s.dot(pa);
@@ -161,7 +161,7 @@ fn outward_velocities<X: Across<R>, R: Real, D, E, const B: usize, const Q: usiz
             let couple = gyroscopic(effects, &link, v.ang, rate, R::ZERO);
             parent.pa.ang += link.xform(turns).rot.transpose_mul(couple);
         }
-        let (x, c) = (x.kept(), AcrossZ::of(c));
+        let (x, c) = (x.memo(), AcrossZ::of(c));
         if bodies.push(Body { x, c, pa }).is_err() {
             break;
         }

@@ -12,10 +12,10 @@ use crate::spatial::{AxialScrews, Force, Motion, Xform};
 /// A transform across a link. Only the part of it is kept that the robot and the sines and cosines
 /// do not hold.
 pub(super) trait Across<R: Real>: Copy + Mul<Motion<R>, Output = Motion<R>> {
-    type Kept: Copy;
+    type Memo: Copy;
     fn of(link: &LinkView<'_, R>, turns: &[JointCoordinate<R>]) -> Self;
-    fn kept(&self) -> Self::Kept;
-    fn again(kept: Self::Kept, link: &LinkView<'_, R>, turns: &[JointCoordinate<R>]) -> Self;
+    fn memo(&self) -> Self::Memo;
+    fn again(memo: Self::Memo, link: &LinkView<'_, R>, turns: &[JointCoordinate<R>]) -> Self;
     /// A bound of the distance between the origins.
     fn distance(&self) -> R;
     /// Xᵀ f.
@@ -29,13 +29,13 @@ pub(super) trait Across<R: Real>: Copy + Mul<Motion<R>, Output = Motion<R>> {
 }
 
 impl<R: Real> Across<R> for Xform<R> {
-    type Kept = R::Mat3;
+    type Memo = R::Mat3;
     #[cfg_attr(optimised, inline(always))]
     fn of(link: &LinkView<'_, R>, turns: &[JointCoordinate<R>]) -> Self {
         link.xform(turns)
     }
     #[cfg_attr(optimised, inline(always))]
-    fn kept(&self) -> R::Mat3 {
+    fn memo(&self) -> R::Mat3 {
         self.rot
     }
     #[cfg_attr(optimised, inline(always))]
@@ -66,13 +66,13 @@ impl<R: Real> Across<R> for Xform<R> {
 
 impl<R: Real> Across<R> for AxialScrews<R> {
     /// The shift along z.
-    type Kept = R;
+    type Memo = R;
     #[cfg_attr(optimised, inline(always))]
     fn of(link: &LinkView<'_, R>, turns: &[JointCoordinate<R>]) -> Self {
         link.screws(turns)
     }
     #[cfg_attr(optimised, inline(always))]
-    fn kept(&self) -> R {
+    fn memo(&self) -> R {
         self.about_z.shift
     }
     #[cfg_attr(optimised, inline(always))]

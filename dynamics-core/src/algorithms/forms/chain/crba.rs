@@ -51,9 +51,9 @@ where
     E: Effect<R, B, V>,
 {
     let turns = &trig.coordinates;
-    let mut kept: Vec<X::Kept, V> = Vec::new();
+    let mut kept: Vec<X::Memo, V> = Vec::new();
     for link in robot.links() {
-        let _ = kept.push(X::of(&link, turns).kept());
+        let _ = kept.push(X::of(&link, turns).memo());
     }
     let composite = |i, link: &LinkView<'_, R>, beyond| {
         let mut ic = CompositeInertia::from(body_inertia(effects, i, link));

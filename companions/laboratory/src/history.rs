@@ -87,8 +87,7 @@ pub fn measure(bench: &Bench<'_>) -> Result<Vec<Part>> {
     let (workspace, tools) = (bench.workspace, bench.tools()?);
     let mut count = workspace.cargo("run");
     count.args(["--quiet", "--manifest-path", MANIFEST, "--package", "history"]);
-    let counts =
-        shell::capture(count.arg("--target-dir").arg(workspace.target.join("laboratory")))?;
+    let counts = shell::capture(count.arg("--target-dir").arg(&workspace.target))?;
     // A line for each algorithm, its key and then its cells; why published and counted differ.
     let (ancestors, differences) = counts
         .split_once("\n\n")

@@ -78,7 +78,7 @@ fn run(cli: &Cli) -> Result<ExitCode> {
 /// A command of cargo for a bin of the laboratory's firmware, which has a feature of its name, and
 /// the path of what it builds.
 fn firmware(bench: &Bench<'_>, verb: &str, bin: &str) -> Result<(Command, PathBuf)> {
-    let folder = bench.workspace.target.join("laboratory");
+    let folder = bench.workspace.target.clone();
     let mut command = bench.tools()?.toolchain.cargo(bench.workspace, verb);
     command.args(["--release", "--manifest-path", MANIFEST, "--package", "laboratory-firmware"]);
     command.args(["--features", bin, "--bin", bin, "--target-dir"]).arg(&folder);

@@ -117,7 +117,7 @@ fn joined<T>(thread: thread::ScopedJoinHandle<'_, Result<T>>) -> Result<T> {
 fn on_host(workspace: &Workspace) -> Result<Said> {
     let mut command = workspace.cargo("run");
     command.args(["--quiet", "--manifest-path", MANIFEST, "--package", PACKAGE]);
-    command.arg("--target-dir").arg(workspace.target.join("laboratory"));
+    command.arg("--target-dir").arg(&workspace.target);
     Said::read(&shell::capture(&mut command)?)
 }
 

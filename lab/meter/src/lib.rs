@@ -97,8 +97,8 @@
 //! - While no region is open, caches stay as they are: a tick finds them as the tick before left
 //!   them. Firmware that runs between two ticks makes them colder.
 //!
-//! The manuals leave open which lines enter, which of them share a place, and what goes first. `silicon.md` has
-//! what was tried, and how far the model is from chips.
+//! The manuals leave open which lines enter, which of them share a place, and what goes first.
+//! `silicon.md` has what was tried, and how far the model is from chips.
 //!
 //! # Not modelled
 //!

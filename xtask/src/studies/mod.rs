@@ -12,15 +12,11 @@ pub mod study;
 
 use clap::{ArgMatches, Args, Command};
 
-use crate::kit::error::Result;
-use study::Form::{Own, Part, Whole};
-use study::Held::{Bars, Step};
+use study::Form::{Own, Part};
+use study::Held::Step;
 use study::Lane::{Host, Target};
-use study::Scope::{Everyday, Full, Named};
+use study::Scope::{Everyday, Full};
 use study::{Study, given};
-
-/// The check of a study that no step measures.
-const NO_STEP: fn(&study::Bench<'_>) -> Result<String> = |_| Ok(String::new());
 
 /// In the order in which their steps run.
 #[rustfmt::skip]

@@ -181,7 +181,7 @@ def missed(found: dict) -> list[str]:
 
 def check() -> None:
     """Says whether the page is older than the code: times of one machine are no test of another, as
-    on docs/peers.md."""
+    on the laboratory's peers.md."""
     page = PAGE.read_text(encoding="utf-8")
     if BEGIN not in page or END not in page:
         sys.exit(f"{PAGE.name} has no markers")

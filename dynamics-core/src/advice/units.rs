@@ -1,6 +1,6 @@
 //! Units of a description: masses against the reach, radii of gyration, limits of most joints.
 //!
-//! The thresholds lie between what the robots of the library and of docs/robots.md have and what
+//! The thresholds lie between what the robots of the library and of published ones have and what
 //! the same robots have in another unit; the figures are beside each.
 
 use super::{Advice, AdvisedJoint};

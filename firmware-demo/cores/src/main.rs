@@ -2,7 +2,7 @@
 //! and the stack of a tick: in QEMU on each core, on the host the digests alone, which are the
 //! reference.
 //!
-//! `cargo xtask cores` builds it with the flags and the linker script of each core, and compares
+//! The laboratory builds it with the flags and the linker script of each core, and compares
 //! what it prints.
 #![cfg_attr(target_os = "none", no_std, no_main)]
 

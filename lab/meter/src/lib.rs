@@ -74,7 +74,8 @@
 //! | addend of a multiply-accumulate from the previous instruction | 0 | 1 more | 1 more |
 //! | `SDIV`, `UDIV` | 2 | 12 | 12 |
 //!
-//! `docs/silicon.md` compares the three readings with cycles that others counted on chips.
+//! The page `silicon.md` of the laboratory compares the three readings with cycles that others
+//! counted on chips.
 //!
 //! # Flash that waits
 //!
@@ -96,8 +97,8 @@
 //! - While no region is open, caches stay as they are: a tick finds them as the tick before left
 //!   them. Firmware that runs between two ticks makes them colder.
 //!
-//! The manuals leave open which lines enter, which of them share a place, and what goes first. `docs/silicon.md` has
-//! what was tried, and how far the model is from chips.
+//! The manuals leave open which lines enter, which of them share a place, and what goes first.
+//! `silicon.md` has what was tried, and how far the model is from chips.
 //!
 //! # Not modelled
 //!

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 
 use crate::kit::error::{Error, Result};
 use crate::kit::importer::passed::{IMPORT, NEW, Passed};
-use crate::kit::importer::{ALL, Robot, command, measure, report};
+use crate::kit::importer::{Robot, command, measure, report};
 use crate::kit::meter::{CHIPS, IN_FLASH, MODEL};
 use crate::kit::rows::Row;
 use crate::kit::setup::{self, Options};
@@ -48,9 +48,8 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
     let report = report(&workspace::read(json_file.as_ref())?)?;
     let file = file.into();
     let robot = Robot { file, report };
-    let measured = (!args.no_measure).then(|| {
-        setup::for_demo(options).and_then(|tools| measure(&workspace, &tools, &[&robot], ALL))
-    });
+    let measured = (!args.no_measure)
+        .then(|| setup::for_demo(options).and_then(|tools| measure(&workspace, &tools, &[&robot])));
     if json {
         let mut report = robot.report;
         let rows = measured.transpose().unwrap_or_default();

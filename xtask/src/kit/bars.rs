@@ -34,7 +34,6 @@ pub struct Bar {
     pub missed: Vec<String>,
 }
 
-#[cfg(test)]
 impl Bar {
     /// A bar of these figures for tests, none of them missed.
     pub fn of<const N: usize>(most: [(&str, f64); N]) -> Self {

@@ -45,7 +45,6 @@ pub struct Image {
     pub fast: Range<u64>,
 }
 
-#[cfg(test)]
 impl Function {
     /// A function of these halfwords, for tests.
     pub fn of(name: &str, address: u64, code: &[u16]) -> Self {
@@ -58,7 +57,6 @@ impl Function {
     }
 }
 
-#[cfg(test)]
 impl Image {
     /// An image of these functions for a Cortex-M, for tests.
     pub fn of(functions: Vec<Function>) -> Self {

@@ -50,21 +50,24 @@ pub enum Error {
 }
 
 /// A check that did not hold, in words that are formatted.
+#[macro_export]
 macro_rules! check {
     ($($words:tt)*) => { $crate::kit::error::Error::Check(format!($($words)*)) };
 }
 
 /// Returns with [`check!`].
+#[macro_export]
 macro_rules! bail {
     ($($words:tt)*) => { return Err($crate::kit::error::check!($($words)*)) };
 }
 
 /// Returns with [`check!`] if something is wrong.
+#[macro_export]
 macro_rules! refuse_if {
     ($is_wrong:expr, $($words:tt)*) => { if $is_wrong { $crate::kit::error::bail!($($words)*) } };
 }
 
-pub(crate) use {bail, check, refuse_if};
+pub use crate::{bail, check, refuse_if};
 
 impl Error {
     /// `command` could not be started.

@@ -49,11 +49,6 @@ pub fn report(json: &str) -> Result<Value> {
     serde_json::from_str(json).map_err(|error| check!("{PACKAGE} printed no JSON: {error}"))
 }
 
-/// The function of the firmware's bin that measures full inverse dynamics, and gravity alone too.
-pub const ALL: &str = "robot";
-/// The one that measures full inverse dynamics alone.
-pub const FULL: &str = "in_full";
-
 /// Whether the firmware takes a robot.
 pub fn is_measurable(robot: &Robot) -> bool {
     let [bodies, q, v] = [0, 1, 2].map(|i| robot.report["sizes"][i].as_u64().unwrap_or_default());
@@ -62,12 +57,7 @@ pub fn is_measurable(robot: &Robot) -> bool {
 
 /// Builds the firmware's bin for some robots and runs it under the meter; a robot's rows have its
 /// number as name.
-pub fn measure(
-    workspace: &Workspace,
-    tools: &Tools,
-    robots: &[&Robot],
-    function: &str,
-) -> Result<Vec<Row>> {
+pub fn measure(workspace: &Workspace, tools: &Tools, robots: &[&Robot]) -> Result<Vec<Row>> {
     if !robots.iter().all(|robot| is_measurable(robot)) {
         bail!("the firmware takes up to {MOST_JOINTS} joints of one coordinate");
     }
@@ -77,7 +67,7 @@ pub fn measure(
         let name = robot.report["type_name"].as_str().unwrap_or_default();
         let file = std::path::absolute(&robot.file).map_err(Error::file("find", &robot.file))?;
         modules += &format!("#[path = {file:?}]\nmod robot_{i};\n");
-        calls += &format!("    {function}::<robot_{i}::{name}, {{ robot_{i}::V }}>(\"{i}\");\n");
+        calls += &format!("    robot::<robot_{i}::{name}, {{ robot_{i}::V }}>(\"{i}\");\n");
     }
     let folder = tempfile::tempdir().map_err(Error::file("create", &workspace.target))?;
     let included = folder.path().join("own_robots.rs");

@@ -18,7 +18,7 @@ pub const CHIPS: [&str; 2] = ["G474", "F405"];
 /// The note that goes with figures of [`CHIPS`].
 pub const IN_FLASH: &str = "G474, F405: the most cycles from the flash of an STM32G474 at 170 \
                             MHz, which has 4 wait states, and of an STM32F405 at 168 MHz, which \
-                            has 5 (`docs/silicon.md`)";
+                            has 5";
 
 /// The clock of the STM32F405 in MHz, so cycles per µs.
 pub const CLOCK_MHZ: f64 = 168.0;

@@ -50,7 +50,6 @@ pub struct Row {
     pub address: u64,
 }
 
-#[cfg(test)]
 impl Row {
     /// A row for tests, of robot, algorithm, form and inputs, with sines and cosines computed
     /// inside.

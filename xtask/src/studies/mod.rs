@@ -4,29 +4,19 @@
 
 pub mod accuracy;
 pub mod budgets;
-pub mod cores;
 pub mod costs;
 pub mod effects;
-pub mod flags;
 pub mod hard_cases;
-pub mod history;
-pub mod peers;
-pub mod robots;
-pub mod rtl;
 pub mod scenes;
 pub mod study;
 
 use clap::{ArgMatches, Args, Command};
 
-use crate::kit::error::Result;
-use study::Form::{Own, Part, Whole};
-use study::Held::{Bars, Step};
+use study::Form::{Own, Part};
+use study::Held::Step;
 use study::Lane::{Host, Target};
-use study::Scope::{Everyday, Full, Named};
+use study::Scope::{Everyday, Full};
 use study::{Study, given};
-
-/// The check of a study that no step measures.
-const NO_STEP: fn(&study::Bench<'_>) -> Result<String> = |_| Ok(String::new());
 
 /// In the order in which their steps run.
 #[rustfmt::skip]
@@ -36,30 +26,6 @@ pub const STUDIES: &[Study] = &[
         files: &["docs/costs.md"],
         held: Step(Target, Everyday, "every function costs what docs/costs.md says, and is within its bar"),
         form: Own(costs::Args::augment_args, |options, matches| costs::run(options, given(matches)?), costs::check),
-    },
-    Study {
-        name: "flags", about: "Measure what other flags of the compiler and profiles cost, rewrite docs/flags.md and a part of the guide's page on firmware",
-        files: &["docs/flags.md"],
-        held: Step(Target, Named, "docs/flags.md has today's costs by other flags of the compiler and the functions of core in a tick, the guide those of profiles"),
-        form: Part(flags::measure),
-    },
-    Study {
-        name: "history", about: "Measure what today's algorithms replaced and rewrite docs/history.md",
-        files: &["docs/history.md"],
-        held: Step(Target, Full, "docs/history.md has today's costs of the algorithms that today's replaced"),
-        form: Whole(history::measure),
-    },
-    Study {
-        name: "cores", about: "Run the control loop on four cores that QEMU emulates: the same bits, the stack",
-        files: &["docs/boards.md"],
-        held: Step(Target, Full, "a Cortex-M0, M3 and M33 and an RV32 compute the host's torques, and docs/boards.md has the stack that they take and the sizes of the boards' images"),
-        form: Own(cores::Args::augment_args, |options, matches| cores::run(options, given(matches)?), cores::check),
-    },
-    Study {
-        name: "rtl", about: "Count cycles on a RISC-V core simulated from its register-transfer source, rewrite docs/rtl.md",
-        files: &["docs/rtl.md", "docs/rtl.svg"],
-        held: Step(Target, Full, "a core's gates count the cycles of docs/rtl.md, and compute the bits of QEMU and of the host"),
-        form: Whole(rtl::measure),
     },
     Study {
         name: "accuracy", about: "Measure what accuracy costs in time, rewrite docs/accuracy.md and its plots; or choose a configuration",
@@ -81,18 +47,6 @@ pub const STUDIES: &[Study] = &[
         files: &["docs/hard-cases.md", "docs/hard-cases.svg"],
         held: Step(Host, Full, "every hard case holds, and docs/hard-cases.md has today's figures"),
         form: Part(hard_cases::measure),
-    },
-    Study {
-        name: "robots", about: "Import, check and measure the robots of published packages, rewrite docs/robots.md: takes minutes",
-        files: &["docs/robots.md"],
-        held: Step(Target, Full, "an imported robot is checked, and costs what docs/robots.md says"),
-        form: Own(robots::Args::augment_args, |options, matches| robots::run(options, given(matches)?), robots::check),
-    },
-    Study {
-        name: "peers", about: "Measure other libraries and this one side by side, rewrite docs/peers.md: takes minutes",
-        files: &["docs/peers.md"],
-        held: Bars("the other libraries are not installed for a test, and times are those of one machine"),
-        form: Own(peers::Args::augment_args, |options, matches| peers::run(options, given(matches)?), NO_STEP),
     },
 ];
 

@@ -4,7 +4,7 @@
 #![no_main]
 
 mod costs;
-// A module for each file, and `robots`, which calls `robot` or `in_full` for each.
+// A module for each file, and `robots`, which calls `robot` for each.
 include!(env!("OWN_ROBOT"));
 
 use costs::row::Row;
@@ -23,19 +23,10 @@ fn main() -> ! {
 }
 
 #[inline(never)]
-#[allow(dead_code, reason = "the file's module calls this or `in_full`")]
 fn robot<T: Robot<N, N, N>, const N: usize>(name: &'static str) {
     let asks = asks::<T, N, N, STATES>();
     measure::<T, _, N>(name, "full", &asks, &(Gravity::EARTH, Inertia, Coriolis));
     measure::<T, _, N>(name, "gravity", &asks, &(Gravity::EARTH,));
-}
-
-/// The rows of a robot's full inverse dynamics alone.
-#[inline(never)]
-#[allow(dead_code, reason = "the file's module calls this or `robot`")]
-fn in_full<T: Robot<N, N, N>, const N: usize>(name: &'static str) {
-    let asks = asks::<T, N, N, STATES>();
-    measure::<T, _, N>(name, "full", &asks, &(Gravity::EARTH, Inertia, Coriolis));
 }
 
 /// Both forms, with sines and cosines computed inside.

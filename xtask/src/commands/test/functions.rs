@@ -10,7 +10,7 @@ use crate::kit::error::{Error, Result, bail, check, refuse_if};
 use crate::kit::host_bin::{self, SHARED};
 use crate::kit::meter::{self, Cost};
 use crate::kit::qemu::Run;
-use crate::kit::{firmware, shell};
+use crate::kit::{firmware, importer, shell};
 
 /// The least number of hard cases in QEMU.
 const HARD_CASES: usize = 25;
@@ -20,16 +20,20 @@ fn is_tick(symbol: &str) -> bool {
     symbol.contains("marked_tick")
 }
 
-pub fn clippy(context: &Context) -> Result<String> {
-    let toolchain = context.tools.toolchain;
-    let mut command = toolchain.firmware(&context.workspace, "clippy");
-    shell::capture(command.args(["--lib", "--bins", "--", "-D", "warnings"]))
-}
+/// The description of the robot that is imported.
+const IMPORTED: &str = "tools/robot-import/tests/urdf/so101.urdf";
 
 pub fn build(context: &Context) -> Result<String> {
-    firmware::build_all(&context.workspace, context.tools.toolchain)?;
+    let (workspace, tools) = (&context.workspace, &context.tools);
+    let mut clippy = tools.toolchain.firmware(workspace, "clippy");
+    shell::capture(clippy.args(["--lib", "--bins", "--", "-D", "warnings"]))?;
+    firmware::build_all(workspace, tools.toolchain)?;
+    let folder = tempfile::tempdir().map_err(Error::file("create", &workspace.target))?;
+    let path = workspace.root.join(IMPORTED).to_string_lossy().into_owned();
+    let robot = importer::import(workspace, &[&path], folder.path().join("robot.rs"))?;
+    importer::measure(workspace, tools, &[&robot])?;
     others::guide(context)?;
-    Ok(context.workspace.bins.join(", "))
+    Ok(workspace.bins.join(", "))
 }
 
 pub fn meter(context: &Context) -> Result<String> {

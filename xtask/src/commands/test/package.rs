@@ -3,7 +3,7 @@
 use std::ffi::OsString;
 use std::path::Path;
 
-use super::{Context, others};
+use super::{Context, host, others};
 use crate::kit::error::{Error, Result, check, refuse_if};
 use crate::kit::host_bin::SHARED;
 use crate::kit::shell;
@@ -79,7 +79,9 @@ pub fn features(context: &Context) -> Result<String> {
     }
 }
 
+/// The examples in the documentation, and those of the library.
 pub fn examples(context: &Context) -> Result<String> {
+    let documented = host::doctests(context)?;
     let workspace = &context.workspace;
     shell::capture(SHARED.build(workspace).arg("--examples"))?;
     let mut ran = Vec::new();
@@ -89,7 +91,7 @@ pub fn examples(context: &Context) -> Result<String> {
     for name in &ran {
         shell::capture(&mut SHARED.built(workspace, &format!("examples/{name}")))?;
     }
-    Ok(ran.join(", "))
+    Ok(format!("{documented}; {}", ran.join(", ")))
 }
 
 fn run_example(context: &Context, name: &str, more: &str) -> Result<String> {

@@ -49,7 +49,7 @@ pub fn runs(context: &Context) -> Result<String> {
         ticks += measured.recording.ticks as usize * measured.recording.runs.len();
     }
     let again = if context.full { twice(context)? } else { "" };
-    Ok(format!("{ticks} ticks{again}"))
+    Ok(format!("{ticks} ticks{again}; {}", tracking(context)?))
 }
 
 /// Fails unless two runs of a scene give the same bytes.
@@ -65,7 +65,7 @@ fn twice(context: &Context) -> Result<&'static str> {
     Ok(", twice the same")
 }
 
-pub fn tracking(context: &Context) -> Result<String> {
+fn tracking(context: &Context) -> Result<String> {
     let mut outcomes = Vec::new();
     for measured in context.measured()? {
         let report = &measured.report;

@@ -9,9 +9,9 @@ use crate::studies::scenes::render::signed;
 use crate::studies::scenes::report::{Ablation, Report};
 
 /// The page that has the figures of other libraries, which no test measures anew.
-pub const PEERS: &str = "docs/peers.md";
+pub const PEERS: &str = "companions/laboratory/docs/peers.md";
 /// The page of the cycles that a core's gates count.
-pub const RTL: &str = "docs/rtl.md";
+pub const RTL: &str = "companions/laboratory/docs/rtl.md";
 /// The page that has gravity compensation by hand beside the engine's, and the arm for which.
 const COSTS: &str = crate::studies::costs::PAGE;
 const BY_HAND: &str = "\n## so101\n";

@@ -1,5 +1,5 @@
 //! The digest of the torques and the cycles of a tick on the board, to compare with
-//! `docs/boards.md` and `docs/scenes.md`; no encoder and no drive is needed.
+//! `boards.md` of the laboratory and `docs/scenes.md`; no encoder and no drive is needed.
 //!
 //! ```text
 //! cargo build --manifest-path firmware-demo/boards/Cargo.toml --target-dir target/boards \
@@ -59,7 +59,7 @@ mod firmware {
             return defmt::println!("a tick had a fault");
         };
         defmt::println!("torques of {=u32} ticks: {=u64:016x}", ticks, digest.0);
-        defmt::println!("docs/boards.md has the digest of other cores");
+        defmt::println!("boards.md has the digest of other cores");
         defmt::println!("cycles of a tick: {=u32} to {=u32}", least, most);
         defmt::println!(
             "docs/scenes.md has those of memory that does not wait; this flash has five wait states"

@@ -130,3 +130,57 @@ fn the_source_is_read_as_the_same_numbers() {
         .collect();
     assert_eq!(numbers, [[1.0, 1.0 / 3.0, -2e-9, 7e6]; 2].concat());
 }
+
+/// The largest error of a column of a tick by `after`, of its own largest entry, or of 10⁻⁶ of it
+/// where it is smaller.
+fn error_of_after(plant: &Linearisation<f64, 6>, h: f64) -> f64 {
+    let [phi, gamma] = held(plant, h);
+    let error = |k: usize| {
+        let mut x = [[0.0; 6]; 3];
+        x[k / 6][k % 6] = 1.0;
+        let got = plant.after(&[x[0], x[1]], &x[2], h).concat();
+        let column = if k < 12 { phi.column(k) } else { gamma.column(k - 12) };
+        let off = got.iter().zip(&column).map(|(got, entry)| (got - entry).abs());
+        off.max_by(f64::total_cmp).expect("entries") / column.amax()
+    };
+    (0..18).map(error).max_by(f64::total_cmp).expect("columns")
+}
+
+#[test]
+fn a_tick_that_is_long_for_the_system_is_exact_but_for_rounding() {
+    // A wrist with the friction of a shoulder and no rotors: its fastest rate is 31,361 1/s.
+    let stiff = (Gravity::EARTH, Inertia, Coriolis, Viscous([8.0; 6]));
+    let state = State::at([0.2, -1.2, 1.5, 0.3, 0.7, 0.0]);
+    let tau = Core::<Ur5e>::rnea(&state, &stiff);
+    let by = forward_dynamics_derivatives(&Ur5e::MODEL, &state, &tau, &stiff).expect("an arm");
+    let plant = Linearisation::new(&Ur5e::MODEL, &by);
+    for h in [1e-5, 1e-4, 5e-4, 2e-3, 0.1] {
+        let error = error_of_after(&plant, h);
+        assert!(error < 1e-11, "{h} s: {error:e}");
+    }
+    // The series by itself has lost all digits there, which this bound notices.
+    let x = [[0.0; 6], [0.0, 0.0, 0.0, 0.0, 0.0, 0.01]];
+    let mut series = x;
+    let mut term = x;
+    for k in 1..26 {
+        term = plant.rates(&term, &[0.0; 6]).map(|x| x.map(|x| x * 2e-3 / f64::from(k)));
+        for (sum, term) in series.iter_mut().flatten().zip(term.iter().flatten()) {
+            *sum += term;
+        }
+    }
+    assert!(series[1][5].abs() > 1e6, "{}", series[1][5]);
+}
+
+#[test]
+fn a_joint_that_stops_within_a_tick_and_numbers_that_are_none_end_as_they_should() {
+    for (rate, h) in [(10.0_f64, 1.0), (40.0, 1.0), (5e5, 2e-3), (1e12, 1.0)] {
+        let joint = Linearisation { dq: [[0.0]], dqd: [[-rate]], du: [[1.0]] };
+        let [[q], [qd]] = joint.after(&[[0.5], [3.0]], &[2.0], h);
+        let (decay, still): (f64, f64) = ((-rate * h).exp(), 2.0 / rate);
+        let travelled = (3.0 - still) * (1.0 - decay) / rate + still * h;
+        assert!((q - 0.5 - travelled).abs() < 1e-13, "{rate}: {q}");
+        assert!((qd - still - (3.0 - still) * decay).abs() < 1e-12 * 3.0, "{rate}: {qd}");
+    }
+    let lost = Linearisation { dq: [[0.0]], dqd: [[f64::NEG_INFINITY]], du: [[1.0]] };
+    assert!(!lost.after(&[[0.5], [3.0]], &[2.0], 1.0)[1][0].is_finite());
+}

@@ -128,7 +128,7 @@ pub use motion::{
 pub use reference::{
     GeometricPath, GoalChange, GoalError, JerkLimits, JointFriction, MovingGoal, PathLimits,
     PathPoint, PathSpline, PathSplineError, Recorded, Reference, RestToRest, Shaped, Shaper,
-    ShaperError, ShaperProblem, TaughtPath, TimedPath, TimedPathError, TorqueChange, Trajectory,
+    ShaperError, ShaperProblem, TaughtPath, TimedPath, TimedPathError, Trajectory,
     TrajectoryError, Vibration, WayPoint,
 };
 pub use safety::{

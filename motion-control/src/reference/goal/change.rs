@@ -190,11 +190,7 @@ impl<R: Real, const V: usize> MovingGoal<R, V> {
     /// # Errors
     /// [`GoalError::Missed`] if the tick is over, the motion not found yet, or the goal has moved
     /// meanwhile; the motion is then as before.
-    pub fn take(
-        &mut self,
-        tick: u32,
-        change: &GoalChange<R, V>,
-    ) -> Result<Option<u32>, GoalError> {
+    pub fn take(&mut self, tick: u32, change: &GoalChange<R, V>) -> Result<Option<u32>, GoalError> {
         if tick < change.start {
             return Ok(None);
         }
@@ -319,7 +315,7 @@ impl<R: Real, const V: usize> GoalChange<R, V> {
             if rest >= limit {
                 return Err(GoalError::Torque { joint });
             }
-            // Of the acceleration nothing is left if the torque is beyond the limit without it.
+            // If the torque is beyond the limit without acceleration, nothing of it is left.
             let [all, accelerations] = [rest, steady]
                 .map(|from| aim * ((limit - from) / (tau - from)).clamped(R::ZERO, R::ONE));
             let [speed, share] = if accelerations + accelerations >= all {

@@ -128,8 +128,8 @@ pub use motion::{
 pub use reference::{
     GeometricPath, GoalChange, GoalError, JerkLimits, JointFriction, MovingGoal, PathLimits,
     PathPoint, PathSpline, PathSplineError, Recorded, Reference, RestToRest, Shaped, Shaper,
-    ShaperError, ShaperProblem, TaughtPath, TimedPath, TimedPathError, TorqueChange, Trajectory,
-    TrajectoryError, Vibration, WayPoint,
+    ShaperError, ShaperProblem, TaughtPath, TimedPath, TimedPathError, Trajectory, TrajectoryError,
+    Vibration, WayPoint,
 };
 pub use safety::{
     CompletedTick, CountedTick, Detect, Detectors, FrozenEncoder, ReferenceStep, Saturation,

@@ -10,8 +10,8 @@ use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
 use host_tests::recordings;
 use motion_control::{
-    GoalError, JerkLimits, JointFriction, MotionLimits, MovingGoal, PathLimits, Reference,
-    TimedPath, TorqueChange,
+    GoalChange, GoalError, JerkLimits, JointFriction, MotionLimits, MovingGoal, PathLimits, Reference,
+    TimedPath,
 };
 use serde::Deserialize;
 
@@ -143,12 +143,14 @@ fn random_goals(goals: u32, mut out: impl Write) -> Seen {
                 _ => rng.within(3.0) as f32,
             });
             let (mut spread, begin) = (motion, tick - SPREAD);
-            let mut change = spread.begin(begin, &goal).unwrap();
+            let mut change = spread.begin_within(tick, &goal, &[f32::INFINITY; 6]).unwrap();
             for at in begin + 1..tick {
-                assert_eq!(spread.advance(at, &mut change), Ok(None));
+                change.step(|_| unreachable!()).unwrap();
+                assert_eq!(spread.take(at, &change), Ok(None));
             }
+            assert_eq!(change.step(|_| unreachable!()), Ok(true));
             let arrival = motion.set(tick, &goal).unwrap();
-            assert_eq!((spread.advance(tick, &mut change), spread), (Ok(Some(arrival)), motion));
+            assert_eq!((spread.take(tick, &change), spread), (Ok(Some(arrival)), motion));
             assert!(is_near(&motion.at(tick), &from), "{from:?} {motion:?}");
             assert_eq!(motion.at(arrival), State::at(goal));
             let ticks = arrival - tick;
@@ -328,7 +330,7 @@ fn goals_within_torques(goals: u32) -> Within {
 fn random_goals_keep_limits_of_torque() {
     let seen = goals_within_torques(5_000);
     assert!(seen.within < 1.02 && seen.refused < 30, "{seen:?}");
-    assert!(seen.steps <= TorqueChange::<f32, 6>::MOST_STEPS, "{seen:?}");
+    assert!(seen.steps <= GoalChange::<f32, 6>::MOST_STEPS, "{seen:?}");
     // Without the limits of torque they are exceeded.
     assert!(seen.without > 1.9 && seen.beyond > 2_500, "{seen:?}");
 }

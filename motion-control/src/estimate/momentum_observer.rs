@@ -133,7 +133,7 @@ impl<R: Real, const V: usize, const ORDER: usize> MomentumObserver<R, V, ORDER> 
         self.mean().map(|(share, _)| share)
     }
 
-    /// The same and 1/(n h).
+    /// [`Self::share`], and 1/(n h).
     #[inline(always)]
     fn mean(&self) -> Option<(R, R)> {
         let rate = if self.elapsed == self.tick {

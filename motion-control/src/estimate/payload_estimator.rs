@@ -199,7 +199,7 @@ pub struct PayloadEstimator<R, const V: usize> {
     most: R,
     /// The factors of this tick and of the next one.
     factors: [Factors<R>; 2],
-    /// Those of this tick are the second ones.
+    /// Whether this tick has the second of them.
     second: bool,
     /// The mean square of the innovations.
     level: R,

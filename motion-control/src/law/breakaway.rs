@@ -160,11 +160,13 @@ struct Joint<R> {
     way: R,
     /// Ticks since the joint left its place.
     still: u32,
-    /// The sign of the push, or zero; its ticks; the way along it.
+    /// The sign of the push, or zero if there is none.
     side: R,
+    /// The ticks of the push.
     pushed: u32,
+    /// The way along the push.
     along: R,
-    /// Ticks of the dither since the last change of its sign, and the sign.
+    /// The ticks of the dither since the last change of its sign.
     phase: u32,
     sign: R,
 }

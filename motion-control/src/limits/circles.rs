@@ -137,8 +137,8 @@ impl Circles {
         Self(bits)
     }
 
-    /// The same places, rad, moved by whole turns to within half a turn of `to`; of lines, the same
-    /// positions.
+    /// The places, rad, moved by whole turns to within half a turn of `to`; positions of lines stay as
+    /// they are.
     ///
     /// ```
     /// use motion_control::Circles;
@@ -190,7 +190,7 @@ impl Circles {
         self.check_ranges(&limits.lower, &limits.upper)
     }
 
-    /// The same for the ends of ranges.
+    /// Checks the ends of ranges as [`Self::check`] does those of limits.
     pub(crate) fn check_ranges<R: Real, const V: usize>(
         self,
         lower: &[R; V],

@@ -125,17 +125,17 @@ impl Fault {
     /// assert_eq!(fault.named(&["shoulder", "elbow"]).to_string(), "joint `elbow`: it exceeds its speed limit");
     /// ```
     pub const fn named<'a>(&self, names: &'a [&'a str]) -> impl fmt::Display + 'a {
-        Named { fault: *self, names }
+        FaultText { fault: *self, names }
     }
 }
 
 /// A fault with the names of the joints.
-struct Named<'a> {
+struct FaultText<'a> {
     fault: Fault,
     names: &'a [&'a str],
 }
 
-impl fmt::Display for Named<'_> {
+impl fmt::Display for FaultText<'_> {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (joint, text) = match self.fault {
             Fault::Stale => return write!(out, "no measurement of this tick"),

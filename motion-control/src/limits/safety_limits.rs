@@ -258,7 +258,7 @@ impl SafetyLimitsError {
     /// [`Model::coordinate_names`](dynamics_core::model::Model::coordinate_names), or the joints of
     /// an imported robot.
     pub const fn named<'a>(&self, names: &'a [&'a str]) -> impl fmt::Display + 'a {
-        Named { error: *self, names }
+        ErrorText { error: *self, names }
     }
 
     fn write_reason(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -301,12 +301,12 @@ impl fmt::Display for SafetyLimitsError {
 impl core::error::Error for SafetyLimitsError {}
 
 /// An error with the names of the joints.
-struct Named<'a> {
+struct ErrorText<'a> {
     error: SafetyLimitsError,
     names: &'a [&'a str],
 }
 
-impl fmt::Display for Named<'_> {
+impl fmt::Display for ErrorText<'_> {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.names.get(self.error.joint()) {
             Some(name) => write!(out, "joint `{name}`: ")?,

@@ -16,15 +16,21 @@ use dynamics_core::algorithms::shifted_solution;
 use dynamics_core::scalar::{Real, Vector};
 use dynamics_core::spatial::{Force, Motion};
 
-/// x as a force, of which J_jᵀ x are the motions, by the columns J_j of the joints that are free;
-/// `square` is λ², and `length` ℓ.
+/// The damping λ², `square`, at the length ℓ.
+#[derive(Clone, Copy)]
+pub(super) struct Damping<R> {
+    pub(super) square: R,
+    pub(super) length: R,
+}
+
+/// x as a force, of which J_jᵀ x are the motions, by the columns J_j of the joints that are free.
 ///
 /// The factor 1/ℓ of lengths is left out of columns and x, and is its square in the damping instead.
 #[inline(never)]
 pub(super) fn damped_motion<R: Real, const V: usize>(
     columns: &[Motion<R>; V],
     free: &[bool; V],
-    (square, length): (R, R),
+    Damping { square, length }: Damping<R>,
     v: &Motion<R>,
 ) -> Force<R> {
     let entries = |motion: &Motion<R>| {

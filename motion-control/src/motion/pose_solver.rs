@@ -15,7 +15,7 @@
 //! Start n has the fractions n g, n g m, n g m², … of the ranges, a sequence of Korobov (1959) with
 //! the golden ratio g and the multiplier m of a congruential generator, in integers.
 
-use super::damped_motion::{damped_motion, square};
+use super::damped_motion::{Damping, damped_motion, square};
 use crate::law::pose_error;
 use dynamics_core::algorithms::frame::Pose;
 use dynamics_core::scalar::{Real, Vector};
@@ -106,7 +106,8 @@ impl<R: Real, const V: usize> PoseSolver<R, V> {
             let (pose, jacobian) = kinematics(&q);
             let error = pose_error(&pose, goal);
             let now = square(error, per_length);
-            let x = damped_motion(&jacobian, &free, (share * now + omega, self.length), &error);
+            let damping = Damping { square: share * now + omega, length: self.length };
+            let x = damped_motion(&jacobian, &free, damping, &error);
             let steps = jacobian.map(|column| column.dot(x).clamped(-most, most));
             if !(now + x.ang.dot(x.ang) + x.lin.dot(x.lin)).is_finite() {
                 return Err(PoseSolverError::NotFinite);

@@ -32,7 +32,7 @@
 //! (2015); Hintermüller, Ito & Kunisch, "The primal-dual active set strategy as a semismooth Newton
 //! method" (2002).
 
-use super::damped_motion::{damped_motion, square};
+use super::damped_motion::{Damping, damped_motion, square};
 use crate::entry;
 use crate::limits::{ConfigError, ConfigParameter, MotionLimits};
 use crate::reference::Reference;
@@ -48,17 +48,17 @@ mod tests;
 /// Roundings of a position that the ends of a range are kept away from.
 const ROUNDINGS: f64 = 4.0;
 /// The least λ².
-const LEAST: f64 = 1e-3;
-/// The least square of a twist, (rad/s)².
-const REST: f64 = 1e-20;
-/// The least square of joint speeds that are taken for not finite, (rad/s)² or (m/s)².
-const MOST: f64 = 1e12;
+const LEAST_DAMPING: f64 = 1e-3;
+/// The square that is added to that of a twist, (rad/s)²: a twist of zero has a size.
+const TINY: f64 = 1e-20;
+/// The sum of the squares of joint speeds from which they count as not finite, (rad/s)² or (m/s)².
+const OVERFLOW: f64 = 1e12;
 /// The least limit of a speed, rad/s or m/s.
-const SLOW: f64 = 1e-8;
+const LEAST_VELOCITY: f64 = 1e-8;
 /// 4 cos²(θ/2) of a rotation that is next to half a turn.
 const HALF_A_TURN: f64 = 1e-4;
-/// A bound of speeds that is none, rad/s or m/s.
-const NONE: f64 = 1e30;
+/// The bound of a speed that no end of a range limits, rad/s or m/s.
+const UNBOUNDED: f64 = 1e30;
 
 /// The limits of a [`TipMotion`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -171,7 +171,8 @@ impl<R: Real, const V: usize> TipMotion<R, V> {
         tip.require(posture & gain.is_finite() & (gain >= R::ZERO))?;
         for (j, limits) in config.limits.iter().enumerate() {
             let range = ConfigParameter::JointRange { joint: j };
-            let some = (config.lower[j] <= config.upper[j]) & (limits.velocity > R::from_f64(SLOW));
+            let some = (config.lower[j] <= config.upper[j])
+                & (limits.velocity > R::from_f64(LEAST_VELOCITY));
             range.require(some & q[j].is_finite())?;
             range.positive(limits.acceleration)?;
         }
@@ -238,10 +239,12 @@ impl<R: Real, const V: usize> TipMotion<R, V> {
         // Not between them also if a limit of speed is infinite.
         let near = !places.all(|(q, [lower, upper])| (q > lower) & (q < upper));
         let bounds = near.then(|| self.hold(jacobian, &mut rest));
-        let all_free = !(near && self.free.contains(&false));
-        let mut sum = square(*twist, per_length) + R::from_f64(REST);
+        let mut sum = square(*twist, per_length) + R::from_f64(TINY);
         let mut inverse = sum.rsqrt();
-        let damping = self.config.damping * (sum * inverse) + R::from_f64(LEAST);
+        let damping = Damping {
+            square: self.config.damping * (sum * inverse) + R::from_f64(LEAST_DAMPING),
+            length: self.config.length,
+        };
         let gain = self.config.posture_gain;
         let (has_posture, mut p) = (gain > R::ZERO, [R::ZERO; V]);
         if has_posture {
@@ -256,12 +259,12 @@ impl<R: Real, const V: usize> TipMotion<R, V> {
             }
             inverse = sum.rsqrt();
         }
-        let x = damped_motion(jacobian, &self.free, (damping, self.config.length), &rest);
+        let x = damped_motion(jacobian, &self.free, damping, &rest);
         let mut speeds = jacobian.map(|column| column.dot(x));
         if has_posture {
             speeds.iter_mut().zip(&p).for_each(|(speed, p)| *speed += *p);
         }
-        let status = self.limit((bounds.as_ref(), all_free), inverse, &mut speeds);
+        let status = self.limit(bounds.as_ref(), inverse, &mut speeds);
         self.advance(bounds.as_ref(), &speeds);
         status
     }
@@ -299,10 +302,10 @@ impl<R: Real, const V: usize> TipMotion<R, V> {
                 return R::ZERO;
             }
             if most * (half * most + s) <= a * e {
-                return R::from_f64(NONE);
+                return R::from_f64(UNBOUNDED);
             }
             let chord = |u: R| u + (a * e - u * (half * u + s)) / (half * (u + most) + s);
-            chord(chord(positive_part(w - s))).clamped(R::ZERO, R::from_f64(NONE))
+            chord(chord(positive_part(w - s))).clamped(R::ZERO, R::from_f64(UNBOUNDED))
         };
         [
             -bound(q - entry(&config.lower, j) + way, -qd),
@@ -310,11 +313,12 @@ impl<R: Real, const V: usize> TipMotion<R, V> {
         ]
     }
 
-    /// Limits the speeds; `inverse` is 1 over the size of their motion.
+    /// Limits the speeds; `bounds` are those of joints near the ends of their ranges, and `inverse`
+    /// is 1 over the size of their motion.
     #[inline(always)]
     fn limit(
         &mut self,
-        (bounds, all_free): (Option<&[[R; 2]; V]>, bool),
+        bounds: Option<&[[R; 2]; V]>,
         inverse: R,
         speeds: &mut [R; V],
     ) -> TipStatus {
@@ -322,12 +326,12 @@ impl<R: Real, const V: usize> TipMotion<R, V> {
         let add = |squares: &[R; V]| squares.iter().fold(R::MIN_POSITIVE, |sum, x| sum + *x);
         let mut sum = add(&squares);
         // Squares of greater speeds might overflow.
-        let usual = sum < R::from_f64(MOST);
+        let usual = sum < R::from_f64(OVERFLOW);
         if !usual {
             *speeds = [R::ZERO; V];
             return TipStatus::NotFinite;
         }
-        if !all_free {
+        if bounds.is_some() && self.free.contains(&false) {
             let held = squares.iter_mut().zip(&self.free).filter(|(_, free)| !**free);
             held.for_each(|(square, _)| *square = R::ZERO);
             sum = add(&squares);
@@ -431,13 +435,13 @@ impl<R: Real> TipGoal<R> {
     /// on and about one axis, both at once.
     ///
     /// # Cost
-    /// The same instructions for all data, but next to half a turn.
+    /// All data take the same instructions, but for rotations next to half a turn.
     #[inline]
     #[must_use]
     pub fn twist(&self, pose: &Pose<R>) -> Motion<R> {
         let turn = turn::<R>(&pose.rot, &self.pose.rot, self.gain);
         let way = (self.pose.pos - pose.pos) * self.gain;
-        // Of both speeds the one that is greater as a multiple of its limit.
+        // The speed that is the greater multiple of its limit decides.
         let [angular, linear] = [self.angular * self.angular, self.linear * self.linear];
         let [a, b] = [turn.dot(turn), way.dot(way)];
         let of_turn = a * linear > b * angular;

@@ -12,12 +12,12 @@ use crate::{entry, real};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::{State, all_finite};
 
+mod change;
 mod course;
 #[cfg(test)]
 mod tests;
-mod torque;
 
-pub use torque::TorqueChange;
+pub use change::GoalChange;
 
 use course::{Course, Fastest, Phase, Start};
 
@@ -72,17 +72,6 @@ pub struct MovingGoal<R, const V: usize> {
     seconds: R,
 }
 
-/// A change of the goal that is computed in several ticks: [`MovingGoal::begin`].
-#[derive(Clone, Copy, Debug)]
-pub struct GoalChange<R, const V: usize> {
-    start: u32,
-    from: State<R, V, V>,
-    goal: [R; V],
-    joints: [(Start<R>, Fastest<R>); V],
-    /// The joints whose fastest motion is known.
-    searched: usize,
-}
-
 /// The starts of a joint's seven jerks, and the rest at the goal.
 const KNOTS: usize = 8;
 
@@ -127,7 +116,8 @@ pub enum GoalError {
     },
     /// The motion takes 2³² ticks or more.
     TooLong,
-    /// The tick in which a motion starts is over, or the goal was set meanwhile.
+    /// The tick in which a motion starts is over, or comes before the motion is found, or the goal
+    /// was set meanwhile.
     Missed,
     /// No slower motion from this state keeps the joint's limit of torque.
     Torque {
@@ -199,7 +189,7 @@ impl<R: Real, const V: usize> MovingGoal<R, V> {
     ///
     /// # Cost
     /// Two to 29 evaluations of a motion for each joint, of some 150 instructions each, all in one
-    /// tick: `docs/costs.md` in the repository. [`Self::begin`] spreads them.
+    /// tick: `docs/costs.md` in the repository. [`Self::begin_within`] spreads them.
     ///
     /// # Errors
     /// [`GoalError`]; the motion is then as before.
@@ -235,60 +225,6 @@ impl<R: Real, const V: usize> MovingGoal<R, V> {
     /// The duration of the motion since the goal has moved, s.
     pub fn seconds(&self) -> R {
         self.seconds
-    }
-
-    /// Begins to move the goal in a tick whose time is short: the old motion goes on until the new
-    /// one is computed, and [`Self::advance`] goes on in each tick from the next one on. The new
-    /// motion starts V ticks later, from the state that the reference has then.
-    ///
-    /// ```
-    /// use motion_control::{JerkLimits, MovingGoal, Reference};
-    /// let limits = [JerkLimits { velocity: 2.0, acceleration: 10.0, jerk: 100.0 }; 6];
-    /// let mut goal = MovingGoal::try_new(&[0.0_f32; 6], limits, 1e-3)?;
-    /// let mut change = goal.begin(100, &[1.5; 6])?;
-    /// for tick in 101..106 {
-    ///     assert_eq!(goal.advance(tick, &mut change)?, None);
-    /// }
-    /// assert_eq!(goal.advance(106, &mut change)?, Some(1157));
-    /// # Ok::<(), Box<dyn core::error::Error>>(())
-    /// ```
-    ///
-    /// # Cost
-    /// In no tick more than the search for one joint, which takes 23 evaluations at most, and in the
-    /// last tick, in which the motion starts, six evaluations for each joint.
-    ///
-    /// # Errors
-    /// [`GoalError`].
-    pub fn begin(&self, tick: u32, goal: &[R; V]) -> Result<GoalChange<R, V>, GoalError> {
-        let start = tick.checked_add(V as u32).ok_or(GoalError::TooLong)?;
-        let from = self.at(start);
-        Self::check(&from, goal)?;
-        let joints = core::array::from_fn(|j| (self.joint(j, &from, goal), Fastest::UNKNOWN));
-        let mut change = GoalChange { start, from, goal: *goal, joints, searched: 0 };
-        change.search();
-        Ok(change)
-    }
-
-    /// Goes on with a change of the goal: the tick of the arrival in the tick in which the new
-    /// motion starts, None in those before it.
-    ///
-    /// # Errors
-    /// [`GoalError::Missed`] if a tick was left out, or the goal has moved meanwhile;
-    /// [`GoalError::TooLong`]. The motion is then as before.
-    pub fn advance(
-        &mut self,
-        tick: u32,
-        change: &mut GoalChange<R, V>,
-    ) -> Result<Option<u32>, GoalError> {
-        if tick < change.start {
-            change.search();
-            return Ok(None);
-        }
-        let is_now = (tick == change.start) & (change.searched == V);
-        if !is_now || self.at(tick) != change.from {
-            return Err(GoalError::Missed);
-        }
-        self.adopt(change.start, (&change.from, &change.goal), &change.joints).map(Some)
     }
 
     fn plan(&mut self, tick: u32, from: &State<R, V, V>, goal: &[R; V]) -> Result<u32, GoalError> {
@@ -365,16 +301,6 @@ impl<R: Real, const V: usize> MovingGoal<R, V> {
             (*q, *qd, *qdd) = knot.after(time - knot.time);
         }
         state
-    }
-}
-
-impl<R: Real, const V: usize> GoalChange<R, V> {
-    /// Searches the fastest motion of the next joint.
-    fn search(&mut self) {
-        if let Some((start, fastest)) = self.joints.get_mut(self.searched) {
-            *fastest = start.fastest();
-            self.searched += 1;
-        }
     }
 }
 

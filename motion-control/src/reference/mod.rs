@@ -9,7 +9,7 @@ pub(crate) mod timed_path;
 pub(crate) mod trajectory;
 
 pub use geometric_path::{GeometricPath, PathPoint};
-pub use goal::{GoalChange, GoalError, JerkLimits, MovingGoal, TorqueChange};
+pub use goal::{GoalChange, GoalError, JerkLimits, MovingGoal};
 pub use path_spline::{PathSpline, PathSplineError};
 pub use shaper::{Shaped, Shaper, ShaperError, ShaperProblem, Vibration};
 pub use taught_path::{Recorded, TaughtPath};

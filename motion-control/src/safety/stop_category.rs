@@ -77,9 +77,9 @@ pub(crate) enum Ending {
 
 /// A controlled stop that was required from outside.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Required {
+pub(crate) struct StopRequest {
     pub(crate) reason: Fault,
-    /// Another one was required during this one.
+    /// Another stop was required during this one.
     pub(crate) again: bool,
 }
 

@@ -29,7 +29,7 @@ use crate::limits::{
     Circles, Command, ConfigError, ConfigParameter, Fault, Mode, Reaction, SafetyLimits, Status,
 };
 use crate::real;
-use crate::safety::stop_category::{Ending, Required, Stopping};
+use crate::safety::stop_category::{Ending, StopRequest, Stopping};
 use dynamics_core::scalar::Real;
 
 mod relimit;
@@ -41,13 +41,13 @@ mod tests;
 /// speed; the resolution of the encoder is added. Speed itself is checked with the velocity of the
 /// observer.
 const JUMP: f64 = 2.0;
-/// Positions beyond this are as good as infinite, in f64 too.
+/// A position beyond this counts as infinite, in f64 too.
 const FAR: f64 = f32::MAX as f64;
 /// Beyond this, rad, f32 has no sine accurate to 10⁻⁷: positions beyond it are rejected for all
 /// limits. For a joint that is a circle, the angle within a turn is measured,
 /// `MultiTurnEncoder::within_turn` of `joint-drivers`.
 const RANGE: f64 = 1e4;
-/// The same for the angle of a circle in f64, rad: its turns are subtracted.
+/// The angle of a circle, rad, beyond which positions in f64 are rejected: its turns are subtracted.
 const FAR_ANGLE: f64 = 1e8;
 
 /// Value of `ramp` during a stop if the current tick has a fault: the increment at the begin of the
@@ -115,9 +115,9 @@ enum State {
     /// A fault outlasted the ride-through: the arm is held until a tick has none.
     Held,
     /// A controlled stop: the arm is decelerated for `ticks` more, whatever is measured.
-    Stopping { required: Required, ending: Ending, ticks: u32 },
+    Stopping { required: StopRequest, ending: Ending, ticks: u32 },
     /// Category 2 after the deceleration: the arm is held until it is released.
-    Standing(Required),
+    Standing(StopRequest),
     /// Zero torque and the brake, or a damping, until a reset.
     Stopped { lowers: bool },
     /// The limits allow no motion or torque: zero torque and the brake, for ever.
@@ -135,7 +135,7 @@ impl State {
     }
 
     /// The controlled stop that was required from outside, and what follows its deceleration.
-    fn required(&mut self) -> Option<(&mut Required, Ending)> {
+    fn required(&mut self) -> Option<(&mut StopRequest, Ending)> {
         match self {
             Self::Stopping { required, ending, .. } => Some((required, *ending)),
             Self::Standing(required) => Some((required, Ending::Hold)),
@@ -244,7 +244,7 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         }
     }
 
-    /// The same supervisor for an arm that is on its brake: stopped without a fault until
+    /// This supervisor for an arm that is on its brake: stopped without a fault until
     /// [`Self::reset`].
     pub(crate) fn on_brake(mut self) -> Self {
         if matches!(self.state, State::Full) {

@@ -48,7 +48,8 @@ const FADE: f64 = 0.25;
 const RESERVE: f64 = 64.0;
 /// Torques up to so many times the peak are counted in full.
 const FAR: f64 = 4.0;
-/// Ticks of a block, of robots with fewer joints: in each tick one joint at most is stepped.
+/// The least number of ticks of a block. In a tick one joint at most is stepped, so that a robot of
+/// more joints has blocks of as many ticks as joints.
 const BLOCK: usize = 32;
 
 /// The motors of a [`ThermalLimit`], from their data sheets and as seen at the joints: torques

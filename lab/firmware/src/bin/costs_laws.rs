@@ -170,10 +170,15 @@ fn spread(
     tick: u32,
     q: &[f32; 6],
 ) -> ArmState<f32, 6> {
-    *change = match change.take() {
-        None => goal.begin(tick, q).ok(),
-        Some(mut begun) => matches!(goal.advance(tick, &mut begun), Ok(None)).then_some(begun),
-    };
+    if change.is_none() {
+        *change = goal.begin_within(tick + 6, q, &[f32::INFINITY; 6]).ok();
+    }
+    if let Some(begun) = change {
+        let found = begun.step(|_| [0.0; 6]);
+        if found.is_err() || goal.take(tick, begun) != Ok(None) {
+            *change = None;
+        }
+    }
     goal.at(tick)
 }
 

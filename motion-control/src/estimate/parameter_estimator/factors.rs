@@ -197,7 +197,7 @@ fn eliminate<R: Real, const P: usize>(y: &mut [R; P], line: &[R; P], f: R, diago
     }
 }
 
-/// The same, and L_jk plus `step` times that.
+/// [`eliminate`], and L_jk plus `step` times the new y_k.
 #[inline(always)]
 fn raise<R: Real, const P: usize>(
     line: &mut [R; P],

@@ -40,7 +40,7 @@ pub(super) struct Modes<R, const M: usize> {
 }
 
 /// The result of the passes.
-pub(super) struct Found<R, const M: usize> {
+pub(super) struct Diagonalisation<R, const M: usize> {
     /// Ω².
     pub squares: [R; M],
     /// 1/Ω, at most 1/ω_min.
@@ -54,7 +54,7 @@ pub(super) struct Found<R, const M: usize> {
     pub passes: usize,
 }
 
-impl<R: Real, const M: usize> Found<R, M> {
+impl<R: Real, const M: usize> Diagonalisation<R, M> {
     /// Whether the coupling is within its bound. It changes the damping by a share of half its
     /// root: 10⁻⁵ at most after one pass in f32, and 10⁻⁶ after more.
     fn is_within_bound(&self) -> bool {
@@ -94,10 +94,10 @@ impl<R: Real, const M: usize> Modes<R, M> {
         solve: &impl Fn(&[R; V]) -> [R; V],
         tau: &[R; V],
         slowest: R,
-    ) -> Found<R, M> {
+    ) -> Diagonalisation<R, M> {
         let mut passes = 1;
         loop {
-            let found = Found { passes, ..self.pass(rows, solve, tau, slowest) };
+            let found = Diagonalisation { passes, ..self.pass(rows, solve, tau, slowest) };
             if found.is_within_bound() || passes == PASSES {
                 return found;
             }
@@ -115,7 +115,7 @@ impl<R: Real, const M: usize> Modes<R, M> {
         solve: &impl Fn(&[R; V]) -> [R; V],
         tau: &[R; V],
         slowest: R,
-    ) -> Found<R, M> {
+    ) -> Diagonalisation<R, M> {
         if !self.orthonormalise() {
             self.restart();
         }
@@ -147,7 +147,7 @@ impl<R: Real, const M: usize> Modes<R, M> {
             }
             coupling += sum * (inverses[p] * inverses[p]);
         }
-        Found { squares, inverses, response, coupling, passes: 1 }
+        Diagonalisation { squares, inverses, response, coupling, passes: 1 }
     }
 
     /// Forgets what the last tick found.

@@ -97,19 +97,19 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
         }
         let centres = self.supervisor.centres(&self.observer.estimate().q);
         let circles = A::CIRCLES;
-        let motion = Turned { motion, circles, centres };
+        let motion = NearMotion { motion, circles, centres };
         self.resume.at(&motion, share)
     }
 }
 
 /// A motion within half a turn of the centres.
-struct Turned<'a, T, R, const V: usize> {
+struct NearMotion<'a, T, R, const V: usize> {
     motion: &'a T,
     circles: Circles,
     centres: [R; V],
 }
 
-impl<T: Reference<R, V>, R: Real, const V: usize> Reference<R, V> for Turned<'_, T, R, V> {
+impl<T: Reference<R, V>, R: Real, const V: usize> Reference<R, V> for NearMotion<'_, T, R, V> {
     fn at(&self, tick: u32) -> State<R, V, V> {
         let state = self.motion.at(tick);
         State { q: self.circles.near(&state.q, &self.centres), ..state }

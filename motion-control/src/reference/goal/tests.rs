@@ -102,19 +102,24 @@ fn rest_to_rest_takes_the_time_of_the_closed_forms() {
 fn a_change_that_misses_its_tick_or_its_motion_changes_nothing() {
     let mut goal = MovingGoal::try_new(&[0.0, 1.0], [LIMITS; 2], 1e-3).unwrap();
     goal.set(0, &[1.0, 0.0]).unwrap();
-    assert_eq!(goal.begin(300, &[f64::NAN, 0.0]).unwrap_err(), GoalError::NotFinite { joint: 0 });
-    assert_eq!(goal.begin(u32::MAX, &[0.0, 0.0]).unwrap_err(), GoalError::TooLong);
-    let begun = goal.begin(300, &[0.5, 0.5]).unwrap();
-    let begun_and = |ticks: &[u32], other: Option<u32>| {
-        let (mut goal, mut change) = (goal, begun);
+    let free = [f64::INFINITY; 2];
+    let error = goal.begin_within(302, &[f64::NAN, 0.0], &free).unwrap_err();
+    assert_eq!(error, GoalError::NotFinite { joint: 0 });
+    let begun_and = |steps: u32, tick: u32, other: Option<u32>| {
+        let mut goal = goal;
+        let mut change = goal.begin_within(302, &[0.5, 0.5], &free).unwrap();
+        for _ in 0..steps {
+            change.step(|_| unreachable!()).unwrap();
+        }
         other.map(|tick| goal.set(tick, &[0.2, 0.3]).unwrap());
         let before = goal;
-        let last = ticks.iter().map(|&tick| goal.advance(tick, &mut change)).last().unwrap();
-        assert!(last.is_ok() || goal == before);
+        let last = goal.take(tick, &change);
+        assert!(matches!(last, Ok(Some(_))) || goal == before);
         last
     };
-    assert!(matches!(begun_and(&[301, 302], None), Ok(Some(303..))));
-    for (ticks, other) in [(&[302][..], None), (&[301, 303], None), (&[301, 302], Some(299))] {
-        assert_eq!(begun_and(ticks, other), Err(GoalError::Missed));
+    assert_eq!(begun_and(3, 301, None), Ok(None));
+    assert!(matches!(begun_and(3, 302, None), Ok(Some(303..))));
+    for (steps, tick, other) in [(2, 302, None), (3, 303, None), (3, 302, Some(299))] {
+        assert_eq!(begun_and(steps, tick, other), Err(GoalError::Missed));
     }
 }

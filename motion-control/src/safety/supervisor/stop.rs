@@ -2,7 +2,7 @@
 
 use super::{NOT_COUNTED, State, Supervisor};
 use crate::limits::{Command, Fault, Mode, Reaction};
-use crate::safety::stop_category::{Ending, Required, StopCategory, Stopping};
+use crate::safety::stop_category::{Ending, StopCategory, StopRequest, Stopping};
 use dynamics_core::scalar::Real;
 
 impl<R: Real, const V: usize> Stopping<R, V> {
@@ -76,7 +76,7 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
             return;
         }
         self.state = State::Stopping {
-            required: Required { reason, again: false },
+            required: StopRequest { reason, again: false },
             ending,
             ticks: self.hold_ticks,
         };
@@ -103,7 +103,7 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
 
     /// A tick of a controlled stop.
     #[cold]
-    pub(super) fn continue_stop(&mut self, required: Required, ending: Ending, ticks: u32) {
+    pub(super) fn continue_stop(&mut self, required: StopRequest, ending: Ending, ticks: u32) {
         self.fault = Some(required.reason);
         self.forget_faults();
         let ticks_left = ticks.saturating_sub(1);
@@ -116,7 +116,7 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
 
     /// A tick of an arm that is held after a stop of category 2.
     #[cold]
-    pub(super) fn stand(&mut self, required: Required) {
+    pub(super) fn stand(&mut self, required: StopRequest) {
         self.fault = Some(required.reason);
         self.forget_faults();
     }
@@ -143,7 +143,7 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
 
     /// Whether it is, and no other stop has been required since: that one may be an operator's.
     pub(crate) fn stands_by_one_stop(&self) -> bool {
-        matches!(self.state, State::Standing(Required { again: false, .. }))
+        matches!(self.state, State::Standing(StopRequest { again: false, .. }))
     }
 
     /// Whether every joint is slower than a hundredth of its limit, or as slow as 1 mrad/s.

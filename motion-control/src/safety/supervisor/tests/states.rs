@@ -44,7 +44,7 @@ fn every_transition_of_the_table_occurs_and_no_other_one() {
 // An arm with useless limits stays stopped.
 #[test]
 fn a_reset_restores_the_full_law() {
-    let required = Required { reason: Fault::External, again: false };
+    let required = StopRequest { reason: Fault::External, again: false };
     let stopping = State::Stopping { required, ending: Ending::Off, ticks: 1 };
     let stopped = State::Stopped { lowers: true };
     let standing = State::Standing(required);

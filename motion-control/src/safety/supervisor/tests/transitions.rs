@@ -159,7 +159,7 @@ fn starts() -> Vec<(One, Expected)> {
 
 /// The findings in all states.
 #[derive(Default)]
-pub struct Found {
+pub struct Transitions {
     pub states: Vec<(One, Expected)>,
     transitions: usize,
     cells: HashSet<Cell>,
@@ -169,9 +169,9 @@ pub struct Found {
 
 /// Everything that can happen, in every state to which it leads; `spoil` can make a transition
 /// wrong.
-fn enumerate(spoil: &dyn Fn(Cell, &One, Input, &mut One)) -> Result<Found, String> {
+fn enumerate(spoil: &dyn Fn(Cell, &One, Input, &mut One)) -> Result<Transitions, String> {
     let table = table();
-    let mut found = Found::default();
+    let mut found = Transitions::default();
     let mut seen = HashMap::<Expected, Vec<One>>::new();
     let mut add = |states: &mut Vec<_>, one, expected| {
         let ones = seen.entry(expected).or_default();
@@ -214,7 +214,8 @@ fn enumerate(spoil: &dyn Fn(Cell, &One, Input, &mut One)) -> Result<Found, Strin
 }
 
 /// Enumerated once, for all tests.
-pub static FOUND: LazyLock<Result<Found, String>> = LazyLock::new(|| enumerate(&|_, _, _, _| ()));
+pub static FOUND: LazyLock<Result<Transitions, String>> =
+    LazyLock::new(|| enumerate(&|_, _, _, _| ()));
 
 #[test]
 fn every_transition_of_the_supervisor_is_in_the_guides_table() {

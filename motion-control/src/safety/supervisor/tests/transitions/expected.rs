@@ -8,7 +8,8 @@ use super::*;
 /// The visible result of a supervisor after an input: its state, its fault, the authority of the
 /// full law, whether it knows and has accepted positions and was stopped again during a stop, and
 /// its command with the brake.
-pub type Shown = (&'static str, Option<Fault>, f32, [bool; 3], Option<(Status, bool, [f32; 1])>);
+pub type Observation =
+    (&'static str, Option<Fault>, f32, [bool; 3], Option<(Status, bool, [f32; 1])>);
 /// A class of inputs, and the fault after one.
 type Outcome = (&'static str, Option<Fault>);
 
@@ -18,7 +19,7 @@ const FAST: [&str; 3] = ["", "fast: held", "fast: lasting"];
 const NO_TORQUE: [&str; 3] = ["no torque: bridged", "no torque: held", "no torque: lasting"];
 const STOP_BY: [&str; 4] = ["`stop_by` 0", "`stop_by` 1", "`stop_by` 2", "`stop_by` lowering"];
 
-pub(super) fn shown(one: &One, command: Option<Command<f32, 1>>) -> Shown {
+pub(super) fn shown(one: &One, command: Option<Command<f32, 1>>) -> Observation {
     let mut state = one.state;
     let name = match state {
         State::Full if !one.known => "start",
@@ -136,7 +137,7 @@ impl Expected {
         mut self,
         input: Input,
         table: &Table,
-    ) -> Result<(Cell, Shown, Self), String> {
+    ) -> Result<(Cell, Observation, Self), String> {
         let (state, row) = (self.state, self.row());
         let (class, fault) = match input {
             Good => self.begin(None),

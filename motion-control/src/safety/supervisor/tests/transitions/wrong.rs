@@ -2,7 +2,7 @@
 
 use super::*;
 
-const REQUIRED: Required = Required { reason: REASON, again: false };
+const REQUIRED: StopRequest = StopRequest { reason: REASON, again: false };
 
 /// A cell, and the state to which it leads by mistake.
 const STATES: [(Cell, State); 12] = [

@@ -81,7 +81,7 @@ pub fn measure(
         let _spinner = Spinner::start("counting CasADi's C on the gates");
         let elf = image(workspace, core, made)?;
         let emulated =
-            Qemu::at(core.qemu().0)?.text(BIN, &core.machine_arguments(), &elf, LIMIT)?;
+            Qemu::first(core.qemu().0)?.text(BIN, &core.machine_arguments(), &elf, LIMIT)?;
         rows.extend(best(&theirs(&emulated, &simulators.run_all(&elf)?)?));
     }
     complete(&rows)?;

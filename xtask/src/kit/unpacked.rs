@@ -102,7 +102,7 @@ pub fn unpack(package: &str) -> Result<()> {
     fs::rename(&part, &place).map_err(Error::file("create", &place))?;
     drop(spinner);
     let bin = place.join("bin");
-    output::note(&format!("unpacked `{program}`; for a shell of yours it is in {}", bin.display()));
+    output::note(&format!("unpacked `{program}`; your own shell has it in {}", bin.display()));
     Ok(())
 }
 

@@ -157,7 +157,10 @@ fn what_apt_refuses_is_unpacked() {
         std::fs::create_dir_all(&junk).expect("a folder");
         let (ran, said) = installing(&dir, uid, apt);
         assert_eq!(ran, calls, "{said}");
-        assert!(said.contains("unpacked `qemu-system-arm`") && said.contains("it builds"), "{said}");
+        assert!(
+            said.contains("unpacked `qemu-system-arm`") && said.contains("it builds"),
+            "{said}"
+        );
         let here = dir.join("target/unpacked/qemu-system-arm");
         assert!(here.join("bin/qemu-system-arm").is_file() && !here.join("apt").exists());
         assert!(!junk.exists() && !here.join("root/junk").exists());

@@ -83,7 +83,7 @@ pub fn measure(bench: &Bench<'_>) -> Result<Vec<Part>> {
     for (build, elf) in BUILDS.into_iter().zip(images) {
         let elf = elf?;
         let text =
-            Qemu::at(core.qemu().0)?.text(PACKAGE, &core.machine_arguments(), &elf, LIMIT)?;
+            Qemu::first(core.qemu().0)?.text(PACKAGE, &core.machine_arguments(), &elf, LIMIT)?;
         let emulated = Said::read(&text)?;
         if build != Build::Fused {
             row::same_bits("QEMU's RV32", &emulated, "the host", &host)?;

@@ -29,6 +29,9 @@ fn update_command(privilege: Privilege) -> Command {
 
 /// The commands that install Debian packages as this user, to be shown.
 pub fn lines(packages: &[&str]) -> Vec<String> {
+    if packages.is_empty() {
+        return Vec::new();
+    }
     let privilege = Privilege::this();
     let commands = [update_command(privilege), install_command(privilege, packages)];
     let lines = commands.iter().map(shell::display);
@@ -40,6 +43,9 @@ pub fn lines(packages: &[&str]) -> Vec<String> {
 
 /// Why the packages cannot be installed here, as far as it is known before it is tried.
 pub fn refusal(packages: &[&str]) -> Option<String> {
+    if packages.is_empty() {
+        return None;
+    }
     if Privilege::this() == Privilege::None {
         return Some("there is neither root nor sudo".to_owned());
     }
@@ -58,6 +64,9 @@ pub fn refusal(packages: &[&str]) -> Option<String> {
 /// # Errors
 /// apt-get fails, among others because a package that the user has would have to go.
 pub fn install(packages: &[&str]) -> Result<()> {
+    if packages.is_empty() {
+        return Ok(());
+    }
     let _alone = INSTALLING.lock().unwrap_or_else(PoisonError::into_inner);
     let privilege = Privilege::this();
     let run = match privilege {

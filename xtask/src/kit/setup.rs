@@ -71,26 +71,17 @@ impl Plan {
         let can_be_unpacked = |package: &&str| unpacked::program_of(package).is_some();
         let (emulators, others): (Vec<&str>, Vec<&str>) =
             self.apt.iter().copied().partition(can_be_unpacked);
-        let refusal = (!emulators.is_empty()).then(|| apt::refusal(&emulators)).flatten();
-        let mut install = others.clone();
-        if refusal.is_none() {
-            install.extend(&emulators);
-        }
-        let mut commands = self.rustup.clone();
-        if !install.is_empty() {
-            commands.extend(apt::lines(&install));
-        }
-        if !emulators.is_empty() {
-            commands.push(unpacked::line(&emulators, refusal.as_deref()));
-        }
-        commands.extend(self.manual.iter().cloned());
+        let refusal = apt::refusal(&emulators);
+        let install = if refusal.is_none() { &self.apt } else { &others };
+        let mut commands = [&*self.rustup, &apt::lines(install), &self.manual].concat();
+        commands.extend(unpacked::line(&emulators, refusal.as_deref()));
         if commands.is_empty() {
             return Ok(());
         }
         for reason in &self.reasons {
             output::note(&format!("missing: {reason}"));
         }
-        let refused = (!others.is_empty()).then(|| apt::refusal(&others)).flatten();
+        let refused = apt::refusal(&others);
         if let Some(why) = &refused {
             output::note(&format!("not installed: {}, since {why}", others.join(" ")));
         }
@@ -101,11 +92,8 @@ impl Plan {
         for line in &self.rustup {
             shell::run(Command::new("rustup").args(line.split(' ').skip(1)))?;
         }
-        if !others.is_empty() {
-            apt::install(&others)?;
-        }
+        apt::install(&others)?;
         if refusal.is_none()
-            && !emulators.is_empty()
             && let Err(why) = apt::install(&emulators)
         {
             output::note(&format!("not installed: {why}"));

@@ -32,26 +32,31 @@ fn folders(target: &Path) -> impl Iterator<Item = PathBuf> + use<> {
     all.into_iter().filter(|bin| bin.is_dir())
 }
 
-/// The PATH, and behind it the folders with what is unpacked, if there are any.
+/// The PATH for programs that look for an emulator: the folder of the one that the user chose is
+/// before it, those with what is unpacked are behind it.
 pub fn path(target: &Path) -> Option<OsString> {
-    let mut ours = folders(target).peekable();
-    ours.peek()?;
-    let path = std::env::var_os("PATH").unwrap_or_default();
-    std::env::join_paths(std::env::split_paths(&path).chain(ours)).ok()
+    let path = std::env::var_os("PATH")?;
+    let chosen = qemu::chosen().map(PathBuf::from);
+    let chosen = chosen.as_deref().and_then(Path::parent).filter(|folder| folder.is_absolute());
+    let chosen = chosen.into_iter().map(Path::to_owned);
+    let all = chosen.chain(std::env::split_paths(&path)).chain(folders(target));
+    std::env::join_paths(all).ok()
 }
 
 /// The places of a program: all on the PATH, then the unpacked one.
 pub fn places(program: &str) -> impl Iterator<Item = PathBuf> {
     let ours = std::iter::once_with(Workspace::find).flatten();
     let ours = ours.flat_map(|workspace| folders(&workspace.target));
-    shell::all_of(program).chain(ours.map(move |bin| bin.join(program)).filter(|file| file.is_file()))
+    shell::all_of(program)
+        .chain(ours.map(move |bin| bin.join(program)).filter(|file| file.is_file()))
 }
 
 /// What is about to happen, as a line among commands.
-pub fn line(packages: &[&str], refusal: Option<&str>) -> String {
+pub fn line(packages: &[&str], refusal: Option<&str>) -> Option<String> {
     let packages = packages.join(" ");
     let when = refusal.map_or("if apt-get refuses".into(), |why| format!("since {why}"));
-    format!("# {when}: unpack {packages}, some 30 MB, into target/unpacked; this needs no root")
+    let what = format!("unpack {packages}, some 30 MB, into target/unpacked; this needs no root");
+    (!packages.is_empty()).then(|| format!("# {when}: {what}"))
 }
 
 /// Unpacks an emulator's package with what it needs, unless there is an emulator by now. The folder
@@ -97,7 +102,7 @@ pub fn unpack(package: &str) -> Result<()> {
     fs::rename(&part, &place).map_err(Error::file("create", &place))?;
     drop(spinner);
     let bin = place.join("bin");
-    output::note(&format!("unpacked `{program}`; for a shell of yours it is in {}", bin.display()));
+    output::note(&format!("unpacked `{program}`; your own shell has it in {}", bin.display()));
     Ok(())
 }
 
@@ -152,7 +157,8 @@ fn starter(root: &Path, program: &str) -> String {
     let mut libraries = BTreeSet::new();
     let mut folders = vec![root.to_owned()];
     while let Some(folder) = folders.pop() {
-        for path in fs::read_dir(&folder).into_iter().flatten().flatten().map(|entry| entry.path()) {
+        for path in fs::read_dir(&folder).into_iter().flatten().flatten().map(|entry| entry.path())
+        {
             if path.is_dir() && !path.is_symlink() {
                 folders.push(path);
             } else if is_library(&path) {
@@ -163,9 +169,10 @@ fn starter(root: &Path, program: &str) -> String {
     let libraries = libraries.iter().map(|folder| format!("$root/{}", folder.display()));
     let libraries = libraries.collect::<Vec<_>>().join(":");
     format!(
-        "#!/bin/sh\nroot=${{0%/*}}/../root\n\
-         export LD_LIBRARY_PATH=\"{libraries}${{LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}}\"\n\
-         exec \"$root/usr/bin/{program}\" -L \"$root/usr/share/qemu\" -L \"$root/usr/share/seabios\" \
-         \"$@\"\n"
+        r#"#!/bin/sh
+root=${{0%/*}}/../root
+export LD_LIBRARY_PATH="{libraries}${{LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}}"
+exec "$root/usr/bin/{program}" -L "$root/usr/share/qemu" -L "$root/usr/share/seabios" "$@"
+"#
     )
 }

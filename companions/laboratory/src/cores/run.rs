@@ -109,7 +109,7 @@ pub fn build(workspace: &Workspace, core: &Core) -> Result<PathBuf> {
 /// Builds and runs the bin on a core.
 pub fn measure(workspace: &Workspace, core: &Core) -> Result<Row> {
     let elf = build(workspace, core)?;
-    let qemu = Qemu::at(core.qemu().0)?;
+    let qemu = Qemu::first(core.qemu().0)?;
     let text = qemu.text(core.name, &core.machine_arguments(), &elf, LIMIT)?;
     let said = Said::read(&text)?;
     let image = Image::read(&elf)?;

@@ -76,7 +76,7 @@ pub fn measure(bench: &Bench<'_>, shop: &Workshop<'_>, robots: &[Robot]) -> Resu
         let _spinner = Spinner::start("counting CasADi's C on the gates");
         let elf = image(workspace, core, made)?;
         let emulated =
-            Qemu::at(core.qemu().0)?.text(BIN, &core.machine_arguments(), &elf, LIMIT)?;
+            Qemu::first(core.qemu().0)?.text(BIN, &core.machine_arguments(), &elf, LIMIT)?;
         rows.extend(best(&theirs(&emulated, &simulators.run_all(&elf)?)?));
     }
     complete(&rows)?;

@@ -5,6 +5,7 @@ use std::process::Command;
 use std::thread;
 
 use xtask::kit::error::{Error, Result, bail};
+use xtask::kit::qemu::Qemu;
 use xtask::kit::setup::{self, Options, Plan};
 use xtask::kit::shell;
 use xtask::kit::workspace::{self, Workspace};
@@ -84,7 +85,7 @@ impl<'a> Simulators<'a> {
 fn install(options: Options) -> Result<()> {
     let mut plan = Plan::default();
     for (program, package) in PROGRAMS {
-        if shell::which(program).is_none() {
+        if shell::which(program).is_none() && Qemu::first(program).is_err() {
             let elsewhere = format!("install `{program}` with your system's package manager");
             plan.add(format!("`{program}`, for the core's gates"), &[package], &elsewhere);
         }

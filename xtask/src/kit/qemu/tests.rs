@@ -7,8 +7,8 @@ use std::time::{Duration, Instant};
 use defmt_decoder::DecodeError;
 use tempfile::TempDir;
 
-use super::{Qemu, Run};
 use super::watch::{Decoder, Line, Watch};
+use super::{Qemu, Run};
 
 /// The folder of a script `qemu`, gone with the value.
 fn script(lines: &str) -> TempDir {

@@ -2,7 +2,7 @@
 
 use dynamics_core::effects::{Armature, Coriolis, Gravity, Inertia, RIGID_BODY};
 use dynamics_core::model::{Pruned, Robot};
-use dynamics_core::robots::{A1Leg, Panda, Ur5e};
+use dynamics_core::robots::{A1Leg, Ur5e};
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
 use host_tests::measured::largest;
@@ -45,9 +45,12 @@ where
 #[test]
 fn a_share_of_nothing_changes_no_bit() {
     nothing_left_out::<Ur5e, 6, 6>("ur5e");
-    nothing_left_out::<Panda, 7, 7>("panda");
     nothing_left_out::<A1Leg, 4, 3>("a1");
-    nothing_left_out::<StressRobot, 11, 7>("panda");
+    #[cfg(feature = "full")]
+    {
+        nothing_left_out::<dynamics_core::robots::Panda, 7, 7>("panda");
+        nothing_left_out::<StressRobot, 11, 7>("panda");
+    }
 }
 
 /// The part that is left out, relative to the largest torque of the states.
@@ -74,7 +77,11 @@ where
 fn what_is_left_out_is_as_little_as_it_says() {
     let results = [
         left_out::<Pruned<Ur5e, 1000>, 6, 6>(("ur5e", "left out at 0.1 %"), "ur5e"),
-        left_out::<Pruned<Panda, 1000>, 7, 7>(("panda", "left out at 0.1 %"), "panda"),
+        #[cfg(feature = "full")]
+        left_out::<Pruned<dynamics_core::robots::Panda, 1000>, 7, 7>(
+            ("panda", "left out at 0.1 %"),
+            "panda",
+        ),
         left_out::<Pruned<A1Leg, 1000>, 4, 3>(("a1_leg", "left out at 0.1 %"), "a1"),
         left_out::<Pruned<StressRobot, 50_000>, 11, 7>(("odd", "left out at 5 %"), "panda"),
     ];

@@ -19,6 +19,19 @@ pub mod widen;
 
 pub use fixtures::trees;
 
+/// What only a run with the feature `full` compiles.
+#[cfg(feature = "full")]
+#[macro_export]
+macro_rules! in_full {
+    ($($words:tt)*) => { $($words)* };
+}
+/// What only a run with the feature `full` compiles.
+#[cfg(not(feature = "full"))]
+#[macro_export]
+macro_rules! in_full {
+    ($($words:tt)*) => {};
+}
+
 /// Numbers of states, runs or ticks, or bounds of them: those of an everyday run, or with the
 /// feature `full` the second ones.
 pub const fn everyday_or_full<T: Copy>(everyday: T, full: T) -> T {

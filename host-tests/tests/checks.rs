@@ -1,11 +1,8 @@
 //! The comparisons of errors with bounds fail when they must: the tables of tolerances and of hard
-//! cases; the compiler refuses what is wrong, at the line of its user; and no algorithm has a
-//! second name.
+//! cases; and the compiler refuses what is wrong, at the line of its user.
 
 #[path = "checks/mistakes.rs"]
 mod mistakes;
-#[path = "checks/public_algorithms.rs"]
-mod public_algorithms;
 
 use host_tests::hard::{Row, Verdict};
 use host_tests::measured::larger;

@@ -9,19 +9,12 @@ fn demand(number: u32) {
     }
 }
 
-#[test]
-fn stiff_links_need_the_rigid_arms_torques() {
-    demand(64);
-}
-
-#[test]
-fn static_sag_has_its_closed_form() {
-    demand(65);
-}
-
-#[test]
-fn beam_frequencies_are_those_of_the_textbook() {
-    demand(66);
+host_tests::demanded! {
+    stiff_links_need_the_rigid_arms_torques = 64;
+    static_sag_has_its_closed_form = 65;
+    beam_frequencies_are_those_of_the_textbook = 66;
+    modes_that_no_link_can_have_are_named = 68;
+    a_mode_of_any_frequency_is_stable = 69;
 }
 
 #[test]
@@ -29,16 +22,6 @@ fn a_bending_arm_keeps_its_energy() {
     // A tenth of its time; `cargo xtask test hard-cases` demands the whole case.
     let rows = energy_for(6);
     demand_rows(67, &rows).unwrap_or_else(|wrong| panic!("{wrong}"));
-}
-
-#[test]
-fn modes_that_no_link_can_have_are_named() {
-    demand(68);
-}
-
-#[test]
-fn a_mode_of_any_frequency_is_stable() {
-    demand(69);
 }
 
 #[test]

@@ -1,9 +1,9 @@
 //! Every fault at random times in random combinations: limits of torque, rate, speed and energy
-//! hold, every fault has the reaction of the contract, the arm comes back, and the table of
-//! `docs/guide/src/faults.md` is what was observed. `TABLES_WRITE=1` writes the table.
+//! hold, every fault has the reaction of the contract, and the arm comes back. `TABLES_WRITE=1` writes
+//! what was observed as the table of `docs/guide/src/faults.md`.
 
 use fixtures::faults::{
-    HOLD, Kind, Observed, Pendulum, Plant, RIDE, Setup, TICK, TICKS, Ur5eArm, Violation, at_speed,
+    HOLD, Kind, Observed, Pendulum, Plant, RIDE, Setup, TICK, Ur5eArm, Violation, at_speed,
     controller, one,
 };
 use host_tests::page::Table;
@@ -13,9 +13,7 @@ use motion_control::{
 
 /// Runs of the table, which every run of this test has.
 const TABLE: u32 = 400;
-/// Runs with the feature `full`.
-const FULL: u32 = 10_000;
-const RUNS: u32 = if cfg!(feature = "full") { FULL } else { TABLE };
+const RUNS: u32 = if cfg!(feature = "full") { 10_000 } else { TABLE };
 const PAGE: Table = Table {
     page: "faults.md",
     name: "faults",
@@ -97,17 +95,6 @@ fn table(observed: &[Observed]) -> String {
     format!("{head}{rows}")
 }
 
-#[test]
-fn a_table_with_a_missing_run_differs() {
-    let observed: Vec<Observed> =
-        (0..20).flat_map(|seed| observed(seed, Setup::SOUND).expect("good")).collect();
-    let (begin, end) = ("before\n<!-- faults:begin -->\n", "<!-- faults:end -->\nafter\n");
-    let all = PAGE.text(&table(&observed));
-    let page = format!("{begin}{all}{end}");
-    assert_eq!(PAGE.parts(&page), [begin, &*all, end]);
-    assert_ne!(all, PAGE.text(&table(&observed[1..])));
-}
-
 // No limit is exceeded, every reaction is that of the contract, and every arm recovers.
 #[test]
 fn injected_faults_keep_the_contract() {
@@ -127,10 +114,7 @@ fn injected_faults_keep_the_contract() {
     let first: Vec<_> = failures.iter().take(12).cloned().collect();
     let (count, first) = (failures.len(), first.join("\n"));
     assert!(failures.is_empty(), "{count} failures in {RUNS} runs:\n{first}");
-    PAGE.check(&table(&of_table));
-    let page = PAGE.read();
-    let runs = format!("In {FULL} runs of {TICKS} ticks").replace("0000 runs", "0,000 runs");
-    assert!(page.contains(&runs.replace("6000", "6,000")), "{runs}");
+    PAGE.write(&table(&of_table));
 }
 
 #[test]
@@ -172,9 +156,6 @@ fn without_the_watchdog_a_run_exceeds_a_rated_speed() {
     const RUN: u32 = 11552;
     let (_, outcome) = one(RUN, Setup::UNWATCHED, |_| ());
     assert!(matches!(outcome, Err(Violation::Speed { .. })), "{outcome:?}");
-    let page = PAGE.read();
-    let text = format!("without it, run {RUN} exceeds a rated speed");
-    assert!(page.replace('\n', " ").contains(&text), "{text}");
 }
 
 #[test]

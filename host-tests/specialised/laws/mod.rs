@@ -61,10 +61,10 @@ fn aba_inverts_rnea() {
         single.check::<f32>(T::MODEL.name, "aba of rnea");
     }
     robot::<Ur5e, 6, 6>();
-    robot::<Panda, 7, 7>();
     #[cfg(feature = "full")]
     {
-        use dynamics_core::robots::{A1, Iiwa14};
+        use dynamics_core::robots::{A1, Iiwa14, Panda};
+        robot::<Panda, 7, 7>();
         robot::<Iiwa14, 7, 7>();
         robot::<A1, 16, 12>();
     }
@@ -136,7 +136,8 @@ fn worst_of_all<L: Law>() -> f64 {
     }
     largest([
         robot::<L, Ur5e, 6, 6>(),
-        robot::<L, Panda, 7, 7>(),
+        #[cfg(feature = "full")]
+        robot::<L, dynamics_core::robots::Panda, 7, 7>(),
         #[cfg(feature = "full")]
         robot::<L, dynamics_core::robots::Iiwa14, 7, 7>(),
         #[cfg(feature = "full")]

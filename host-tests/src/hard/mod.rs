@@ -34,6 +34,22 @@ impl Case {
     }
 }
 
+/// Tests of these names, each of which demands a case by the function `demand` beside it, or the rows
+/// of a part of it.
+#[macro_export]
+macro_rules! demanded {
+    ($($name:ident = $number:literal $(, $part:path)?;)*) => {
+        $(#[test]
+        fn $name() {
+            $crate::demanded!(@ $number $(, $part)?);
+        })*
+    };
+    (@ $number:literal) => { demand($number) };
+    (@ $number:literal, $part:path) => {
+        $crate::hard::demand_rows($number, &$part()).unwrap_or_else(|wrong| panic!("{wrong}"))
+    };
+}
+
 /// Runs the case of this number of these cases.
 ///
 /// # Errors

@@ -128,9 +128,14 @@ fn light_joints_follow_their_motion() {
         assert_eq!(is_held, name != "much_friction", "{name}: {words:?}");
         (name, project)
     });
-    let held: Vec<_> = written.into_iter().filter(|(name, _)| *name != "much_friction").collect();
+    let is_tried = |name: &str| match cfg!(feature = "full") {
+        true => name != "much_friction",
+        false => name == "friction" || name == "narrow",
+    };
+    let held: Vec<_> = written.into_iter().filter(|(name, _)| is_tried(name)).collect();
     let said = run(&held);
-    assert!(said.contains("test result: ok. 28 passed"), "{said}");
+    let passed = format!("test result: ok. {} passed", 4 * held.len());
+    assert!(held.len() > 1 && said.contains(&passed), "{said}");
 }
 
 /// With K_p from 1/(M⁻¹)ⱼⱼ at 25 rad/s the least eigenvalue of K_p + ∂g/∂q was −0.20 N·m/rad there.
@@ -143,8 +148,10 @@ fn an_arm_is_held_along_its_excitation() {
     soft.robot.feedback.omega_n = 5.0;
     let said = run(&[("so101", project)]);
     assert!(said.contains("test result: ok. 4 passed"), "{said}");
-    let said = run(&[("so101", soft)]);
-    assert!(said.contains("test e0::it_stays_at_its_reference ... FAILED"), "{said}");
+    if cfg!(feature = "full") {
+        let said = run(&[("so101", soft)]);
+        assert!(said.contains("test e0::it_stays_at_its_reference ... FAILED"), "{said}");
+    }
 }
 
 /// A mass at the distance r falls with √(g / r), in rad/s.
@@ -210,8 +217,10 @@ fn a_joint_without_a_limit_of_torque_has_room_for_feedback() {
     let file = folder.write("slow.urdf", urdf);
     let (project, words) = project(&folder, "slow", &file);
     assert!(words.is_empty(), "{words:?}");
-    let said = run(&[("slow", project)]);
-    assert!(said.contains("test result: ok. 4 passed"), "{said}");
+    if cfg!(feature = "full") {
+        let said = run(&[("slow", project)]);
+        assert!(said.contains("test result: ok. 4 passed"), "{said}");
+    }
     // With a limit of its own the steps of the encoders saturate it up to 0.2 N·m, and do not at
     // 0.3 N·m.
     for (effort, is_told) in [(0.2, true), (0.3, false)] {

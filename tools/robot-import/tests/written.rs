@@ -8,8 +8,6 @@ mod parallelogram;
 #[path = "robots/driven_loop.rs"]
 mod driven_loop;
 #[rustfmt::skip]
-#[path = "robots/passive_loop.rs"]
-mod passive_loop;
 
 use std::path::Path;
 
@@ -28,7 +26,6 @@ use robot_import::{check, loops, source};
 
 const SO101: &str = include_str!("../../../dynamics-core/src/robots/imported/so101.rs");
 const DRIVEN: &str = include_str!("robots/driven_loop.rs");
-const PASSIVE: &str = include_str!("robots/passive_loop.rs");
 const PARALLELOGRAM: &str = include_str!("robots/parallelogram.rs");
 
 /// The importer's result for a file of these tests, on the day on which `written` was.
@@ -90,9 +87,28 @@ fn loops_without_limits_of_torque_have_their_motors() {
     assert_eq!(source, DRIVEN);
     // A motor without a range, and a drive of position.
     assert_eq!(driven_loop::DrivenLoop::LOOPS.actuated(), &[0, 3]);
-    let (source, _) = imported("mjcf/passive_loop.xml", "passive_loop", &[], PASSIVE);
-    assert_eq!(source, PASSIVE);
-    assert_eq!(passive_loop::PassiveLoop::LOOPS.actuated(), &[0, 1, 2, 3]);
+    // The same without motors: all coordinates are actuated, and the file says so.
+    let words = [
+        ("driven_loop_no_ctrlrange", "passive_loop"),
+        ("driven_loop", "passive_loop"),
+        ("DrivenLoop", "PassiveLoop"),
+        ("1, 3, 2>", "1, 3, 4>"),
+        ("[0, 3]", "[0, 1, 2, 3]"),
+        (
+            "The actuated coordinates are those of the joints with a motor.",
+            "The file has too few motors: every coordinate is taken as actuated.",
+        ),
+        (
+            "Actuators of type position, that of joint `s`: their gains are controllers of the \
+             simulation and are left out.",
+            "The file has no motor on a joint of its machine with loops, and at least 1 move \
+             freely: every joint is taken as driven. `--motors A,B` names those with a motor, or \
+             `<motor joint=…/>` in the file.",
+        ),
+    ];
+    let passive = words.iter().fold(DRIVEN.to_owned(), |text, (from, to)| text.replace(from, to));
+    let (source, _) = imported("mjcf/passive_loop.xml", "passive_loop", &[], &passive);
+    assert_eq!(source, passive);
 }
 
 // Its motors can be named.

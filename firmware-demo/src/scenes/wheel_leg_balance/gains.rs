@@ -1,4 +1,4 @@
-//! The table of gains, written by `cargo test -p lqr` with `TABLES_WRITE=1`: do not edit.
+//! The table of gains, written by `cargo test -p lqr-gains` with `TABLES_WRITE=1`: do not edit.
 
 use super::{Gains, LENGTHS};
 

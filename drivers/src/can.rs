@@ -6,5 +6,6 @@ pub(crate) mod joints;
 pub mod mit;
 pub mod moteus;
 pub mod odrive;
+mod turns;
 
 pub use frame::{CanError, CanFrame, ClassicFrame, Component, FdFrame, fd_length};

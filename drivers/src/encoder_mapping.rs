@@ -12,7 +12,7 @@ const FREE: f32 = 1.0 / 2048.0;
 /// 16 bits fit into 32.
 pub(crate) const MOST_TURNS: f32 = 16_000.0;
 /// The part of half a turn that is taken for it: below it a count more does not matter.
-const HALF: f32 = 0.999;
+pub(crate) const HALF: f32 = 0.999;
 
 /// The places where a joint can be, which say in which of its turns an encoder is.
 ///
@@ -192,6 +192,11 @@ impl EncoderMapping {
 
     pub(crate) const fn is_circle(&self) -> bool {
         matches!(self.range, JointRange::Continuous)
+    }
+
+    /// The most that the shaft turns in a tick, rad.
+    pub(crate) const fn step(&self) -> f32 {
+        self.step
     }
 
     /// The readings, one in each tick, that may be missing between two: before the shaft can turn

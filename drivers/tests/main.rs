@@ -12,6 +12,7 @@ mod control_loop;
 mod drives;
 mod feetech;
 mod incremental;
+mod lost_supply;
 mod lost_turn;
 mod mapping;
 mod mit;

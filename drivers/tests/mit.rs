@@ -11,7 +11,7 @@ use joint_drivers::mit::robstride::{self, RobStride, RobStrideMit};
 use joint_drivers::mit::{DriveState, Reply, Scale, Setpoint, SetpointAt};
 use joint_drivers::{
     CanJoint, CanJoints, Direction, DriveFault, DriveFaultKind, EncoderMapping, JointDrives,
-    JointEncoders, JointError, JointMapping, JointRange, Outbox, Report,
+    JointEncoders, JointError, JointMapping, JointRange, MappingError, Outbox, Report,
 };
 
 mod law;
@@ -152,6 +152,14 @@ impl CanJoint for Within {
 
     fn report<F: Frame>(&mut self, frame: &F) -> Result<Report, CanError> {
         self.0.report(frame)
+    }
+
+    fn missed(&mut self, ticks: u32) {
+        self.0.missed(ticks);
+    }
+
+    fn place_near(&mut self, position: f32) -> Result<(), MappingError> {
+        self.0.place_near(position)
     }
 
     fn learn<F: Frame>(&mut self, frame: &F) -> bool {

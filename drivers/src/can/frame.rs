@@ -53,6 +53,8 @@ pub enum CanError {
     LostCommunication,
     /// The node delivers no torque, since its encoder failed or is not calibrated.
     Encoder,
+    /// The drive may have lost its turns with its supply, until the joint is placed.
+    LostTurn,
     /// The position is at the end of its scale, or beyond.
     Range,
     /// The node has another scale than expected in this register.
@@ -108,6 +110,9 @@ impl fmt::Display for CanError {
             Self::Overload => out.write_str("the node was overloaded"),
             Self::LostCommunication => out.write_str("the node has missed its commands"),
             Self::Encoder => out.write_str("the node's encoder failed or is not calibrated"),
+            Self::LostTurn => {
+                out.write_str("the drive may have lost its turns with its supply: place the joint")
+            }
             Self::Range => out.write_str("the position is at the end of its scale"),
             Self::Scale(register) => write!(out, "register {register} has another scale"),
             Self::Register { register, code } => {

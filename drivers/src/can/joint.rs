@@ -3,6 +3,7 @@
 use embedded_can::Frame;
 
 use super::frame::CanError;
+use crate::MappingError;
 use crate::drives::pd::SetpointAt;
 
 /// A motor controller on CAN that measures its joint and takes torques.
@@ -18,6 +19,34 @@ pub trait CanJoint {
     /// # Errors
     /// [`CanError::Identifier`] for a frame of another joint; else the frame is wrong.
     fn report<F: Frame>(&mut self, frame: &F) -> Result<Report, CanError>;
+
+    /// Notes ticks without a position: the controller may have lost its supply, and its turns with
+    /// it, which is [`CanError::LostTurn`] until [`Self::place_near`].
+    fn missed(&mut self, ticks: u32);
+
+    /// Takes the joint to be at `position` rad or m: the next one is within half a turn of the shaft
+    /// from there.
+    ///
+    /// # Errors
+    /// [`MappingError::Range`]; nothing is changed.
+    fn place_near(&mut self, position: f32) -> Result<(), MappingError>;
+
+    /// The frame that clears the faults of the controller.
+    ///
+    /// # Errors
+    /// [`CanError::Length`]. [`CanError::Unknown`]: there is no such frame.
+    fn clear_errors<F: Frame>(&self) -> Result<F, CanError> {
+        Err(CanError::Unknown(0))
+    }
+
+    /// The frame that makes the present position the zero of the controller: send it while it
+    /// delivers no torque. The next position is where the mapping says that the joint can be.
+    ///
+    /// # Errors
+    /// [`CanError::Length`]. [`CanError::Unknown`]: there is no such frame; nothing is changed.
+    fn set_zero<F: Frame>(&mut self) -> Result<F, CanError> {
+        Err(CanError::Unknown(0))
+    }
 
     /// Takes a frame that is no joint's report, and returns whether it is one of this joint: the
     /// value of a register.

@@ -6,7 +6,7 @@ use core::mem;
 
 use embedded_can::nb::Can;
 use embedded_can::{Error as _, ErrorKind};
-use motion_control::PreviousTick;
+use motion_control::{Fault, PreviousTick};
 use nb::Error::{Other, WouldBlock};
 
 use super::frame::CanError;
@@ -14,8 +14,12 @@ use super::joint::{CanJoint, PdCanJoint};
 use super::mit::Drive;
 use super::mit::protocol::Protocol;
 use super::mit::robstride::RobStrideMit;
+use crate::MappingError;
 use crate::drives::pd::{PdDrives, SetpointAt};
 use crate::joint::{EncoderType, JointDrives, JointEncoders, JointError};
+
+/// The most frames of others that are taken in a tick, more than a bus of 1 Mbit/s has in 2 ms.
+const MOST_FRAMES: usize = 64;
 
 /// The joints on one bus. A [`ControlLoop`](crate::ControlLoop) takes a reference to it twice, as
 /// its encoders and its drives.
@@ -74,6 +78,53 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> CanJoints<Bus, Joint, V> {
     pub const fn new(bus: Bus, joints: [Joint; V]) -> Self {
         let (positions, delivers) = ([Err(CanError::NoReply); V], [Ok(()); V]);
         Self(RefCell::new(Network { bus, joints, positions, delivers, next: 0 }))
+    }
+
+    /// Takes a joint to be at `position` rad or m, which ends [`CanError::LostTurn`]: the next
+    /// position is within half a turn of its shaft from there.
+    ///
+    /// # Errors
+    /// [`MappingError::Range`]: there is no such joint, or no such position.
+    pub fn place_near(&self, joint: usize, position: f32) -> Result<(), MappingError> {
+        let mut network = self.0.try_borrow_mut().map_err(|_| MappingError::Range)?;
+        network.joints.get_mut(joint).ok_or(MappingError::Range)?.place_near(position)
+    }
+
+    /// Why each joint delivers no torque, by its last report; the errors of the positions are those
+    /// of [`JointEncoders::read`].
+    pub fn errors(&self) -> [Result<(), CanError>; V] {
+        self.0.try_borrow().map_or([Err(CanError::Full); V], |network| network.delivers)
+    }
+
+    /// Clears the faults of a joint. Call it between two ticks; with an [`Outbox`], take its frame
+    /// by [`Self::commands`] before the next one.
+    ///
+    /// # Errors
+    /// [`CanError::Node`]: there is no such joint. [`CanError::Unknown`]: it has no such frame.
+    /// [`CanError::Full`] and [`CanError::Bus`]: the frame was not sent.
+    pub fn clear_errors(&self, joint: usize) -> Result<(), JointError<CanError>> {
+        self.request(joint, |joint| joint.clear_errors())
+    }
+
+    /// Makes the present position of a joint the zero of its controller, which is to deliver no
+    /// torque: [`CanJoint::set_zero`]. Call it between two ticks, as [`Self::clear_errors`].
+    ///
+    /// # Errors
+    /// As [`Self::clear_errors`].
+    pub fn set_zero(&self, joint: usize) -> Result<(), JointError<CanError>> {
+        self.request(joint, Joint::set_zero)
+    }
+
+    fn request(
+        &self,
+        joint: usize,
+        frame: impl FnOnce(&mut Joint) -> Result<Bus::Frame, CanError>,
+    ) -> Result<(), JointError<CanError>> {
+        let at = |error| JointError { joint, error };
+        let mut network = self.0.try_borrow_mut().map_err(|_| at(CanError::Full))?;
+        let of = network.joints.get_mut(joint).ok_or(at(CanError::Node))?;
+        let frame = frame(of).map_err(at)?;
+        transmit(&mut network.bus, &frame).map_err(at)
     }
 
     /// Returns the bus to its owner.
@@ -175,26 +226,22 @@ impl<Bus: Can, Joint: CanJoint + AsRef<RobStrideMit>, const V: usize> CanJoints<
     /// # Ok::<(), Box<dyn core::error::Error>>(())
     /// ```
     pub fn read_faults(&self, joint: usize) -> Result<(), JointError<CanError>> {
-        let at = |error| JointError { joint, error };
-        let mut state = self.0.try_borrow_mut().map_err(|_| at(CanError::Full))?;
-        let drive = state.joints.get(joint).ok_or(at(CanError::Node))?.as_ref();
-        let sent = drive.read_faults().and_then(|frame| transmit(&mut state.bus, &frame));
-        sent.map_err(at)
+        self.request(joint, |joint| joint.as_ref().read_faults())
     }
 }
 
 impl<Bus: Can, Joint: CanJoint, const V: usize> Network<Bus, Joint, V> {
-    /// Takes the frames that have come: no more than four of each joint, so that a bus that is busy
-    /// ends the tick.
+    /// Takes the frames that have come: so many that a bus which is busy ends the tick. With others
+    /// left behind them the last positions may be old.
     fn receive(&mut self) -> Result<(), CanError> {
-        for _ in 0..4 * V {
+        for _ in 0..MOST_FRAMES + 4 * V {
             match self.bus.receive() {
                 Ok(frame) => self.take(&frame),
-                Err(WouldBlock) => break,
+                Err(WouldBlock) => return Ok(()),
                 Err(Other(error)) => return Err(CanError::Bus(error.kind())),
             }
         }
-        Ok(())
+        Err(CanError::Bus(ErrorKind::Overrun))
     }
 
     /// The joint keeps the error of a frame that is wrong, unless it has a position.
@@ -269,9 +316,23 @@ fn transmit<Bus: Can>(bus: &mut Bus, frame: &Bus::Frame) -> Result<(), CanError>
     }
 }
 
-impl<Bus, Joint, const V: usize> EncoderType for &CanJoints<Bus, Joint, V> {
+impl<Bus, Joint: CanJoint, const V: usize> EncoderType for &CanJoints<Bus, Joint, V> {
     type Error = CanError;
     type Age = PreviousTick;
+
+    fn missed(&mut self, ticks: u32) {
+        // Nobody else holds it: each of these functions returns it before it ends.
+        if let Ok(mut network) = self.0.try_borrow_mut() {
+            network.joints.iter_mut().for_each(|joint| joint.missed(ticks));
+        }
+    }
+
+    fn fault(error: &CanError, joint: usize) -> Fault {
+        match error {
+            CanError::LostTurn => Fault::LostTurn { joint },
+            _ => Fault::Encoder { joint },
+        }
+    }
 }
 
 impl<Bus: Can, Joint: CanJoint, const V: usize> JointEncoders<V> for &CanJoints<Bus, Joint, V> {
@@ -286,14 +347,19 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> JointEncoders<V> for &CanJoints<
         let Ok(mut state) = self.0.try_borrow_mut() else {
             return Err(first(CanError::Full));
         };
-        state.receive().map_err(first)?;
+        let received = state.receive().map_err(first);
         let mut positions = [0.0; V];
-        let mut failed = Ok(());
-        let reported = positions.iter_mut().zip(&mut state.positions);
-        for (joint, (position, reported)) in reported.enumerate() {
+        let mut failed = received;
+        let Network { positions: reported, joints, .. } = &mut *state;
+        let reported = positions.iter_mut().zip(reported).zip(joints);
+        for (joint, ((position, reported), of)) in reported.enumerate() {
+            // After an error of the bus, too: a position counts in one tick alone.
             match mem::replace(reported, Err(CanError::NoReply)) {
                 Ok(reported) => *position = reported,
-                Err(error) => failed = failed.and(Err(JointError { joint, error })),
+                Err(error) => {
+                    of.missed(1);
+                    failed = failed.and(Err(JointError { joint, error }));
+                }
             }
         }
         failed.map(|()| positions)

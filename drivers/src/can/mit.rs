@@ -21,10 +21,17 @@
 //! # Turns
 //! After power-up a drive with an absolute encoder at its output knows its position within a turn
 //! of it, and then counts the turns in its own memory. The count of a reply begins again at the
-//! other end of its scale: this driver adds the whole scales, which are right as long as the shaft
-//! turns by less than half of the scale (two turns) between two replies. The ends themselves are
-//! refused ([`CanError::Range`]), since a drive that stops its count there says nothing. Beyond the
-//! first scale the gains of a command are zero: no count stands for such a position.
+//! other end of its scale: this driver adds the whole scales. The ends themselves are refused
+//! ([`CanError::Range`]), since a drive that stops its count there says nothing. Beyond the first
+//! scale the gains of a command are zero: no count stands for such a position.
+//!
+//! The drive loses its turns with its supply. After ticks without a reply ([`Drive::missed`], which
+//! [`CanJoints`](crate::CanJoints) calls) in which the shaft can have turned by half a turn, or if
+//! the count fits both a drive that went on and one that began anew at another place, the position
+//! is [`CanError::LostTurn`] until [`Drive::place_near`]. A joint of
+//! [`JointRange::Within`](crate::JointRange) whose drive has not left its first scale is known after
+//! any gap, but for the drives of CubeMars, which know a part of a turn alone. Between two replies
+//! without a gap the shaft turns by less than half a turn.
 //!
 //! # Cost
 //! | | flops | divisions |
@@ -37,12 +44,11 @@
 //! Comparisons and conversions are not counted; a joint on a circle has 6 more in the second and 12
 //! in the third. [`Drive::new`] divides ten times.
 
-use core::f32::consts::TAU;
-
 use embedded_can::Frame;
 
 use super::frame::{self, CanError};
 use super::joint::{CanJoint, PdCanJoint, Report};
+use super::turns::ShaftTurns;
 use crate::encoder_mapping::within_turn;
 use crate::{EncoderMapping, MappingError};
 
@@ -152,12 +158,7 @@ pub struct Drive<P> {
     protocol: P,
     axes: Axes,
     most: f32,
-    mapping: EncoderMapping,
-    /// The turns that the drive's count lacks.
-    turn_offset: Option<f32>,
-    /// The whole scales that the count lacks, of this many rad, and the last reply.
-    wraps: f32,
-    period: f32,
+    turns: ShaftTurns,
     last: Option<Place>,
     /// How many registers of the scale are right, and whether the next one is not.
     scales_checked: u8,
@@ -169,8 +170,7 @@ pub struct Drive<P> {
 struct Place {
     /// rad or m at the joint.
     joint: f32,
-    /// rad at the shaft, without and with the whole scales.
-    count: f32,
+    /// rad at the shaft, with the whole scales that the count lacks.
     shaft: f32,
 }
 
@@ -199,20 +199,9 @@ impl<P: Protocol> Drive<P> {
             return Err(CanError::Torque);
         }
         let period = P::PERIOD.unwrap_or(2.0 * scale.position);
-        let (turn_offset, wraps, last) = (None, 0.0, None);
-        let (scales_checked, scale_differs) = (0, false);
-        Ok(Self {
-            protocol,
-            axes,
-            most,
-            mapping,
-            turn_offset,
-            wraps,
-            period,
-            last,
-            scales_checked,
-            scale_differs,
-        })
+        let turns = ShaftTurns::in_radians(mapping, period, P::START);
+        let (last, scales_checked, scale_differs) = (None, 0, false);
+        Ok(Self { protocol, axes, most, turns, last, scales_checked, scale_differs })
     }
 
     /// Takes the joint to be at `position` rad or m: the next reply is within half a turn of the
@@ -221,9 +210,15 @@ impl<P: Protocol> Drive<P> {
     /// # Errors
     /// [`MappingError::Range`]; nothing is changed.
     pub fn place_near(&mut self, position: f32) -> Result<(), MappingError> {
-        self.mapping = self.mapping.moved_near(position)?;
-        self.turn_offset = None;
+        self.turns.place_near(position)?;
+        // No command of a position before the next reply.
+        self.last = None;
         Ok(())
+    }
+
+    /// Notes this many ticks without a reply: the drive may have lost its supply, and its turns.
+    pub fn missed(&mut self, ticks: u32) {
+        self.turns.missed(ticks);
     }
 
     /// The frame that lets the drive deliver torque: that of the last command, send one of zero
@@ -318,7 +313,7 @@ impl<P: Protocol> Drive<P> {
             Feedback::State { counts, motor, drive, status } => ((motor, drive, status), counts),
         };
         let position = self.position(position)?;
-        let mapping = self.mapping.mapping();
+        let mapping = self.turns.mapping.mapping();
         let velocity = mapping.velocity(self.axes.velocity.value(velocity)).map_err(not_finite)?;
         let torque = mapping.torque(self.axes.torque.value(torque)).map_err(not_finite)?;
         let (motor_temperature, drive_temperature, status) = feedback;
@@ -359,25 +354,15 @@ impl<P: Protocol> Drive<P> {
         if count == 0 || count == u16::MAX {
             return Err(CanError::Range);
         }
-        let count = self.axes.position.value(count);
-        let half = 0.5 * self.period;
-        let scales = match self.last {
-            Some(last) if count - last.count > half => self.wraps - 1.0,
-            Some(last) if count - last.count < -half => self.wraps + 1.0,
-            _ => self.wraps,
-        };
-        let shaft = count + scales * self.period;
-        let joint = self.mapping.position_at(shaft * (1.0 / TAU), &mut self.turn_offset);
-        let joint = joint.map_err(not_finite)?;
-        self.wraps = scales;
-        self.last = Some(Place { joint, count, shaft });
+        let [joint, shaft] = self.turns.follow(self.axes.position.value(count))?;
+        self.last = Some(Place { joint, shaft });
         Ok(joint)
     }
 
     /// The counts of a torque with zero gains.
     fn torque_alone(&self, torque: f32) -> Result<Counts, CanError> {
         let torque = frame::limit(torque, self.most);
-        let at_shaft = self.mapping.mapping().shaft_torque(torque).map_err(not_finite)?;
+        let at_shaft = self.turns.mapping.mapping().shaft_torque(torque).map_err(not_finite)?;
         Ok(Counts {
             position: const { above_half(u16::MAX) },
             velocity: const { above_half(P::TOP) },
@@ -390,7 +375,7 @@ impl<P: Protocol> Drive<P> {
     /// The counts of the spring and the damper, if they can be sent.
     fn pd(&self, setpoint: &Setpoint) -> Option<Counts> {
         let Setpoint { position, velocity, kp, kd, torque } = *setpoint;
-        let mapping = self.mapping.mapping();
+        let mapping = self.turns.mapping.mapping();
         let position = self.shaft_at(position)?;
         let velocity = velocity * mapping.shaft_per_joint();
         let count = self.axes.position.count(position);
@@ -417,7 +402,7 @@ impl<P: Protocol> Drive<P> {
     /// The counts with the torque that spring and damper leave, if it is within its scale.
     fn complete(&self, counts: Counts, setpoint: &SetpointAt) -> Option<Counts> {
         let Axes { position, velocity, torque, kp, kd } = &self.axes;
-        let mapping = self.mapping.mapping();
+        let mapping = self.turns.mapping.mapping();
         let sum = mapping.shaft_torque(frame::limit(setpoint.sum.torque, self.most)).ok()?;
         let left = SetpointAt {
             sum: Setpoint {
@@ -440,8 +425,8 @@ impl<P: Protocol> Drive<P> {
     fn shaft_at(&self, joint: f32) -> Option<f32> {
         let last = self.last?;
         let moved = joint - last.joint;
-        let moved = if self.mapping.is_circle() { within_turn(moved) } else { moved };
-        Some(last.shaft + moved * self.mapping.mapping().shaft_per_joint())
+        let moved = if self.turns.mapping.is_circle() { within_turn(moved) } else { moved };
+        Some(last.shaft + moved * self.turns.mapping.mapping().shaft_per_joint())
     }
 }
 
@@ -454,6 +439,25 @@ impl<P> AsRef<Self> for Drive<P> {
 impl<P: Protocol> CanJoint for Drive<P> {
     fn command<F: Frame>(&self, torque: f32) -> Result<F, CanError> {
         self.set_torque(torque)
+    }
+
+    fn missed(&mut self, ticks: u32) {
+        self.missed(ticks);
+    }
+
+    fn place_near(&mut self, position: f32) -> Result<(), MappingError> {
+        self.place_near(position)
+    }
+
+    fn clear_errors<F: Frame>(&self) -> Result<F, CanError> {
+        self.clear_errors()
+    }
+
+    fn set_zero<F: Frame>(&mut self) -> Result<F, CanError> {
+        let frame = Self::set_zero(self)?;
+        self.turns.zeroed();
+        self.last = None;
+        Ok(frame)
     }
 
     #[inline]

@@ -21,6 +21,7 @@ use embedded_can::{ExtendedId, Frame};
 
 use super::frame::{self, CanError};
 use super::joint::{CanJoint, Report};
+use super::turns::ShaftTurns;
 use crate::{EncoderMapping, MappingError};
 
 mod multiplex;
@@ -88,9 +89,7 @@ pub struct Moteus {
     id: u8,
     host: u8,
     most: f32,
-    mapping: EncoderMapping,
-    /// The turns that the controller's count lacks.
-    whole: Option<f32>,
+    turns: ShaftTurns,
 }
 
 impl Moteus {
@@ -104,7 +103,7 @@ impl Moteus {
             return Err(CanError::Node);
         }
         frame::check_most(most, mapping.mapping())?;
-        Ok(Self { id, host, most, mapping, whole: None })
+        Ok(Self { id, host, most, turns: ShaftTurns::in_turns(mapping) })
     }
 
     /// Takes the joint to be at `position` rad or m: the next reply is within half a turn of the
@@ -113,9 +112,12 @@ impl Moteus {
     /// # Errors
     /// [`MappingError::Range`]; nothing is changed.
     pub fn place_near(&mut self, position: f32) -> Result<(), MappingError> {
-        self.mapping = self.mapping.moved_near(position)?;
-        self.whole = None;
-        Ok(())
+        self.turns.place_near(position)
+    }
+
+    /// Notes this many ticks without a reply: the controller may have lost its supply, and its turns.
+    pub fn missed(&mut self, ticks: u32) {
+        self.turns.missed(ticks);
     }
 
     /// A torque in N·m at the joint, limited to the greatest, and a query of the state; NaN becomes
@@ -130,7 +132,7 @@ impl Moteus {
     /// [`CanError::Length`]: the frame type is not CAN FD.
     pub fn set_torque<F: Frame>(&self, torque: f32) -> Result<F, CanError> {
         let torque = frame::limit(torque, self.most);
-        let at_shaft = self.mapping.mapping().shaft_torque(torque);
+        let at_shaft = self.turns.mapping.mapping().shaft_torque(torque);
         let [t0, t1, t2, t3] = at_shaft.map_err(|_| CanError::NotFinite)?.to_le_bytes();
         let [q0, q1, q2, q3, q4, q5] = QUERY;
         self.frame(&[
@@ -194,11 +196,11 @@ impl Moteus {
             11 => Mode::Timeout,
             other => Mode::Other(other),
         };
-        let position = self.mapping.position_at(turns, &mut self.whole);
-        let mapping = self.mapping.mapping();
+        let [position, _] = self.turns.follow(turns)?;
+        let mapping = self.turns.mapping.mapping();
         Ok(ControllerState {
             mode,
-            position: position.map_err(not_finite)?,
+            position,
             velocity: mapping.velocity(per_second * TAU).map_err(not_finite)?,
             torque: mapping.torque(torque).map_err(not_finite)?,
             fault: number(of(registers.fault, FAULT)?)?,
@@ -215,6 +217,18 @@ impl Moteus {
 impl CanJoint for Moteus {
     fn command<F: Frame>(&self, torque: f32) -> Result<F, CanError> {
         self.set_torque(torque)
+    }
+
+    fn missed(&mut self, ticks: u32) {
+        self.missed(ticks);
+    }
+
+    fn place_near(&mut self, position: f32) -> Result<(), MappingError> {
+        self.place_near(position)
+    }
+
+    fn clear_errors<F: Frame>(&self) -> Result<F, CanError> {
+        self.stop()
     }
 
     fn report<F: Frame>(&mut self, frame: &F) -> Result<Report, CanError> {

@@ -19,6 +19,7 @@ use embedded_can::{Frame, Id, StandardId};
 
 use super::frame::{self, CanError};
 use super::joint::{CanJoint, Report};
+use super::turns::ShaftTurns;
 use crate::{EncoderMapping, MappingError};
 
 const HEARTBEAT: u16 = 0x01;
@@ -109,9 +110,7 @@ pub enum Reply {
 pub struct ODrive {
     node: u8,
     most: f32,
-    mapping: EncoderMapping,
-    /// The turns that the axis' count lacks.
-    whole: Option<f32>,
+    turns: ShaftTurns,
 }
 
 impl ODrive {
@@ -124,7 +123,7 @@ impl ODrive {
             return Err(CanError::Node);
         }
         frame::check_most(most, mapping.mapping())?;
-        Ok(Self { node, most, mapping, whole: None })
+        Ok(Self { node, most, turns: ShaftTurns::in_turns(mapping) })
     }
 
     /// Takes the joint to be at `position` rad or m: the next estimate is within half a turn of the
@@ -133,9 +132,12 @@ impl ODrive {
     /// # Errors
     /// [`MappingError::Range`]; nothing is changed.
     pub fn place_near(&mut self, position: f32) -> Result<(), MappingError> {
-        self.mapping = self.mapping.moved_near(position)?;
-        self.whole = None;
-        Ok(())
+        self.turns.place_near(position)
+    }
+
+    /// Notes this many ticks without a reply: the axis may have lost its supply, and its turns.
+    pub fn missed(&mut self, ticks: u32) {
+        self.turns.missed(ticks);
     }
 
     /// Set_Input_Torque: a torque in N·m at the joint, limited to the greatest; NaN becomes zero
@@ -145,7 +147,7 @@ impl ODrive {
     /// [`CanError::Length`].
     pub fn set_torque<F: Frame>(&self, torque: f32) -> Result<F, CanError> {
         let torque = frame::limit(torque, self.most);
-        let at_motor = self.mapping.mapping().shaft_torque(torque);
+        let at_motor = self.turns.mapping.mapping().shaft_torque(torque);
         let at_motor = at_motor.map_err(|_| CanError::NotFinite)?;
         self.frame(SET_INPUT_TORQUE, &at_motor.to_le_bytes())
     }
@@ -217,27 +219,28 @@ impl ODrive {
         }
         let data = frame.data();
         let floats = || Ok([frame::float(data, 0)?, frame::float(data, 4)?]);
-        let reply = match id.as_raw() & 0x1f {
+        let not_finite = |_| CanError::NotFinite;
+        match id.as_raw() & 0x1f {
             HEARTBEAT => {
                 let [e0, e1, e2, e3, state, _, _, _] = frame::bytes::<LENGTH>(data, 0)?;
-                return Ok(Reply::Heartbeat {
+                Ok(Reply::Heartbeat {
                     errors: u32::from_le_bytes([e0, e1, e2, e3]),
                     state: AxisState::from_number(state),
-                });
+                })
             }
-            GET_ENCODER_ESTIMATES => floats().map(|[turns, per_second]| {
-                let position = self.mapping.position_at(turns, &mut self.whole)?;
-                let velocity = self.mapping.mapping().velocity(per_second * TAU)?;
+            GET_ENCODER_ESTIMATES => floats().and_then(|[turns, per_second]| {
+                let [position, _] = self.turns.follow(turns)?;
+                let velocity =
+                    self.turns.mapping.mapping().velocity(per_second * TAU).map_err(not_finite)?;
                 Ok(Reply::Estimates { position, velocity })
-            })?,
-            GET_TORQUES => floats().map(|[target, estimate]| {
-                let target = self.mapping.mapping().torque(target)?;
-                let estimate = self.mapping.mapping().torque(estimate)?;
+            }),
+            GET_TORQUES => floats().and_then(|[target, estimate]| {
+                let target = self.turns.mapping.mapping().torque(target).map_err(not_finite)?;
+                let estimate = self.turns.mapping.mapping().torque(estimate).map_err(not_finite)?;
                 Ok(Reply::Torques { target, estimate })
-            })?,
-            _ => return Err(CanError::Identifier),
-        };
-        reply.map_err(|_: crate::MappingError| CanError::NotFinite)
+            }),
+            _ => Err(CanError::Identifier),
+        }
     }
 
     fn frame<F: Frame>(&self, command: u16, data: &[u8]) -> Result<F, CanError> {
@@ -258,6 +261,18 @@ impl ODrive {
 impl CanJoint for ODrive {
     fn command<F: Frame>(&self, torque: f32) -> Result<F, CanError> {
         self.set_torque(torque)
+    }
+
+    fn missed(&mut self, ticks: u32) {
+        self.missed(ticks);
+    }
+
+    fn place_near(&mut self, position: f32) -> Result<(), MappingError> {
+        self.place_near(position)
+    }
+
+    fn clear_errors<F: Frame>(&self) -> Result<F, CanError> {
+        self.clear_errors()
     }
 
     fn report<F: Frame>(&mut self, frame: &F) -> Result<Report, CanError> {

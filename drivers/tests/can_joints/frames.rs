@@ -26,18 +26,23 @@ fn scripted(frames: &[nb::Result<FdFrame, ErrorKind>]) -> CanJoints<Script, Mote
 #[test]
 fn a_tick_takes_what_has_come_and_no_more() {
     let [first, second] = [1, 2].map(|node| Ok(reply(node, 10, 0.0, 0)));
-    let later = Ok(reply(1, 10, 0.5, 0));
+    let later = Ok(reply(1, 10, 0.25, 0));
     // Frames after a pause belong to the next tick.
     let pause = Err(nb::Error::WouldBlock);
     let joints = scripted(&[first, second, pause, later]);
     assert_eq!((&joints).read(), Ok([0.0; 2]));
     assert_eq!((&joints).read(), Err(at(1, CanError::NoReply)));
-    // The last of several replies counts, of which a tick takes four of each joint.
+    // The last of several replies counts.
     let all = [vec![first; 6], vec![second; 1], vec![later; 2]].concat();
     let joints = scripted(&all);
-    assert_eq!((&joints).read(), Ok([core::f32::consts::PI, 0.0]));
+    assert_eq!((&joints).read(), Ok([core::f32::consts::FRAC_PI_2, 0.0]));
+    assert_eq!((&joints).read(), Err(at(0, CanError::NoReply)));
+    // A tick takes 64 frames and four of each joint: if there are more, its positions may be old.
+    let joints = scripted(&[vec![first, second], vec![first; 71]].concat());
+    let overrun = CanError::Bus(ErrorKind::Overrun);
+    assert_eq!((&joints).read(), Err(at(0, overrun)));
+    // The last one was left for the next tick, and was taken in it.
     assert_eq!((&joints).read(), Err(at(1, CanError::NoReply)));
-    // The ninth was left for that tick, and was taken in it.
     let left = joints.release().0;
     assert_eq!(left.len(), 0);
 }
@@ -47,6 +52,8 @@ fn a_bus_that_fails_gives_no_positions() {
     let error = ErrorKind::Acknowledge;
     let joints = scripted(&[Ok(reply(1, 10, 0.0, 0)), Err(nb::Error::Other(error))]);
     assert_eq!((&joints).read(), Err(at(0, CanError::Bus(error))));
+    // The position that had come before the error is not that of the next tick.
+    assert_eq!((&joints).read(), Err(at(0, CanError::NoReply)));
 }
 
 #[test]

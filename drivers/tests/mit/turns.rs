@@ -14,8 +14,9 @@ fn positions_go_on_where_the_count_begins_again() {
     let count = 25.0 / 65535.0;
     let mut read = |count| state(drive.reply(&at(count))).position;
     let start = read(0x8000);
-    for quarter in [0xc000, 0xff00] {
-        read(quarter);
+    // Less than half a turn between two replies.
+    for eighth in [0xa000, 0xc000, 0xe000, 0xff00] {
+        read(eighth);
     }
     let before = read(0xfffe);
     assert!(near(before - start, (65534.0 - 32768.0) * count));
@@ -23,12 +24,15 @@ fn positions_go_on_where_the_count_begins_again() {
     let after = read(0x0001);
     assert!((after - before - 2.0 * count).abs() < 1e-4, "{after} {before}");
     // Around once more and back.
-    for quarter in [0x4000, 0x8000, 0xc000, 0xfff0] {
-        read(quarter);
+    for eighth in [0x2000, 0x4000, 0x6000, 0x8000, 0xa000, 0xc000, 0xe000, 0xfff0, 0x2000] {
+        read(eighth);
     }
     let twice = read(0x8000 - 0x4000);
     assert!(twice > 25.0);
-    for back in [0xff00, 0xc000, 0x8000, 0x4000, 0x10, 0xfff0, 0xc000] {
+    for back in [
+        0x2000, 0x10, 0xff00, 0xe000, 0xc000, 0xa000, 0x8000, 0x6000, 0x4000, 0x2000, 0x10, 0xfff0,
+        0xe000, 0xc000, 0xa000,
+    ] {
         read(back);
     }
     assert!((read(0x8000) - start).abs() < 1e-4);
@@ -52,8 +56,9 @@ fn a_robstride_repeats_after_four_turns() {
         let [high, low] = count(angle).to_be_bytes();
         state(drive.reply(&extended(0x0280_7ffd, &[high, low, 0x80, 0, 0x80, 0, 1, 0]))).position
     };
-    read(0.0);
-    read(8.0);
+    for angle in [0.0, 3.0, 6.0, 9.0, 12.0] {
+        read(angle);
+    }
     let before = read(4.0 * PI - 0.01);
     let after = read(-4.0 * PI + 0.01);
     assert!((after - before - 0.02).abs() < 5e-4, "{after} {before}");
@@ -68,7 +73,7 @@ fn beyond_the_first_scale_there_is_torque_alone() {
         decoded(&drive.command(&wanted).unwrap(), &scale)[2]
     };
     let mut position = 0.0;
-    for count in [0x8000, 0xc000, 0xfff0] {
+    for count in [0x8000, 0xa000, 0xc000, 0xe000, 0xfff0] {
         position = state(drive.reply(&at(count))).position;
         assert!(gain(&drive, position) > 0.0);
     }

@@ -39,7 +39,7 @@ mod log {
     /// Runs a trial and logs its figures: of one error, as of one joint.
     fn run<T: Batch<N>, const N: usize>(plant: PlantModel, law: [&str; 2], trial: &T) {
         let see = |telemetry: &joint_drivers::Telemetry<N>, error: f32| {
-            if telemetry.tick.is_multiple_of(SAMPLE) {
+            if !error.is_nan() && telemetry.tick.is_multiple_of(SAMPLE) {
                 let (reference, error) = (Words(&[0.0]), Words(core::slice::from_ref(&error)));
                 defmt::println!("sample {=u32}{}{}", telemetry.tick, reference, error);
             }

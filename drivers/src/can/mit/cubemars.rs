@@ -74,6 +74,8 @@ pub struct Identity {
 
 impl Protocol for Identity {
     const CLEARS: bool = false;
+    /// A turn of the rotor of the AK80-64.
+    const START: f32 = 1.0 / 64.0;
 
     fn new(id: u8, host: u16) -> Result<Self, CanError> {
         (id != 0 && host <= 0x7ff).then_some(Self { id, host }).ok_or(CanError::Node)

@@ -10,6 +10,8 @@ pub trait Protocol: Sized {
     const TOP: u16 = 4095;
     /// Whether there is a frame that clears faults.
     const CLEARS: bool = true;
+    /// The part of a turn of the output from which a drive counts after its start, at least.
+    const START: f32 = 1.0;
     /// The angle after which the count of positions begins again, if it is not the scale.
     const PERIOD: Option<f32> = None;
 

@@ -19,7 +19,7 @@
 //! | [`drivetrain`] | between motors and joints: a constant matrix that couples them, or springs |
 //! | [`clusters`] | kinematic loops of closed form, such as four-bars and parallel ankles, as joints of several bodies |
 //! | [`flexible`] | links that bend: modes of beams, inverse and forward dynamics with them |
-//! | [`advice`] | numbers of a description or a configuration that look like another unit, in words |
+//! | [`advice`] | limits and frequencies of a configuration that look like another unit, in words |
 //! | [`sim`] | time steps of a simulated robot, and its actuators |
 //!
 //! ```

@@ -5,7 +5,8 @@ use crate::scalar::Real;
 
 /// The declarations of an effect's hooks, which every effect has: constants with names, so that the
 /// compiler evaluates each once, and not in each function that asks.
-pub(crate) trait Declared<R: Real, const B: usize, const V: usize>: Effect<R, B, V> {
+#[doc(hidden)]
+pub trait Declared<R: Real, const B: usize, const V: usize>: Effect<R, B, V> {
     /// A field accelerates every body.
     const FIELD: bool = Self::GRAVITY_FIELD.is_some;
     /// Which base components of the field may differ from zero.

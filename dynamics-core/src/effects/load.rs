@@ -10,7 +10,7 @@ use crate::state::{State, entry};
 
 /// Adds the friction of one joint's gear to the torque τ of all else.
 #[cfg_attr(optimised, inline(always))]
-pub(crate) fn load_friction<R: Real, E, const B: usize, const V: usize>(
+pub fn load_friction<R: Real, E, const B: usize, const V: usize>(
     effects: &E,
     joint: usize,
     at: JointState<R>,

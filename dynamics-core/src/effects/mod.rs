@@ -125,14 +125,19 @@ pub use rigid_body::{
 };
 pub use width::Width;
 
-pub(crate) use declared::Declared;
+#[doc(hidden)]
+pub use declared::Declared;
 pub(crate) use delegate::call_hook;
 pub(crate) use gates::{
     Scene, are_of, field_axes, loads, meaning, no_gyroscopic_rotors, of_core, only_load,
 };
+#[doc(hidden)]
+pub use load::load_friction;
 pub(crate) use load::{
-    add_load_slope, all_transmitted, load_friction, load_frictions, no_load_friction, transmitted,
+    add_load_slope, all_transmitted, load_frictions, no_load_friction, transmitted,
 };
+#[doc(hidden)]
+pub use query::payload_mass;
 pub(crate) use query::{
     add_inertia, add_joint_torque_rates, base_given, base_motion, body_inertia, body_wrench, field,
     gyroscopic, joint_state, joint_torque, joint_torques, rotor_force,

@@ -60,6 +60,19 @@ where
     (v, a)
 }
 
+/// The mass that the effects add to body `i`, kg.
+#[doc(hidden)]
+pub fn payload_mass<R: Real, E, const B: usize, const V: usize>(effects: &E, i: usize) -> R
+where
+    E: Effect<R, B, V>,
+{
+    let mut load = SpatialInertia::ZERO;
+    if const { &E::PAYLOAD }.get(i) == Some(&true) {
+        call_hook!(E::ADDED_INERTIA.add, effects, i, &mut load);
+    }
+    load.mass
+}
+
 /// The inertia of body `i` with the contributions of the effects, in its aligned frame.
 #[cfg_attr(optimised, inline(always))]
 pub(crate) fn body_inertia<R: Real, E, const B: usize, const V: usize>(

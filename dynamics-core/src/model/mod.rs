@@ -83,7 +83,8 @@ mod pruned;
 mod robot;
 mod source;
 
-pub(crate) use body::impossible;
+#[doc(hidden)]
+pub use body::impossible;
 pub use body::{BASE, Body, JointLimits};
 pub(crate) use error::Text;
 pub use error::{ModelError, Problem};
@@ -170,6 +171,23 @@ pub struct Model<R: Real, const B: usize, const Q: usize, const V: usize> {
 pub type ArmModel<R, const N: usize> = Model<R, N, N, N>;
 
 impl<R: Real, const B: usize, const Q: usize, const V: usize> Model<R, B, Q, V> {
+    /// The name of the body of each velocity coordinate.
+    ///
+    /// ```
+    /// use dynamics_core::{model::Robot, robots::A1Leg};
+    /// assert_eq!(A1Leg::MODEL.coordinate_names().len(), 3); // the foot is fixed
+    /// ```
+    pub fn coordinate_names(&self) -> [&'static str; V] {
+        let mut names = [""; V];
+        for link in &self.links {
+            let (_, count) = link.joint.kind.coordinates();
+            for name in names.iter_mut().skip(link.idx_v).take(count) {
+                *name = link.name;
+            }
+        }
+        names
+    }
+
     /// The kinds of its joints.
     pub(crate) const fn kinds(&self) -> JointKinds {
         self.kinds

@@ -7,9 +7,9 @@
 #[cfg(feature = "program")]
 mod compute;
 
-use dynamics_core::advice::Advice;
 use dynamics_core::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, ModelError};
 
+use crate::advice::numbers::{Advise, NumberAdvice};
 use crate::description::{Kind, shortened};
 use crate::error::{Problem, Result};
 use crate::limits::MOST_COORDINATES;
@@ -71,7 +71,7 @@ impl AnyModel {
     }
 
     /// The numbers that look like another unit, or ask more of the motors than they have.
-    pub fn advice(&self) -> Vec<Advice> {
+    pub fn advice(&self) -> Vec<NumberAdvice> {
         match self {
             Self::Small(model) => model.exact.advice().collect(),
             Self::Middle(model) => model.exact.advice().collect(),

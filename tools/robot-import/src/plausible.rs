@@ -1,33 +1,35 @@
 //! Numbers of a robot that look like another unit, or ask more of its motors than they have:
-//! [`Model::advice`](dynamics_core::model::Model::advice) of the imported robot, with the file's
-//! names and lines.
+//! [`NumberAdvice`] on the imported robot, with the file's names and lines.
 
-use dynamics_core::advice::{self as library, AdvisedJoint};
+use dynamics_core::advice::AdvisedJoint;
 
+use crate::advice::numbers::NumberAdvice;
 use crate::advice::{Advice, FAR_GYRATION, Topic};
 use crate::model::{AnyModel, number_of};
 use crate::physical::capitalised;
 use crate::tree::{Body, Tree};
 
-/// The advice of the library; none for a tree that is too large for it.
+/// The advice on a tree; none for one that is too large for the library.
 pub fn plausible(tree: &Tree, robot: &str) -> Vec<Advice> {
     let all = AnyModel::of(tree).map_or(Vec::new(), |model| model.advice());
-    all.iter().filter(|advice| !is_own(advice)).map(|advice| placed(advice, tree, robot)).collect()
+    all.iter()
+        .filter(|advice| !is_covered(advice))
+        .map(|advice| placed(advice, tree, robot))
+        .collect()
 }
 
-/// Whether the importer has words of its own: on limits of torque it knows the accelerations that a
+/// Whether the advice on the file covers it: on limits of torque this knows the accelerations that a
 /// robot needs, too, on inertias their links.
-fn is_own(advice: &library::Advice) -> bool {
+fn is_covered(advice: &NumberAdvice) -> bool {
     match advice {
-        library::Advice::TorqueLimitsFarAbove { .. }
-        | library::Advice::ImpossibleInertia { .. } => true,
-        library::Advice::InertiaInMillimetres { gyration, .. } => *gyration > FAR_GYRATION,
+        NumberAdvice::TorqueLimitsFarAbove { .. } | NumberAdvice::ImpossibleInertia { .. } => true,
+        NumberAdvice::InertiaInMillimetres { gyration, .. } => *gyration > FAR_GYRATION,
         _ => false,
     }
 }
 
 /// With the name and line of the joint or body in place of its number.
-fn placed(advice: &library::Advice, tree: &Tree, robot: &str) -> Advice {
+fn placed(advice: &NumberAdvice, tree: &Tree, robot: &str) -> Advice {
     let topic = match advice.is_about_units() {
         true => Topic::Units,
         false => Topic::Torque,

@@ -7,12 +7,14 @@
 //! cos qₖ in each angle, and linear in each slide, so that the best value of one coordinate is
 //! exact; in turn they climb to a maximum.
 
-use super::units::is_stated;
-use super::{Advice, AdvisedJoint};
-use crate::model::{BASE, JointKind, Link, Model};
-use crate::scalar::{Matrix, Real, Vector};
-use crate::state::manifold::neutral;
-use core::f64::consts::PI;
+use std::f64::consts::PI;
+
+use dynamics_core::advice::{AdvisedJoint, is_stated};
+use dynamics_core::model::{BASE, JointKind, Link, Model};
+use dynamics_core::scalar::{Matrix, Real, Vector};
+use dynamics_core::state::manifold::neutral;
+
+use super::NumberAdvice;
 
 /// A limit that is more times the need, at every joint. Published arms have 0.1 to 16; with limits
 /// that stand for none 20 to 5,000.
@@ -25,7 +27,7 @@ const SWEEPS: usize = 3;
 /// Remarkable limits of torque.
 pub(super) fn of<R: Real, const B: usize, const Q: usize, const V: usize>(
     model: &Model<R, B, Q, V>,
-) -> impl Iterator<Item = Advice> + '_ {
+) -> impl Iterator<Item = NumberAdvice> + '_ {
     let needs = stretched(model);
     let limited = model.links.iter().zip(needs).filter(|(link, needed)| {
         let has_motor = matches!(
@@ -35,13 +37,13 @@ pub(super) fn of<R: Real, const B: usize, const Q: usize, const V: usize>(
         let limit = link.limits.torque.to_f64();
         has_motor && limit.is_finite() && limit > 0.0 && *needed > 0.0
     });
-    let mut least = None::<(f64, Advice)>;
+    let mut least = None::<(f64, NumberAdvice)>;
     for (link, needed) in limited.clone() {
         let limit = link.limits.torque.to_f64();
         let times = limit / needed;
         if least.is_none_or(|(before, _)| times < before) {
             let joint = joint(link);
-            let advice = Advice::TorqueLimitsFarAbove { joint, limit, needed };
+            let advice = NumberAdvice::TorqueLimitsFarAbove { joint, limit, needed };
             least = Some((times, advice));
         }
     }
@@ -52,7 +54,7 @@ pub(super) fn of<R: Real, const B: usize, const Q: usize, const V: usize>(
             return None;
         }
         let needed = worst(model, link).to_f64();
-        (needed > limit * (1.0 + 1e-6)).then_some(Advice::GravityBeyondTorque {
+        (needed > limit * (1.0 + 1e-6)).then_some(NumberAdvice::GravityBeyondTorque {
             joint: joint(link),
             needed,
             limit,
@@ -322,11 +324,11 @@ impl<R: Real> Range<R> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::algorithms::rnea;
-    use crate::effects::Gravity;
-    use crate::model::{ArmModel, Body, Joint, JointLimits, Robot};
-    use crate::robots::Ur5e;
-    use crate::state::State;
+    use dynamics_core::algorithms::rnea;
+    use dynamics_core::effects::Gravity;
+    use dynamics_core::model::{ArmModel, Body, Joint, JointLimits, Robot};
+    use dynamics_core::robots::Ur5e;
+    use dynamics_core::state::State;
 
     /// The torque of a joint that inverse dynamics gives, climbed with in the same order.
     fn climbed<const N: usize>(model: &ArmModel<f64, N>, of: &Link<f64>) -> f64 {

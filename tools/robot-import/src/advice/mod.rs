@@ -1,5 +1,7 @@
 //! Facts about a description that its user should know, each with its place and a reason.
 
+pub mod numbers;
+
 use std::f64::consts::PI;
 
 use serde::Serialize;

@@ -3,10 +3,11 @@
 //! The thresholds lie between what the robots of the library and of published ones have and what
 //! the same robots have in another unit; the figures are beside each.
 
-use super::{Advice, AdvisedJoint};
-use crate::model::{BASE, ImpossibleInertia, JointKind, Link, Model};
-use crate::scalar::{Matrix, Real, Vector};
-use core::f64::consts::PI;
+use dynamics_core::advice::{AdvisedJoint, positions_in_degrees, speeds_in_degrees};
+use dynamics_core::model::{BASE, ImpossibleInertia, JointKind, Link, Model};
+use dynamics_core::scalar::{Matrix, Real, Vector};
+
+use super::NumberAdvice;
 
 /// Mass over the cube of the reach, kg/m³. Robots have 3 to 132, in grams therefore 3,000 or more.
 const DENSE: f64 = 2000.0;
@@ -25,14 +26,6 @@ const ONE_GYRATION: f64 = 3.0;
 /// steel, 7 · 10⁴, and have in kg·mm² 10⁻⁹ of it; a propeller with a placeholder of an inertia has
 /// 0.4, and a wheel about its centre, which has no reach, is not thin.
 const AIRY: f64 = 0.01;
-/// Position, rad: four turns. Robots have up to 1.6 turns; a median of 56° to 360° makes 9 turns or
-/// more.
-const TURNS: f64 = 8.0 * PI;
-/// Speed, rad/s: 573 turns a minute. Robots have a median of up to 32; in degrees/s a slow one has
-/// 70.
-const SPEED: f64 = 60.0;
-/// The speed of one joint over the next one, beside [`SPEED`]: degrees/s make 57.
-const FASTER: f64 = 20.0;
 /// The share of a body's largest moment of inertia beyond which m d² would be of note.
 const SHARE: f64 = 0.5;
 /// The same of one body among others, and the square of its radius of gyration, of the largest that
@@ -46,7 +39,7 @@ const TIP_SHARE: f64 = 0.9;
 /// The units that look wrong.
 pub(super) fn of<R: Real, const B: usize, const Q: usize, const V: usize>(
     model: &Model<R, B, Q, V>,
-) -> impl Iterator<Item = Advice> {
+) -> impl Iterator<Item = NumberAdvice> {
     let size = Size::of(model);
     let millimetres = size.reach > FAR && size.density(1.0) < THIN;
     let (robot, mass, reach) = (model.name, size.mass, size.reach);
@@ -57,8 +50,8 @@ pub(super) fn of<R: Real, const B: usize, const Q: usize, const V: usize>(
         size.density(1.0) > DENSE && size.solid > 0.5 * size.mass
     };
     let whole = [
-        grams.then_some(Advice::MassesInGrams { robot, mass, reach }),
-        millimetres.then_some(Advice::LengthsInMillimetres { robot, mass, reach }),
+        grams.then_some(NumberAdvice::MassesInGrams { robot, mass, reach }),
+        millimetres.then_some(NumberAdvice::LengthsInMillimetres { robot, mass, reach }),
     ];
     let limits = [
         positions_in_degrees(rotations(model).map(|(joint, link)| {
@@ -71,19 +64,8 @@ pub(super) fn of<R: Real, const B: usize, const Q: usize, const V: usize>(
     ];
     let bodies = gyrations(model, reach).filter(move |_| !millimetres);
     let whole = whole.into_iter().flatten();
-    whole.chain(bodies).chain(about_joints(model)).chain(limits.into_iter().flatten())
-}
-
-/// Whether a limit is one, and not a number that stands for none: infinite, zero, or a power of
-/// ten.
-pub(super) fn is_stated(limit: f64) -> bool {
-    let mut power = 100.0;
-    while power < limit.abs() && power < 1e30 {
-        power *= 10.0;
-    }
-    // The rounding of an f32.
-    let is_power = (limit.abs() - power).abs() <= 1e-6 * power;
-    limit.is_finite() && limit != 0.0 && !is_power
+    let limits = limits.into_iter().flatten().map(NumberAdvice::Limit);
+    whole.chain(bodies).chain(about_joints(model)).chain(limits)
 }
 
 /// Mass and reach of what the joints move.
@@ -111,7 +93,7 @@ impl Size {
             if let (Some(d), Some(m)) = (distance.get_mut(i), moves.get_mut(i)) {
                 (*d, *m) = (from_first, moved);
             }
-            let body = Massive::of(link);
+            let body = MassSize::of(link);
             if !moved {
                 continue;
             }
@@ -138,13 +120,13 @@ impl Size {
 }
 
 /// A body's mass, the distance of its centre of mass, and its radius of gyration about that.
-struct Massive {
+struct MassSize {
     mass: f64,
     com: f64,
     gyration: f64,
 }
 
-impl Massive {
+impl MassSize {
     fn of<R: Real>(link: &Link<R>) -> Self {
         let mass = link.inertia.mass.to_f64();
         if mass <= 0.0 {
@@ -171,10 +153,10 @@ fn length<R: Real>(v: R::Vec3) -> f64 {
 fn gyrations<R: Real, const B: usize, const Q: usize, const V: usize>(
     model: &Model<R, B, Q, V>,
     reach: f64,
-) -> impl Iterator<Item = Advice> {
+) -> impl Iterator<Item = NumberAdvice> {
     let (mut beyond, mut bodies, mut largest, mut body) = (0, 0, 0.0, "");
     for link in &model.links {
-        let Massive { mass, gyration: k, .. } = Massive::of(link);
+        let MassSize { mass, gyration: k, .. } = MassSize::of(link);
         if k > 0.0 {
             bodies += 1;
             beyond += usize::from(k > GYRATION * reach && is_airy(mass, k));
@@ -184,11 +166,12 @@ fn gyrations<R: Real, const B: usize, const Q: usize, const V: usize>(
         }
     }
     let most = reach > 0.0 && 2 * beyond > bodies;
-    let all = most.then_some(Advice::InertiasInMillimetres { body, gyration: largest, reach });
+    let all =
+        most.then_some(NumberAdvice::InertiasInMillimetres { body, gyration: largest, reach });
     let each = model.links.iter().filter_map(move |link| {
-        let Massive { mass, gyration, .. } = Massive::of(link);
+        let MassSize { mass, gyration, .. } = MassSize::of(link);
         let beyond = gyration > ONE_GYRATION * reach && is_airy(mass, gyration);
-        (beyond && !most).then_some(Advice::InertiaInMillimetres {
+        (beyond && !most).then_some(NumberAdvice::InertiaInMillimetres {
             body: link.name,
             gyration,
             reach,
@@ -219,7 +202,7 @@ impl AboutJoint {
     /// The size of a body with a centre of mass beside its joint; `next` is the distance of the
     /// farthest joint on it, m; none of a tip.
     fn of<R: Real>(link: &Link<R>, next: Option<f64>) -> Option<Self> {
-        let size = Massive::of(link);
+        let size = MassSize::of(link);
         if size.mass == 0.0 || size.com == 0.0 || size.gyration == 0.0 {
             return None;
         }
@@ -251,9 +234,11 @@ impl AboutJoint {
             }
             None => shift < TIP_SHARE * largest,
         };
+        let [[xx, xy, xz], [_, yy, yz], [.., zz]] = about_com;
+        let moments = [xx, xy, xz, yy, yz, zz];
         Some(Self {
             share: shift / largest,
-            is_possible: ImpossibleInertia::beyond::<false>(about_com, 1e-6, 0.0).is_none(),
+            is_possible: ImpossibleInertia::of(moments, 1e-6).is_none(),
             is_wide,
             largest,
             shift,
@@ -265,7 +250,7 @@ impl AboutJoint {
 /// about their joints; else each that is wider than its joints allow.
 fn about_joints<R: Real, const B: usize, const Q: usize, const V: usize>(
     model: &Model<R, B, Q, V>,
-) -> impl Iterator<Item = Advice> {
+) -> impl Iterator<Item = NumberAdvice> {
     let of = |i: usize, link: &Link<R>| {
         let on_it = model.links.iter().filter(|other| other.parent == i);
         let joints = on_it.map(|other| length::<R>(other.placement.pos));
@@ -282,7 +267,7 @@ fn about_joints<R: Real, const B: usize, const Q: usize, const V: usize>(
             all &= about.is_possible;
             if about.share > most {
                 most = about.share;
-                found = Some(Advice::InertiasAboutJoints {
+                found = Some(NumberAdvice::InertiasAboutJoints {
                     body: link.name,
                     inertia: about.largest,
                     shift: about.shift,
@@ -294,7 +279,7 @@ fn about_joints<R: Real, const B: usize, const Q: usize, const V: usize>(
     let each = model.links.iter().enumerate().filter_map(move |(i, link)| {
         let about = of(i, link)?;
         let is_about_joint = about.share > ONE_SHARE && about.is_wide && about.is_possible;
-        (!all && is_about_joint).then_some(Advice::InertiaAboutJoint {
+        (!all && is_about_joint).then_some(NumberAdvice::InertiaAboutJoint {
             body: link.name,
             inertia: about.largest,
             shift: about.shift,
@@ -313,89 +298,4 @@ fn rotations<R: Real, const B: usize, const Q: usize, const V: usize>(
         let (number, body) = (link.idx_v, Some(link.name));
         (AdvisedJoint { number, body }, link)
     })
-}
-
-/// [`Advice::PositionsInDegrees`], if most joints that state limits of position, rad, have one
-/// beyond four turns, or [`Advice::PositionInDegrees`], if some do: published robots have up to
-/// 1.6.
-///
-/// Limits that are infinite, zero or a power of ten of 100 or more state none.
-///
-/// ```
-/// use dynamics_core::advice::{Advice, AdvisedJoint, positions_in_degrees};
-/// let joint = |number| AdvisedJoint { number, body: None };
-/// let advice = positions_in_degrees([(joint(0), [-170.0, 170.0]), (joint(1), [0.0, 120.0])].into_iter());
-/// assert_eq!(advice, Some(Advice::PositionsInDegrees { joint: joint(0), limit: 170.0 }));
-/// let advice = positions_in_degrees([(joint(0), [-170.0, 170.0]), (joint(1), [0.0, 2.0])].into_iter());
-/// assert_eq!(advice, Some(Advice::PositionInDegrees { joint: joint(0), limit: 170.0 }));
-/// ```
-pub fn positions_in_degrees(
-    limits: impl Iterator<Item = (AdvisedJoint, [f64; 2])>,
-) -> Option<Advice> {
-    let placed = |x: f64| if is_stated(x) { x } else { 0.0 };
-    let farther = limits.map(|(joint, ends)| {
-        let [lower, upper] = ends.map(placed);
-        (joint, if lower.abs() > upper.abs() { lower } else { upper })
-    });
-    let Greatest { joint, limit, most_beyond, .. } = Greatest::of(farther, TURNS)?;
-    Some(if most_beyond {
-        Advice::PositionsInDegrees { joint, limit }
-    } else {
-        Advice::PositionInDegrees { joint, limit }
-    })
-}
-
-/// [`Advice::SpeedsInDegrees`], if most joints that state a limit of speed, rad/s, have one above
-/// 60, or [`Advice::SpeedInDegrees`], if one does and is 20 times the next: published robots have a
-/// median of up to 32.
-///
-/// Limits that are infinite, zero or a power of ten of 100 or more state none.
-///
-/// ```
-/// use dynamics_core::advice::{Advice, AdvisedJoint, speeds_in_degrees};
-/// let joint = |number| AdvisedJoint { number, body: None };
-/// let speeds = |all: [f64; 2]| speeds_in_degrees([(joint(0), all[0]), (joint(1), all[1])].into_iter());
-/// assert_eq!(speeds([3.14, 62.0]), None);
-/// assert_eq!(speeds([120.0, 180.0]), Some(Advice::SpeedsInDegrees { joint: joint(1), limit: 180.0 }));
-/// assert_eq!(speeds([3.14, 180.0]), Some(Advice::SpeedInDegrees { joint: joint(1), limit: 180.0 }));
-/// ```
-pub fn speeds_in_degrees(limits: impl Iterator<Item = (AdvisedJoint, f64)>) -> Option<Advice> {
-    let greatest = Greatest::of(limits, SPEED)?;
-    let (joint, limit) = (greatest.joint, greatest.limit);
-    if greatest.most_beyond {
-        return Some(Advice::SpeedsInDegrees { joint, limit });
-    }
-    let is_alone = limit.abs() > FASTER * greatest.next;
-    is_alone.then_some(Advice::SpeedInDegrees { joint, limit })
-}
-
-/// The greatest of the limits that are stated.
-struct Greatest {
-    joint: AdvisedJoint,
-    limit: f64,
-    /// The size of the next one.
-    next: f64,
-    /// Whether most are beyond the bound.
-    most_beyond: bool,
-}
-
-impl Greatest {
-    /// If it is beyond the bound.
-    fn of(joints: impl Iterator<Item = (AdvisedJoint, f64)>, bound: f64) -> Option<Self> {
-        let (mut beyond, mut stated, mut next) = (0, 0, 0.0_f64);
-        let mut greatest = None::<(AdvisedJoint, f64)>;
-        for (joint, limit) in joints.filter(|&(_, limit)| is_stated(limit)) {
-            stated += 1;
-            beyond += usize::from(limit.abs() > bound);
-            match greatest {
-                Some((_, before)) if limit.abs() <= before.abs() => next = next.max(limit.abs()),
-                before => {
-                    next = before.map_or(0.0, |(_, before)| before.abs());
-                    greatest = Some((joint, limit));
-                }
-            }
-        }
-        let (joint, limit) = greatest.filter(|_| beyond > 0)?;
-        Some(Self { joint, limit, next, most_beyond: 2 * beyond > stated })
-    }
 }

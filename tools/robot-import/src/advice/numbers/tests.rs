@@ -1,15 +1,15 @@
-use std::string::{String, ToString};
-use std::vec::Vec;
-
-use super::*;
-use crate::effects::{
+use dynamics_core::effects::{
     Armature, AsymmetricCoulomb, Coulomb, Gravity, LoadFriction, Payload, RIGID_BODY, Spring,
     Stribeck, Viscous, Width,
 };
-use crate::glam::{DMat3, DVec3};
-use crate::model::{ArmModel, BASE, Body, BodyInertia, Joint, JointLimits, Link, Model, Robot};
-use crate::robots::*;
-use crate::scalar::Real;
+use dynamics_core::glam::{DMat3, DVec3};
+use dynamics_core::model::{
+    ArmModel, BASE, Body, BodyInertia, Joint, JointLimits, Link, Model, Robot,
+};
+use dynamics_core::robots::*;
+use dynamics_core::scalar::Real;
+
+use super::{Advise, NumberAdvice};
 
 /// The robots whose inertias about the joints can be told from those about the centres of mass.
 const ABOUT_JOINTS: [&str; 8] =
@@ -42,12 +42,12 @@ fn each_robot(ask: &mut impl Ask) {
 fn units<R: Real, const B: usize, const Q: usize, const V: usize>(
     model: &Model<R, B, Q, V>,
 ) -> Vec<String> {
-    let about_units = model.advice().filter(Advice::is_about_units);
+    let about_units = model.advice().filter(NumberAdvice::is_about_units);
     about_units.map(|advice| kind(&advice)).collect()
 }
 
-fn kind(advice: &Advice) -> String {
-    let text = std::format!("{advice:?}");
+fn kind(advice: &NumberAdvice) -> String {
+    let text = format!("{advice:?}").replace("Limit(", "");
     text.split(' ').next().unwrap_or_default().to_string()
 }
 
@@ -156,8 +156,8 @@ fn two_rods(bends: f64, torques: [f64; 2]) -> ArmModel<f64, 2> {
 fn gravity_advice_states_the_closed_form_torque() {
     // Stretched out horizontally: 2 g · 0.25 + 2 g · 0.75.
     let whole = 9.81 * 2.0 * (0.25 + 0.75);
-    let advice: Vec<Advice> = two_rods(2.0, [19.0, 9.0]).advice().collect();
-    let [Advice::GravityBeyondTorque { joint, needed, limit }] = advice[..] else {
+    let advice: Vec<NumberAdvice> = two_rods(2.0, [19.0, 9.0]).advice().collect();
+    let [NumberAdvice::GravityBeyondTorque { joint, needed, limit }] = advice[..] else {
         panic!("{advice:?}");
     };
     assert_eq!((joint.number, joint.body, limit), (0, Some("upper"), 19.0));
@@ -168,7 +168,7 @@ fn gravity_advice_states_the_closed_form_torque() {
     let bent = 9.81 * 2.0 * (0.75 * f64::sin(0.3) + 0.25 * f64::sin(0.6));
     let found = |torque: f64| two_rods(0.3, [torque, 9.0]).advice().next();
     assert_eq!(found(bent * 1.001), None);
-    let Some(Advice::GravityBeyondTorque { needed, .. }) = found(bent * 0.999) else {
+    let Some(NumberAdvice::GravityBeyondTorque { needed, .. }) = found(bent * 0.999) else {
         panic!("{:?}", found(bent * 0.999));
     };
     assert!((needed - bent).abs() < 1e-9, "{needed} {bent}");
@@ -187,8 +187,8 @@ fn gravity_advice_states_the_closed_form_torque() {
 fn advice_names_the_least_excessive_torque_limit() {
     let weight = 9.81 * 2.0 * 0.25;
     let far = two_rods(2.0, [65.0 * 4.0 * weight, 70.0 * weight]);
-    let advice: Vec<Advice> = far.advice().collect();
-    let [Advice::TorqueLimitsFarAbove { joint, limit, needed }] = advice[..] else {
+    let advice: Vec<NumberAdvice> = far.advice().collect();
+    let [NumberAdvice::TorqueLimitsFarAbove { joint, limit, needed }] = advice[..] else {
         panic!("{advice:?}");
     };
     assert_eq!(joint.number, 0);
@@ -218,7 +218,7 @@ fn about<const B: usize, const Q: usize, const V: usize>(
     model: &Model<f64, B, Q, V>,
     body: &str,
 ) -> String {
-    let named = std::format!("body `{body}`: ");
+    let named = format!("body `{body}`: ");
     let mut found = model.advice().map(|advice| advice.to_string());
     found.find(|text| text.starts_with(&named)).unwrap_or_default()
 }
@@ -302,7 +302,7 @@ fn a_uniform_rod_about_its_end_is_named() {
         let body = ["a", "b", "c"][i];
         assert_eq!(words.len(), 1, "{words:?}");
         assert!(
-            words[0].starts_with(&std::format!("body `{body}`: its inertia of 0.17 kg·m²")),
+            words[0].starts_with(&format!("body `{body}`: its inertia of 0.17 kg·m²")),
             "{words:?}"
         );
     }
@@ -313,12 +313,12 @@ impl Ask for OneJoint {
     fn ask<const B: usize, const Q: usize, const V: usize>(&mut self, model: &Model<f64, B, Q, V>) {
         // The advice on torques, which takes its time, comes after that on units.
         let first = |model: &Model<f64, B, Q, V>| {
-            let found = model.advice().find(Advice::is_about_units);
+            let found = model.advice().find(NumberAdvice::is_about_units);
             found.map(|advice| (kind(&advice), advice.joint().and_then(|joint| joint.body)))
         };
         for i in 0..B {
             let Link { name, limits, .. } = model.links[i];
-            if model.links[i].joint.kind != crate::model::JointKind::Revolute {
+            if model.links[i].joint.kind != dynamics_core::model::JointKind::Revolute {
                 continue;
             }
             let mut changed = *model;
@@ -358,7 +358,7 @@ fn a_wheel_about_its_centre_gets_no_advice() {
 }
 
 /// The kinds of advice on a scene of the UR5e.
-fn on<E: crate::effects::Effect<f64, 6, 6>>(scene: &E) -> Vec<String> {
+fn on<E: dynamics_core::effects::Effect<f64, 6, 6>>(scene: &E) -> Vec<String> {
     Ur5e::MODEL.advice_on(scene).map(|advice| kind(&advice)).collect()
 }
 

@@ -18,13 +18,13 @@ use crate::kit::error::{Error, Result, bail, check, refuse_if};
 use crate::kit::progress::Spinner;
 use crate::kit::setup::{self, Options};
 use crate::kit::toolchain::Toolchain;
-use crate::kit::workspace::{self, Workspace};
+use crate::kit::workspace::Workspace;
 use crate::kit::{docs, output};
 use crate::studies::budgets;
 use crate::studies::study::Bench;
 use boards::Board;
 pub use list::{CORES, Core, short_paths};
-use page::{PAGE, rows_of};
+use page::PAGE;
 use placed::Placed;
 use run::{Row, Torques};
 
@@ -87,7 +87,6 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
 /// Also [`Error::Skipped`], if none of them can be run here.
 pub fn check(bench: &Bench<'_>) -> Result<String> {
     let (workspace, options) = (bench.workspace, bench.options);
-    let page = workspace::read(&workspace.root.join(PAGE.file))?;
     let (mut targets, packages) = list::needed();
     targets.extend(boards::missing());
     targets.sort_unstable();
@@ -103,12 +102,8 @@ pub fn check(bench: &Bench<'_>) -> Result<String> {
     if cores.is_empty() {
         return Err(Error::Skipped(format!("not installed: {}", lacks.join(", "))));
     }
-    let report = Report::measure(workspace, &cores)?;
-    let written = PAGE.written(&page)?;
-    let fresh = report.markdown()?;
+    Report::measure(workspace, &cores)?;
     let names: Vec<&str> = cores.iter().map(|core| core.name).collect();
-    let (written, fresh) = (rows_of(written, &names, &boards), rows_of(&fresh, &names, &boards));
-    docs::compare(PAGE.file, PAGE.command, &written, &fresh, &report.rustc)?;
     let skipped = lacks.iter().map(|lack| format!("; skipped: {lack}"));
     Ok(format!("{}{}", names.join(", "), skipped.collect::<String>()))
 }

@@ -71,7 +71,6 @@ pub fn measure(bench: &Bench<'_>) -> Result<Found> {
     let guide = profiles::markdown(&profiles, &bench.rustc()?);
     Ok(Found {
         brief: Some((profiles::PAGE, guide)),
-        rustc: Some(bench.rustc()?),
         ..Found::new(text, &(&lines, &core, &profiles))?
     })
 }
@@ -223,19 +222,6 @@ mod tests {
             let text = read(file).replace('#', "");
             let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
             assert!(text.contains(said), "{file} does not say: {said}");
-        }
-    }
-
-    /// No full run measures the page anew: it is out of date if the costs of the same calls differ.
-    #[test]
-    fn the_fast_line_is_that_of_the_page_of_costs() {
-        let [flags, costs] = ["docs/flags.md", "docs/costs.md"].map(read);
-        let costs = rows_of(&costs);
-        for row in rows_of(&flags).iter().filter(|row| row.len() == 5) {
-            let mut now = costs.iter().filter(|now| row[0].ends_with(now[0]) && now[1] == "inside");
-            let now = now.next().map(|now| format!("{} / {} (1.00)", now[4], now[7]));
-            assert_eq!(Some(row[1]), now.as_deref(), "`cargo xtask flags` rewrites the page");
-            assert_ne!(Some(row[2]), now.as_deref());
         }
     }
 }

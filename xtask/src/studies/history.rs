@@ -1,13 +1,12 @@
 //! The algorithms that today's replaced, counted on the host and measured on the target.
 
-use crate::kit::docs::cells;
 use crate::kit::error::{Result, check};
 use crate::kit::meter::MODEL;
 use crate::kit::rows::{self, Row};
 use crate::kit::table::{Table, thousands};
 use crate::kit::toolchain::RELEASE;
-use crate::kit::{firmware, host_bin::SHARED, workspace};
-use crate::studies::costs;
+use crate::kit::{firmware, host_bin::SHARED};
+use crate::studies::costs::{self, record::Record};
 use crate::studies::study::{Bench, Found};
 
 /// The bin, and the feature that it is built for.
@@ -56,17 +55,8 @@ pub fn least_published() -> String {
         .join(", ")
 }
 
-/// The flops of the engine on the page of costs, with sines outside.
-fn engine_flops<'a>(costs: &'a str, robot: &str, algorithm: &str) -> Option<&'a str> {
-    let heading = format!("\n## {robot}\n");
-    let part = costs.split_once(&*heading)?.1.split("\n## ").next()?;
-    let called = format!("{algorithm} engine full");
-    let mut rows = part.lines().filter_map(cells);
-    rows.find(|row| row.starts_with(&[&*called, "outside"]))?.get(11).copied()
-}
-
 /// The customised symbolic method beside the engine.
-fn customised(costs: &str) -> Result<Table> {
+fn customised(costs: &Record) -> Result<Table> {
     let mut table = Table::new(&[
         "robot",
         "RNEA, OpenSYMORO",
@@ -77,8 +67,9 @@ fn customised(costs: &str) -> Result<Table> {
     ]);
     for (robot, [rnea, m, again]) in CUSTOMISED {
         let engine = |name| {
-            let flops = engine_flops(costs, robot, name);
-            flops.map(str::to_owned).ok_or_else(|| check!("{}: no {robot} {name}", costs::PAGE))
+            let row = costs.find(&format!("{robot} {name} engine full"));
+            let row = row.ok_or_else(|| check!("{}: no {robot} {name}", costs::record::FILE))?;
+            Ok(thousands(row.flops))
         };
         let [rnea, m, again] = [rnea, m, again].map(thousands);
         table.row([robot.into(), rnea, engine("rnea")?, m, again, engine("crba")?]);
@@ -106,7 +97,7 @@ pub fn measure(bench: &Bench<'_>) -> Result<Found> {
         .ok_or_else(|| check!("`history_counts` printed no differences"))?;
     let elves = firmware::build_with(workspace, tools.toolchain, RELEASE, BIN, &[BIN], None)?;
     let meter = firmware::build_meter(workspace)?;
-    let costs = workspace::read(&workspace.root.join(costs::PAGE))?;
+    let costs = Record::read(workspace)?;
     let report = Report {
         customised: customised(&costs)?.markdown(),
         rows: rows::run_for_time(tools, &meter, BIN, &elves[0], "")?,
@@ -114,7 +105,7 @@ pub fn measure(bench: &Bench<'_>) -> Result<Found> {
         differences: differences.trim_end().into(),
         rustc: bench.rustc()?,
     };
-    Ok(Found { rustc: Some(report.rustc.clone()), ..Found::new(report.markdown()?, &report.rows)? })
+    Found::new(report.markdown()?, &report.rows)
 }
 
 impl Report {
@@ -227,45 +218,5 @@ impl Report {
             differences = self.differences,
             rustc = self.rustc
         ))
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{COMPARED, LEAST_PUBLISHED, customised, engine_flops, least_published};
-    use crate::kit::docs::repository::{read, rows_of};
-    use crate::studies::costs;
-
-    #[test]
-    fn costs_and_history_say_the_same_least_arithmetic_and_that_it_is_no_bound() {
-        let least = least_published();
-        let pages = [costs::PAGE, "docs/history.md"].map(read);
-        for page in &pages {
-            assert_eq!(page.matches(&*least).count(), 1, "{least}");
-            assert!(!page.contains("least arithmetic known"));
-        }
-        let rows = rows_of(&pages[1]);
-        let executed = ["RNEA, engine", "CRBA, engine"].map(|form| {
-            let row = rows.iter().find(|row| row.get(2) == Some(&form)).expect("a row");
-            row[5].replace(',', "").parse::<u64>().expect("flops")
-        });
-        assert!(executed.iter().zip(LEAST_PUBLISHED).all(|(flops, (_, least))| *flops < least));
-        let said = format!("executes {} for RNEA and {} for M", executed[0], executed[1]);
-        assert!(pages[1].contains(&said), "{said}");
-        assert_eq!(COMPARED, 6);
-    }
-
-    #[test]
-    fn the_engines_flops_are_those_of_the_page_of_costs() {
-        let page = read(costs::PAGE);
-        let table = customised(&page).expect("all robots").markdown();
-        assert!(read("docs/history.md").contains(&*table));
-        let row = |cell: &str| {
-            format!("\n## arm\n\n| a | b |\n| {cell} | outside |1|1|1|1|1|1|1|1|1| 383 |\n")
-        };
-        assert_eq!(engine_flops(&row("rnea engine full"), "arm", "rnea"), Some("383"));
-        assert_eq!(engine_flops(&row("rnea core full"), "arm", "rnea"), None);
-        assert_eq!(engine_flops(&row("rnea engine full"), "leg", "rnea"), None);
-        assert!(customised("").is_err());
     }
 }

@@ -8,24 +8,19 @@ mod report;
 mod robot_dynamics;
 mod robots;
 mod target;
-#[cfg(test)]
-mod tests;
 mod tools;
 
 use std::process::{Command, ExitCode};
 use std::thread;
 
-use crate::kit::bars::Compared;
 use crate::kit::docs;
 use crate::kit::error::{Result, bail, check};
 use crate::kit::setup::{Options, Tools};
 use crate::kit::shell;
 use crate::kit::workspace::{self, Workspace};
-use crate::studies::budgets;
 use crate::studies::peers::build::Workshop;
 use crate::studies::peers::report::Report;
 use crate::studies::peers::tools::Peers;
-use crate::studies::scenes::first_screen;
 
 /// ID(q, q̇, q̈), ID(q, q̇, 0), ID(q, 0, 0), the mass matrix, FD(q, q̇, τ), and Λ⁻¹ of the tip of
 /// an arm.
@@ -57,7 +52,7 @@ pub struct Args {
 /// Sets up, builds, measures, and writes `docs/peers.md`.
 ///
 /// # Errors
-/// Among others, a bar is missed that `budgets.toml` does not record as missed.
+/// Among others, a function takes the compiler longer than [`BUILD`].
 pub fn run(options: Options, args: Args) -> Result<ExitCode> {
     let workspace = Workspace::for_reports()?;
     let (tools, peers) = tools::set_up(&workspace, options)?;
@@ -80,18 +75,14 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
     rows.extend(on_gates);
     rows.extend(host::measure(&shop, &robots, casadi, &benches)?);
     let versions = versions(&tools, &peers)?;
-    let ratios = budgets::bars(&workspace)?;
-    let compared = bars::compared(&ratios, &rows);
-    // Times on a host vary: one that happens to meet its bar is no reason to fail.
-    let unmet = compared.iter().filter(|compared| !compared.is_met());
+    let compared = bars::compared(&bars::read()?, &rows);
     let slow = builds.iter().filter(|(_, seconds)| *seconds > BUILD);
     let slow = slow.map(|(function, seconds)| format!("{function}: built in {seconds:.0} s"));
-    let unmet: Vec<String> = unmet.filter_map(Compared::complaint).chain(slow).collect();
+    let unmet: Vec<String> = slow.collect();
     let report =
         Report { rows, builds, compared, versions, date: docs::today_and_commit(&workspace) };
     let page = report.markdown();
-    workspace::write(&workspace.report(PAGE), docs::seal::sealed(&page))?;
-    first_screen::write_why(&workspace)?;
+    workspace::write(&workspace.report(PAGE), &page)?;
     let code = docs::show(args.json, &report.rows, &page)?;
     if !unmet.is_empty() {
         bail!("bar: {}", unmet.join("\nbar: "));

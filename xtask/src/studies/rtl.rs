@@ -112,7 +112,6 @@ pub fn measure(bench: &Bench<'_>) -> Result<Found> {
     let report = Report { rows, errors, rustc: Toolchain::Native.rustc_version()? };
     Ok(Found {
         picture: Some(page::svg(&report.rows)?),
-        rustc: Some(report.rustc.clone()),
         summary: page::summary(&report.rows)?,
         ..Found::new(report.markdown()?, &report)?
     })

@@ -1,6 +1,7 @@
 //! Engine and core against the best peer, and the bars for that.
 
 use crate::kit::bars::{Bars, Compared};
+use crate::kit::error::{Result, check};
 use crate::studies::peers::PRECISIONS;
 use crate::studies::peers::gates::INSIDE;
 use crate::studies::peers::report::{GATES, HOST, M4F, OURS, Row};
@@ -18,7 +19,13 @@ const ON_GATES: [([&str; 2], &str); 3] = [
     (["core", "RobotDynamics"], INSIDE),
 ];
 
-/// The bars of `budgets.toml` that this run has the figures for.
+/// What was hoped for, in `lab/peers/bars.toml`.
+pub fn read() -> Result<Bars> {
+    let text = include_str!("../../../../lab/peers/bars.toml");
+    toml_edit::de::from_str(text).map_err(|error| check!("lab/peers/bars.toml: {error}"))
+}
+
+/// The bars that this run has the figures for.
 pub fn compared(ratios: &Bars, rows: &[Row]) -> Vec<Compared> {
     let mut all = Vec::new();
     for row in rows.iter().filter(|row| row.target == M4F && row.peer == "core") {

@@ -20,8 +20,8 @@ use crate::kit::setup::{self, Options, Tools};
 use crate::kit::toolchain::RELEASE;
 use crate::kit::workspace::{self, Workspace};
 use crate::kit::{docs, firmware, meter, output};
-use crate::studies::scenes::report::{Report, feedforward_costs};
 use crate::studies::scenes::plot;
+use crate::studies::scenes::report::{Report, feedforward_costs};
 use crate::studies::{budgets, scenes};
 
 /// The picture of the default scene.

@@ -69,9 +69,8 @@ pub fn json(value: &impl serde::Serialize) -> Result<String> {
 
 /// A list of values, one a line.
 pub fn json_lines(values: &[impl serde::Serialize]) -> Result<String> {
-    let line = |value| {
-        serde_json::to_string(value).map_err(|e| check!("cannot write the JSON: {e}"))
-    };
+    let line =
+        |value| serde_json::to_string(value).map_err(|e| check!("cannot write the JSON: {e}"));
     let lines = values.iter().map(line).collect::<Result<Vec<_>>>()?;
     Ok(format!("[\n{}\n]", lines.join(",\n")))
 }

@@ -86,7 +86,8 @@ pub fn check(generated: &[Point], recorded: &[Point]) -> Result<usize> {
     let mut wrong = Vec::new();
     for found in generated {
         let what = name(found);
-        let promised = recorded.iter().find(|point| point.kind == Kind::Inverse && name(point) == what);
+        let promised =
+            recorded.iter().find(|point| point.kind == Kind::Inverse && name(point) == what);
         let promised = promised.ok_or_else(|| check!("{what} is generated, but not recorded"))?;
         let mut pairs = std::iter::zip(costs(found), costs(promised));
         let cheap = pairs.all(|(found, promised)| found <= COST * promised);

@@ -1,7 +1,7 @@
 //! The rows in print.
 
 use super::record::{Record, Recorded};
-use crate::kit::meter::{CHIPS, CLOCK_MHZ, IN_FLASH, MODEL};
+use crate::kit::meter::{CHIPS, IN_FLASH, MODEL};
 use crate::kit::rows::Row;
 use crate::kit::table::{Table, thousands};
 
@@ -18,7 +18,7 @@ pub fn of_robot(rows: &[Row]) -> String {
     let name = rows.first().map_or("", |row| &row.robot);
     let rows: Vec<Recorded> = rows.iter().map(Recorded::of).collect();
     let table = table(&rows).markdown();
-    format!("{name}; {MODEL}; µs at {CLOCK_MHZ} MHz. {IN_FLASH}.\n\n{table}")
+    format!("{name}; {MODEL}. {IN_FLASH}.\n\n{table}")
 }
 
 /// A row with sines and cosines inside, and beside it the cycles of the one without, if there is
@@ -39,7 +39,6 @@ fn table(rows: &[Recorded]) -> Table {
             ("cycles", &|row| cycles(row, true)),
             ("sin/cos given", &|row| cycles(row, false)),
             (CHIPS[0], &|row| thousands(row.in_flash[0])),
-            ("µs", &|row| format!("{:.1}", row.cycles as f64 / CLOCK_MHZ)),
             ("code, B", &|row| thousands(row.code_bytes)),
             ("stack, B", &|row| thousands(row.stack_bytes)),
         ],
@@ -54,13 +53,12 @@ mod tests {
 
     #[test]
     fn a_row_has_the_cycles_with_and_without_sines() {
-        let row = |name, cycles, trig| Row {
-            trig,
-            ..Row::sample(["arm", name, "core", "full"], cycles)
-        };
+        let row =
+            |name, cycles, trig| Row { trig, ..Row::sample(["arm", name, "core", "full"], cycles) };
         let rows = [row("rnea", 1500, true), row("rnea", 1200, false), row("solve", 9, false)];
         let text = of_robot(&rows);
-        let found: Vec<_> = text.lines().filter_map(cells).skip(2).map(|row| row[..3].join(" ")).collect();
+        let found: Vec<_> =
+            text.lines().filter_map(cells).skip(2).map(|row| row[..3].join(" ")).collect();
         assert_eq!(found, ["rnea core full 1,500 1,200", "solve core full – 9"]);
     }
 }

@@ -120,7 +120,8 @@ pub fn hold(record: &Record, rows: &[Row], bars: &Bars) -> Result<()> {
         for ((what, old), (_, now)) in old.figures().into_iter().zip(row.figures()) {
             if now > old * (1.0 + CLOSE) {
                 let more = 100.0 * CLOSE;
-                wrong.push(format!("{key}: {what} {now}, recorded {old}: more than {more} % above"));
+                wrong
+                    .push(format!("{key}: {what} {now}, recorded {old}: more than {more} % above"));
             }
         }
     }
@@ -184,7 +185,8 @@ mod tests {
         }
         let over = said(&[row("rnea", 1031)], None);
         for what in ["instructions", "cycles", "code_bytes", "stack_bytes"] {
-            let words = format!("arm rnea core full trig: {what} 1031, recorded 1000: more than 3 %");
+            let words =
+                format!("arm rnea core full trig: {what} 1031, recorded 1000: more than 3 %");
             assert!(over.contains(&words), "{over}");
         }
         assert!(said(&[row("crba", 1)], None).contains("docs/costs.json does not have it"));

@@ -89,8 +89,11 @@ pub fn derivatives<'a, T: Robot<B, N, N>, const B: usize, const N: usize, const 
 ) {
     for form in forms {
         let run = form.derivatives;
-        Row::of::<T, B, N>("forward_dynamics_derivatives", form.name, "full", true)
-            .measure(run as usize, asks, |ask| run(&ask.state, &ask.state.qdd, &RIGID_BODY));
+        Row::of::<T, B, N>("forward_dynamics_derivatives", form.name, "full", true).measure(
+            run as usize,
+            asks,
+            |ask| run(&ask.state, &ask.state.qdd, &RIGID_BODY),
+        );
     }
 }
 

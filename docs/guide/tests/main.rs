@@ -1,7 +1,6 @@
-//! The pages and pictures of the documents, and the programs on the guide's pages.
+//! The figures of the README, and the programs on the guide's pages.
 
 mod files;
 mod pages;
-mod pictures;
+mod readme;
 mod reference;
-mod reports;

@@ -61,25 +61,22 @@ fn scenes(reports: &[&Report], set_off: fn(&str) -> String) -> Table {
     Table::of(reports, &columns)
 }
 
-/// A row for each effect and each other law of a scene: what is saved without it, and the error as
-/// a multiple of the scene's.
+/// A row for each effect and each other law of a scene: what is saved without it, and the error.
 fn worth(reports: &[&Report]) -> Table {
-    let mut table = Table::new(&["scene", "cycles", "tick's code, B", "RAM, B", "error"]);
+    let mut table = Table::new(&["scene", "cycles", "tick's code, B", "error RMS, mrad"]);
     for report in reports.iter().filter(|report| !report.is_guided()) {
         let full = &report.tracking.feedforward;
-        let multiple = |errors: &Errors| format!("{:.1} ×", errors.rms_rad / full.rms_rad);
         for worth in &report.effects {
-            let saved = [worth.cycles, worth.flash_bytes, worth.ram_bytes.cast_signed()];
+            let saved = [worth.cycles, worth.flash_bytes];
             let cells = saved.map(|saved| signed(-saved, "−"));
             let name = format!("{} − {}", report.scene, worth.effect);
             let cells = std::iter::once(name).chain(cells);
-            table.row(cells.chain([multiple(&worth.without)]));
+            table.row(cells.chain([milli(worth.without.rms_rad)]));
         }
         for (law, errors) in &report.tracking.beside {
             let cycles = errors.tick_cycles as i64 - full.tick_cycles as i64;
             let name = format!("{}, {}", report.scene, label(law));
-            let [dash, other] = ["–".to_owned(), "–".to_owned()];
-            table.row([name, signed(cycles, "−"), dash, other, multiple(errors)]);
+            table.row([name, signed(cycles, "−"), "–".into(), milli(errors.rms_rad)]);
         }
     }
     table

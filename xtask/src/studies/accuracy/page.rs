@@ -1,7 +1,7 @@
 //! docs/accuracy.md: fronts, what single choices cost, yardsticks, simulations.
 
 use super::front;
-use super::join::{Host, Line};
+use super::join::Host;
 use super::names::{cycles, digits, name, stated};
 use super::point::{Kind, Point, of_group};
 use super::robot::Robot;
@@ -79,7 +79,6 @@ fn table(rows: &[(String, &Point)], first: &str, columns: &str) -> Table {
             let ratio = default.map(|(_, default)| point.costs()[cost] / default.costs()[cost]);
             ratio.map_or_else(String::new, percent)
         };
-        let step = 1e-6 * point.on("step").parse().unwrap_or(1.0);
         let [max, p99, rms, relative] = point.errors().map(stated);
         let cells = [
             thousands(point.instructions),
@@ -91,8 +90,6 @@ fn table(rows: &[(String, &Point)], first: &str, columns: &str) -> Table {
             p99,
             rms,
             relative,
-            cycles(point.cycles as f64 * step),
-            stated(point.drift),
             stated(point.proven),
             stated(point.error_box),
         ];
@@ -121,13 +118,13 @@ pub fn percent(ratio: f64) -> String {
 }
 
 /// Columns that are left out if no point has them.
-const PROVEN: usize = 11;
-const IN_BOX: usize = 12;
-const FRONTS: &str = "0 insn; 1 worst tick; 3 mean; 5 max error; 11 proven; 8 of full scale";
-const SHARES: &str = "1 worst tick; 2 of default's; 3 mean; 4 of default's; 5 max, N·m; 11 proven, N·m; 12 in the box; 6 99 %; 7 RMS; 8 of full scale";
-const PAGE: &str = "1 worst tick; 3 mean; 5 max, N·m; 11 proven, N·m; 8 of full scale";
-const STEPS: &str = "1 cycles a second; 5 max, rad; 10 energy drift";
-const SPEEDS: &str = "5 max, N·m; 8 of full scale";
+const PROVEN: usize = 9;
+const IN_BOX: usize = 10;
+const FRONTS: &str = "0 insn; 1 worst tick; 3 mean; 5 max error; 9 proven; 8 of full scale";
+const SHARES: &str = "1 worst tick; 2 of default's; 3 mean; 4 of default's; 5 max, N·m; 9 proven, N·m; 10 in the box; 6 99 %; 7 RMS; 8 of full scale";
+const PAGE: &str = "1 worst tick; 3 mean; 5 max, N·m; 9 proven, N·m";
+const STEPS: &str = "1 cycles a second; 5 max, rad";
+const ERRORS: &str = "5 max, N·m";
 
 /// The fronts, for a terminal.
 pub fn terminal(points: &[Point]) -> String {
@@ -183,14 +180,9 @@ fn torques(points: &[Point], host: &Host, robot: Robot) -> String {
     shown.sort_by(|a, b| a.cycles.cmp(&b.cycles).then(a.key.cmp(&b.key)));
     shown.dedup_by_key(|point| &point.key);
     text += &format!("{}\n", table(&named(&shown), "configuration", PAGE).markdown());
-    let lines = |kind, name: fn(&Line) -> String| -> Vec<_> {
-        let lines = host.of(kind, robot.name());
-        lines.map(|line| (name(line), &line.point)).collect()
-    };
-    let speeds = lines(Kind::Speed, |line| digits(line.speed));
-    text += &section("Without Coriolis", &speeds, "joints as fast as, rad/s", SPEEDS);
-    let others = lines(Kind::Yardstick, |line| line.what.clone());
-    text + &section("Where accuracy stops mattering", &others, "what is off", SPEEDS)
+    let others = host.of(Kind::Yardstick, robot.name());
+    let others: Vec<_> = others.map(|line| (line.what.clone(), &line.point)).collect();
+    text + &section("Where accuracy stops mattering", &others, "what is off", ERRORS)
 }
 
 fn section(head: &str, rows: &[(String, &Point)], first: &str, columns: &str) -> String {
@@ -224,8 +216,8 @@ pub const SCENES: [(Robot, &str, &str); 4] = [
 fn simulations(points: &[Point]) -> String {
     let mut text = format!(
         "![Errors against cycles of integrators over their lengths of step](accuracy-simulation.svg)\n\n\
-         Cycles are those of a simulated second; errors are over its first second, energy drift over five, as a share of \
-         the largest kinetic energy. f64 is in the record alone. {MODEL}.\n\n"
+         Cycles are those of a simulated second; errors are over its first second. f64 and the energy's \
+         drift are in the record alone. {MODEL}.\n\n"
     );
     for (robot, scene, title) in SCENES {
         let mut own = of_group(points, (robot.name(), Kind::Simulation, scene));

@@ -1,7 +1,7 @@
 //! The rows in print.
 
 use super::record::{Record, Recorded};
-use crate::kit::meter::{CHIPS, CLOCK_MHZ, IN_FLASH, MODEL};
+use crate::kit::meter::{CHIPS, IN_FLASH, MODEL};
 use crate::kit::rows::Row;
 use crate::kit::table::{Table, thousands};
 
@@ -18,7 +18,7 @@ pub fn of_robot(rows: &[Row]) -> String {
     let name = rows.first().map_or("", |row| &row.robot);
     let rows: Vec<Recorded> = rows.iter().map(Recorded::of).collect();
     let table = table(&rows).markdown();
-    format!("{name}; {MODEL}; µs at {CLOCK_MHZ} MHz. {IN_FLASH}.\n\n{table}")
+    format!("{name}; {MODEL}. {IN_FLASH}.\n\n{table}")
 }
 
 /// A row with sines and cosines inside, and beside it the cycles of the one without, if there is
@@ -39,7 +39,6 @@ fn table(rows: &[Recorded]) -> Table {
             ("cycles", &|row| cycles(row, true)),
             ("sin/cos given", &|row| cycles(row, false)),
             (CHIPS[0], &|row| thousands(row.in_flash[0])),
-            ("µs", &|row| format!("{:.1}", row.cycles as f64 / CLOCK_MHZ)),
             ("code, B", &|row| thousands(row.code_bytes)),
             ("stack, B", &|row| thousands(row.stack_bytes)),
         ],

@@ -24,8 +24,8 @@ const CYCLES: i32 = 940;
 /// error is without it: by the page of scenes.
 pub fn factors(scenes: &str) -> BTreeMap<String, f64> {
     let factor = |row: Vec<&str>| {
-        let name = row.first()?.strip_prefix(&format!("{ROBOT} − "))?;
-        Some((plain(name), row.last()?.strip_suffix(" ×")?.replace(',', "").parse().ok()?))
+        let times = row.get(1)?.strip_suffix(" ×")?.parse().ok()?;
+        Some((plain(row[0]), times))
     };
     scenes.lines().filter_map(cells).filter_map(factor).collect()
 }

@@ -6,7 +6,7 @@ use crate::kit::meter::{CHIPS, CLOCK_MHZ, Cost, IN_FLASH, MODEL};
 use crate::kit::protocol::label;
 use crate::kit::table::{Column, Table, thousands};
 use crate::studies::scenes::guided;
-use crate::studies::scenes::report::{Errors, JointError, Report, Tracking};
+use crate::studies::scenes::report::{Ablation, Errors, JointError, Report, Tracking};
 
 const BY_MANUAL: &str = "by the manual";
 
@@ -59,8 +59,17 @@ impl Report {
                 ("model off", &|(_, (_, errors))| percent(errors, off)),
             ],
         );
+        let mut effects: Vec<&Ablation> = self.effects.iter().collect();
+        effects.sort_by(|a, b| b.without.rms_rad.total_cmp(&a.without.rms_rad));
+        let full = exact.feedforward.rms_rad;
+        let worth: [Column<'_, Ablation>; 3] = [
+            ("left out of the feed-forward", &|one| one.effect.clone()),
+            ("tracking error", &|one| format!("{:.0} ×", one.without.rms_rad / full)),
+            ("cycles of the tick", &|one| signed(-one.cycles, "−")),
+        ];
         format!(
             include_str!("readme.md"),
+            worth = Table::of(effects, &worth).markdown(),
             ticks = thousands(self.ticks_measured as u64),
             model = MODEL,
             in_flash = IN_FLASH,

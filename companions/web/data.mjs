@@ -31,16 +31,13 @@ const refuse = (holds, why) => {
 };
 
 /// Inverse dynamics of the engine by robot and effects: cycles of the longest state, code in bytes.
-function costs(text) {
+function costs(json) {
   const costs = {};
-  for (const { heading, columns, cells } of rows(text)) {
-    const name = /^rnea engine (full|bias|gravity|no_coriolis)$/.exec(cells[0]);
-    const code = columns.indexOf("code");
-    const cycles = columns.lastIndexOf("max");
-    if (!name || cells[1] !== "inside" || code < 0 || cycles < 0 || heading.includes(" ")) continue;
-    (costs[heading] ??= {})[name[1]] = { cycles: number(cells[cycles]), code: number(cells[code]) };
+  for (const row of JSON.parse(json).rows) {
+    if (row.algorithm !== "rnea" || row.form !== "engine" || !row.trig || !/^(full|bias|gravity|no_coriolis)$/.test(row.inputs)) continue;
+    (costs[row.robot] ??= {})[row.inputs] = { cycles: row.cycles, code: row.code_bytes };
   }
-  refuse(costs.ur5e?.full?.cycles > 0, "docs/costs.md has no inverse dynamics of the UR5e");
+  refuse(costs.ur5e?.full?.cycles > 0, "docs/costs.json has no inverse dynamics of the UR5e");
   return costs;
 }
 
@@ -50,8 +47,8 @@ function effects(text) {
   for (const { columns, cells } of rows(text)) {
     const name = /^(\w+) (\w+)$/.exec(cells[0]);
     if (!name || columns[0] !== "effect, robot") continue;
-    // insn: core, engine; cycles: core, engine; code: core, engine; RAM; torque
-    (effects[name[2]] ??= {})[name[1]] = { cycles: number(cells[4]), code: number(cells[6]) };
+    // cycles: core, engine; code: core, engine; torque
+    (effects[name[2]] ??= {})[name[1]] = { cycles: number(cells[2]), code: number(cells[4]) };
   }
   refuse(effects.ur5e?.gravity && effects.ur5e.coulomb.cycles > 0, "docs/effects.md has no prices of the UR5e");
   return effects;
@@ -96,16 +93,16 @@ function fronts(json, source) {
 }
 
 /// The hard cases of the page and its totals, among which 71 to 94 are left to the suite; the one
-/// further figure that README.md knows to be beyond its bound.
-function hard(page, readme) {
+/// further figure that the page knows to be beyond its bound.
+function hard(page) {
   const totals = /^\d+ cases: \d+ figures within .* shown\.$/m.exec(page)?.[0];
-  const row = /^\[(\d+)\. (.*)\]\(#case-\d+\) \| (\S+) \| (\S+) \| (?:(.*): (\S+))?$/gm;
+  const row = /^(\d+)\. (.*) \| (\S+) \| (\S+) \| (?:(.*): (\S+))?$/gm;
   const cases = [...page.matchAll(row)].map(([, number, title, single, double, way, times]) => ({
     case: Number(number), title, f32: Number(single), f64: Number(double), naive: way && { way, share: Number(times) },
   }));
-  const [, words, number] = /One figure of a further case\s+is beyond its bound, ([^(]*case (\d+)[^(]*) \(\[/.exec(readme) ?? [];
+  const [, words, number] = /One figure of a further case\s+is beyond its bound, ([^(]*case (\d+)[^(]*) \(\[/.exec(page) ?? [];
   refuse(totals?.startsWith(`${cases.length} cases:`) && cases.every((one, i) => one.case === (i < 70 ? i + 1 : i + 25) && one.f64 >= 0), "docs/hard-cases.md cannot be read");
-  refuse(number && cases.every((one) => one.case !== Number(number)), "README.md has no further case that is beyond its bound");
+  refuse(number && cases.every((one) => one.case !== Number(number)), "docs/hard-cases.md has no further case that is beyond its bound");
   return { totals, cases, further: { case: Number(number), words: `Known to be beyond its bound: ${words.replaceAll("`", "")}.` } };
 }
 
@@ -124,11 +121,11 @@ function names(source) {
 export function recorded(root) {
   const read = (path) => readFileSync(join(root, path), "utf8");
   return {
-    costs: costs(read("docs/costs.md")),
+    costs: costs(read("docs/costs.json")),
     effects: effects(read("docs/effects.md")),
     scenes: scenes(read("docs/scenes.md")),
     fronts: fronts(read("docs/accuracy.json"), read("xtask/src/studies/accuracy/page.rs")),
-    hard: hard(read("docs/hard-cases.md"), read("README.md")),
+    hard: hard(read("docs/hard-cases.md")),
     names: names(read("xtask/src/studies/accuracy/names.rs")),
   };
 }

@@ -85,7 +85,7 @@ impl Report {
             torques,
             rows,
             boards: boards::measure(workspace, &bars)?,
-            placed: Placed::measure(bench, &bars)?,
+            placed: Placed::measure(bench)?,
         })
     }
 }

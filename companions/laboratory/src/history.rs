@@ -1,12 +1,11 @@
 //! The algorithms that today's replaced, counted on the host and measured on the target.
 
-use xtask::kit::docs::cells;
 use xtask::kit::error::{Result, check};
 use xtask::kit::firmware::build_meter;
 use xtask::kit::rows::{self, Row};
+use xtask::kit::shell;
 use xtask::kit::table::{Table, thousands};
-use xtask::kit::{shell, workspace};
-use xtask::studies::costs;
+use xtask::studies::costs::record::{FILE, Record};
 use xtask::studies::study::Bench;
 
 use crate::page::Part;
@@ -49,17 +48,8 @@ const CUSTOMISED: [(&str, [u64; 3]); 4] = [
     ("puma560", [353, 279, 233]),
 ];
 
-/// The flops of the engine on the page of costs, with sines outside.
-fn engine_flops<'a>(costs: &'a str, robot: &str, algorithm: &str) -> Option<&'a str> {
-    let heading = format!("\n## {robot}\n");
-    let part = costs.split_once(&*heading)?.1.split("\n## ").next()?;
-    let called = format!("{algorithm} engine full");
-    let mut rows = part.lines().filter_map(cells);
-    rows.find(|row| row.starts_with(&[&*called, "outside"]))?.get(11).copied()
-}
-
 /// The customised symbolic method beside the engine.
-fn customised(costs: &str) -> Result<Table> {
+fn customised(costs: &Record) -> Result<Table> {
     let mut table = Table::new(&[
         "robot",
         "RNEA, OpenSYMORO",
@@ -70,8 +60,9 @@ fn customised(costs: &str) -> Result<Table> {
     ]);
     for (robot, [rnea, m, again]) in CUSTOMISED {
         let engine = |name| {
-            let flops = engine_flops(costs, robot, name);
-            flops.map(str::to_owned).ok_or_else(|| check!("{}: no {robot} {name}", costs::PAGE))
+            let row = costs.find(&format!("{robot} {name} engine full"));
+            let row = row.ok_or_else(|| check!("{FILE}: no {robot} {name}"))?;
+            Ok(thousands(row.flops))
         };
         let [rnea, m, again] = [rnea, m, again].map(thousands);
         table.row([robot.into(), rnea, engine("rnea")?, m, again, engine("crba")?]);
@@ -95,7 +86,7 @@ pub fn measure(bench: &Bench<'_>) -> Result<Vec<Part>> {
     let (mut build, elf) = firmware(bench, "build", BIN)?;
     shell::capture(&mut build)?;
     let meter = build_meter(workspace)?;
-    let costs = workspace::read(&workspace.root.join(costs::PAGE))?;
+    let costs = Record::read(workspace)?;
     let report = Report(rows::run_for_time(tools, &meter, BIN, &elf, "")?);
     let part = |name, text| Part { file: PAGE, name, text };
     Ok(vec![

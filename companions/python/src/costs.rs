@@ -1,10 +1,11 @@
 //! Cycles on a Cortex-M4F, as the repository's pages record them.
 
 use pyo3::prelude::*;
+use serde::Deserialize;
 
 use crate::error::Exception;
 
-const COSTS: &str = include_str!("costs.md");
+const COSTS: &str = include_str!("costs.json");
 const SCENES: &str = include_str!("scenes.md");
 
 /// The cost of one call on a modelled Cortex-M4F with zero-wait memory, the slowest of 32 random
@@ -49,35 +50,41 @@ fn cells(line: &str) -> Vec<&str> {
     line.trim().trim_matches('|').split('|').map(str::trim).collect()
 }
 
-/// The rows of a robot.
-pub fn of(robot: &str) -> Vec<Cost> {
-    let mut lines = COSTS.lines();
-    let heading = format!("## {robot}");
-    lines.by_ref().find(|line| *line == heading);
-    let rows = lines.take_while(|line| !line.starts_with("## "));
-    rows.filter_map(|line| cost(&cells(line))).collect()
+/// What is recorded of all robots.
+#[derive(Deserialize)]
+struct Record {
+    rows: Vec<Row>,
 }
 
-/// A row: function, sin/cos, instructions, cycles, those of two chips, µs, flops, share of the
-/// floor, code, stack.
-fn cost(cells: &[&str]) -> Option<Cost> {
-    let &[name, trigonometry, _, _, instructions, _, _, cycles, .., time, _, _, code, stack] =
-        cells
-    else {
-        return None;
+#[derive(Deserialize)]
+struct Row {
+    robot: String,
+    algorithm: String,
+    form: String,
+    inputs: String,
+    trig: bool,
+    instructions: u64,
+    cycles: u64,
+    code_bytes: u64,
+    stack_bytes: u64,
+}
+
+/// The rows of a robot.
+pub fn of(robot: &str) -> Vec<Cost> {
+    let record = serde_json::from_str(COSTS).unwrap_or(Record { rows: Vec::new() });
+    let rows = record.rows.into_iter().filter(|row| row.robot == robot);
+    let cost = |row: Row| Cost {
+        algorithm: row.algorithm,
+        form: row.form,
+        inputs: row.inputs,
+        trigonometry: row.trig,
+        instructions: row.instructions,
+        cycles: row.cycles,
+        microseconds: row.cycles as f64 / 168.0,
+        code: row.code_bytes,
+        stack: row.stack_bytes,
     };
-    let mut words = name.split(' ');
-    Some(Cost {
-        algorithm: words.next()?.to_owned(),
-        form: words.next()?.to_owned(),
-        inputs: words.next()?.to_owned(),
-        trigonometry: trigonometry == "inside",
-        instructions: whole(instructions)?,
-        cycles: whole(cycles)?,
-        microseconds: time.parse().ok()?,
-        code: whole(code)?,
-        stack: whole(stack)?,
-    })
+    rows.map(cost).collect()
 }
 
 /// The longest tick of a scene, cycles: measuring, reference, dynamics, safety and commands.

@@ -1,8 +1,7 @@
-//! The pages and pictures of the documents, and the programs on the guide's pages.
+//! The figures of the README, and the programs on the guide's pages.
 
 mod circles;
 mod files;
 mod pages;
-mod pictures;
+mod readme;
 mod reference;
-mod reports;

@@ -76,20 +76,6 @@ fn the_page_shows_the_controller_of_the_programs() {
     assert!(!words(PAGE).contains(&expected.replace("25.0", "26.0")));
 }
 
-/// The cells of the tables of a page.
-fn cells(page: &str) -> impl Iterator<Item = &str> {
-    let rows = page.lines().filter(|line| line.starts_with('|'));
-    rows.flat_map(|row| row.split('|')).map(str::trim)
-}
-
-#[test]
-fn the_readme_is_short() {
-    let readme = include_str!("../../../README.md");
-    assert!(readme.lines().count() <= 150);
-    let longest = cells(readme).map(|cell| cell.chars().count()).max();
-    assert!(longest.is_some_and(|characters| characters <= 200));
-}
-
 /// The dependencies of a template's manifest from the registry: name, version and features.
 fn dependencies(manifest: &str) -> Vec<[String; 3]> {
     let (_, rest) = manifest.split_once("[dependencies]\n").expect("dependencies");

@@ -18,12 +18,12 @@ use crate::kit::setup::{self, Options, Tools};
 use crate::kit::toolchain::RELEASE;
 use crate::kit::workspace::{self, Workspace};
 use crate::kit::{docs, firmware, meter, output};
+use crate::studies::scenes::plot;
 use crate::studies::scenes::report::{Report, feedforward_costs};
-use crate::studies::scenes::{first_screen, plot};
 use crate::studies::{budgets, scenes};
 
 /// The picture of the default scene.
-pub const PICTURE: &str = "docs/ur5e.svg";
+const PICTURE: &str = "docs/ur5e.svg";
 
 /// A run of a scene, in full.
 pub struct Measured {
@@ -46,7 +46,7 @@ pub struct Args {
     /// The report as JSON on stdout; progress stays on stderr
     #[arg(long)]
     json: bool,
-    /// Rewrite the README's tables (with --all: docs/scenes.md too) from this run
+    /// Rewrite docs/scenes.md from this run: with --all, of all scenes
     #[arg(long)]
     write_docs: bool,
     /// Rewrite the scenes' budgets from this run
@@ -104,7 +104,7 @@ fn promise(scenes: &[Scene]) -> String {
     )
 }
 
-/// The README's first lines, and the tables and the picture of the default scene.
+/// The table and the picture of the default scene.
 fn write_docs(
     workspace: &Workspace,
     tools: &Tools,
@@ -114,9 +114,7 @@ fn write_docs(
     let shown = Scene::default().name();
     for one in measured.iter().filter(|one| one.report.scene == shown) {
         let brackets = brackets(workspace, tools, plugin, one)?;
-        docs::TICK.write(workspace, &one.report.markdown(&brackets))?;
-        first_screen::WORTH.write(workspace, &first_screen::worth(&one.report))?;
-        first_screen::write_why(workspace)?;
+        scenes::TICK.write(workspace, &one.report.markdown(&brackets))?;
         plot::write(&one.recording, &workspace.report(PICTURE))?;
     }
     Ok(())
@@ -208,7 +206,7 @@ pub fn measure(
 ///
 /// # Errors
 /// A run logs other bytes, or executes other instructions, than the measured one.
-pub fn brackets(
+fn brackets(
     workspace: &Workspace,
     tools: &Tools,
     plugin: &Path,

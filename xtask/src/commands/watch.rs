@@ -7,7 +7,6 @@ use std::process::{Command, ExitCode};
 use cycle_meter::Sample;
 use serde_json::Value;
 
-use crate::kit::bars;
 use crate::kit::callgraph::Instruction;
 use crate::kit::elf::Image;
 use crate::kit::error::{Error, Result, bail, check, refuse_if};
@@ -17,7 +16,6 @@ use crate::kit::setup::{self, Options, Tools};
 use crate::kit::toolchain::{RELEASE, TARGET};
 use crate::kit::workspace::Workspace;
 use crate::kit::{firmware, meter, shell};
-use crate::studies::budgets;
 
 /// The package that listens, and its program.
 const LISTENER: &str = "telemetry-watch";
@@ -170,8 +168,6 @@ pub fn check(workspace: &Workspace, tools: &Tools, plugin: &Path) -> Result<Stri
     masked_nowhere_else(&Image::read(&elf)?)?;
     let said = verdict(&meter::read(&out)?, &alone, &full)?;
     let cycles = longest(&alone);
-    let bar = format!("{SCENE} watched tick");
-    bars::hold(&budgets::bars(workspace)?, &bar, [("cycles", cycles as f64)])?;
     Ok(format!("{said}; with detectors and record a tick takes {cycles} cycles at most"))
 }
 

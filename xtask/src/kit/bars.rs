@@ -1,4 +1,4 @@
-//! Bars: promised figures compared with measured ones, and the record of those that are missed.
+//! Bars: promised figures compared with measured ones.
 
 use std::collections::BTreeMap;
 
@@ -6,9 +6,6 @@ use serde::Deserialize;
 
 use crate::kit::error::{Result, refuse_if};
 use crate::kit::table::{Table, thousands};
-
-/// The page that explains the missed bars.
-const RECORD: &str = "decisions/0002-bars.md";
 
 /// The share by which a cost may be larger with another compiler than the one that the budget or
 /// page names.
@@ -29,18 +26,12 @@ pub type Bars = BTreeMap<String, Bar>;
 pub struct Bar {
     #[serde(flatten)]
     pub most: BTreeMap<String, f64>,
-    /// The figures that are recorded as missed.
-    #[serde(default)]
-    pub missed: Vec<String>,
 }
 
 impl Bar {
-    /// A bar of these figures for tests, none of them missed.
+    /// A bar of these figures for tests.
     pub fn of<const N: usize>(most: [(&str, f64); N]) -> Self {
-        Self {
-            most: most.map(|(figure, most)| (figure.to_owned(), most)).into(),
-            missed: Vec::new(),
-        }
+        Self { most: most.map(|(figure, most)| (figure.to_owned(), most)).into() }
     }
 }
 
@@ -55,7 +46,6 @@ pub struct Compared {
     pub what: String,
     pub measured: f64,
     pub most: f64,
-    pub recorded: bool,
     /// It is a multiple, not a number of something.
     pub ratio: bool,
 }
@@ -68,7 +58,6 @@ impl Compared {
             what: format!("{key}: {figure}"),
             measured,
             most: *bar.most.get(figure)?,
-            recorded: bar.missed.iter().any(|missed| missed == figure),
             ratio: is_ratio(key),
         })
     }
@@ -78,14 +67,10 @@ impl Compared {
         self.measured <= self.most
     }
 
-    /// The error, if there is one: a bar is missed without a record, or met in spite of one.
+    /// The error if it is not within the bar.
     pub fn complaint(&self) -> Option<String> {
         let (what, [most, measured]) = (&self.what, self.numbers());
-        match (self.is_met(), self.recorded) {
-            (false, false) => Some(format!("{what} {measured} > {most}")),
-            (true, true) => Some(format!("{what} is met now: take it off `missed`")),
-            _ => None,
-        }
+        (!self.is_met()).then(|| format!("{what} {measured} > {most}"))
     }
 
     /// The bar and what was measured, in print.
@@ -116,13 +101,9 @@ pub fn largest(figures: impl Iterator<Item = f64>) -> f64 {
 pub fn table(compared: &[Compared]) -> Table {
     let mut table = Table::new(&["bar", "at most", "now", ""]);
     for compared in compared {
-        let verdict = match (compared.is_met(), compared.recorded) {
-            (true, _) => "met".to_owned(),
-            (false, true) => format!("missed, see {RECORD}"),
-            (false, false) => "MISSED".to_owned(),
-        };
+        let verdict = if compared.is_met() { "met" } else { "missed" };
         let [most, measured] = compared.numbers();
-        table.row([compared.what.clone(), most, measured, verdict]);
+        table.row([compared.what.clone(), most, measured, verdict.into()]);
     }
     table
 }
@@ -132,25 +113,27 @@ mod tests {
     use super::{Bar, Bars, Compared, hold, largest, table};
 
     #[test]
-    fn a_bar_is_met_or_recorded() {
-        let mut pair = Bar::of([("cycles", 0.47), ("ns", 0.15)]);
-        pair.missed = vec!["ns".into()];
-        let ratios = Bars::from([("a / b".into(), pair)]);
+    fn a_figure_beyond_its_bar_is_refused() {
+        let bars = Bars::from([
+            ("a".into(), Bar::of([("cycles", 640.0)])),
+            ("a / b".into(), Bar::of([("cycles", 0.47)])),
+        ]);
         let complaint =
-            |figure, measured| Compared::of(&ratios, "a / b", figure, measured)?.complaint();
-        assert_eq!(complaint("cycles", 0.47), None);
-        let said = complaint("cycles", 0.48).unwrap();
-        assert_eq!(said, "a / b: cycles 0.480× > 0.470×");
+            |key: &str, measured| Compared::of(&bars, key, "cycles", measured)?.complaint();
+        assert_eq!(complaint("a", 640.0), None);
+        assert_eq!(complaint("a", 641.0).unwrap(), "a: cycles 641 > 640");
+        assert_eq!(complaint("a / b", 0.47), None);
+        assert_eq!(complaint("a / b", 0.48).unwrap(), "a / b: cycles 0.480× > 0.470×");
         // One in a thousand is too much already.
-        assert!(complaint("cycles", 0.470_5).is_some());
-        assert!(complaint("cycles", f64::NAN).is_some());
-        assert_eq!(complaint("ns", 0.16), None);
-        assert!(complaint("ns", 0.14).unwrap().contains("met now"));
-        assert!(Compared::of(&ratios, "a / b", "code_bytes", 1.0).is_none());
-        assert!(Compared::of(&ratios, "a / c", "cycles", 1.0).is_none());
-        assert!(hold(&ratios, "a / b", [("ns", 0.16), ("cycles", 0.47)]).is_ok());
-        let error = hold(&ratios, "a / b", [("cycles", f64::INFINITY)]).expect_err("no bound");
+        assert!(complaint("a / b", 0.470_5).is_some() && complaint("a / b", f64::NAN).is_some());
+        assert!(Compared::of(&bars, "a / b", "code_bytes", 1.0).is_none());
+        assert!(Compared::of(&bars, "a / c", "cycles", 1.0).is_none());
+        assert!(hold(&bars, "a / b", [("ns", 0.16), ("cycles", 0.47)]).is_ok());
+        let error = hold(&bars, "a / b", [("cycles", f64::INFINITY)]).expect_err("no bound");
         assert!(error.to_string().starts_with("bar: a / b: cycles inf"));
+        let compared = [0.47, 0.48].map(|now| Compared::of(&bars, "a / b", "cycles", now).unwrap());
+        let words = table(&compared).text();
+        assert!(words.contains("met\n") && words.contains("missed\n"), "{words}");
     }
 
     #[test]
@@ -160,26 +143,5 @@ mod tests {
             assert!(largest(figures.into_iter()).is_nan());
         }
         assert_eq!(largest(std::iter::empty()), 0.0);
-    }
-
-    #[test]
-    fn one_cycle_beyond_a_bar_is_a_miss() {
-        let compared = |measured, recorded| Compared {
-            what: "rnea: cycles".into(),
-            measured,
-            most: 640.0,
-            recorded,
-            ratio: false,
-        };
-        assert_eq!(compared(640.0, false).complaint(), None);
-        let said = compared(641.0, false).complaint().unwrap();
-        assert_eq!(said, "rnea: cycles 641 > 640");
-        assert_eq!(compared(641.0, true).complaint(), None);
-        assert!(compared(640.0, true).complaint().is_some());
-        let rows = [(640.0, false), (641.0, true), (641.0, false)];
-        let words = table(&rows.map(|(now, recorded)| compared(now, recorded))).text();
-        for word in ["met", "missed, see", "MISSED"] {
-            assert!(words.contains(word), "{word}: {words}");
-        }
     }
 }

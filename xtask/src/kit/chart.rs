@@ -1,7 +1,5 @@
 //! The common parts of the pictures: colours, axes, lines, rows of dots, names and legends.
 
-#[cfg(test)]
-mod collisions;
 mod names;
 mod panels;
 

@@ -2,9 +2,6 @@
 
 #[cfg(test)]
 pub mod repository;
-pub mod seal;
-#[cfg(test)]
-mod tests;
 
 use std::process::{Command, ExitCode};
 
@@ -24,75 +21,37 @@ pub struct Page<'a> {
     pub command: &'a str,
 }
 
-/// The cost of a tick of the default scene.
-pub const TICK: Page<'_> =
-    Page { file: "docs/scenes.md", name: "demo", command: "cargo xtask demo --write-docs" };
-
 impl Page<'_> {
-    /// Puts a text between the markers.
+    /// Puts a text between the markers, with the day and the commit.
     pub fn write(&self, workspace: &Workspace, text: &str) -> Result<()> {
         let path = workspace.root.join(self.file);
         let page = match self.name {
             "" => String::new(),
             _ => workspace::read(&path)?,
         };
-        workspace::write(&workspace.report(self.file), self.replaced(&page, text)?)
+        let text = format!("{}\n\nWritten on {}.\n", text.trim(), today_and_commit(workspace));
+        workspace::write(&workspace.report(self.file), self.replaced(&page, &text)?)
     }
 
     /// The page with a text between the markers.
     pub fn replaced(&self, page: &str, text: &str) -> Result<String> {
         if self.name.is_empty() {
-            return Ok(seal::sealed(text));
+            return Ok(text.to_owned());
         }
-        let (before, _, after) = self.split(page)?;
-        let (begin, end) = self.markers();
-        let generated = self.generated(text);
-        Ok(format!("{before}{begin}\n{generated}{end}{after}"))
-    }
-
-    /// Fails unless the text between the markers is this one; or close to it, if `rustc` is the
-    /// compiler that its figures depend on and another one wrote them.
-    pub fn check(&self, workspace: &Workspace, text: &str, rustc: Option<&str>) -> Result<()> {
-        let page = workspace::read(&workspace.root.join(self.file))?;
-        let written = self.written(&page)?;
-        // Without one nothing but the same will do.
-        let (rustc, fresh) = (rustc.unwrap_or_default(), self.generated(text));
-        compare(self.file, self.command, written, &fresh, rustc)
-    }
-
-    /// The text between the markers of a page.
-    pub fn written<'a>(&self, page: &'a str) -> Result<&'a str> {
-        match self.name {
-            "" => Ok(page),
-            _ => self.split(page).map(|(_, written, _)| written),
-        }
-    }
-
-    fn markers(&self) -> (String, String) {
         let marker = |which| format!("<!-- {}:{which} -->", self.name);
-        (marker("begin"), marker("end"))
-    }
-
-    /// The text between the markers, with the note that a command wrote it and its sum.
-    pub fn generated(&self, text: &str) -> String {
-        if self.name.is_empty() {
-            return text.to_owned();
-        }
-        seal::sealed(&format!("<!-- written by `{}`: do not edit -->\n{text}", self.command))
-    }
-
-    fn split<'a>(&self, page: &'a str) -> Result<(&'a str, &'a str, &'a str)> {
-        let (begin, end) = self.markers();
+        let (begin, end) = (marker("begin"), marker("end"));
         let parts = page.split_once(&begin).and_then(|(before, rest)| {
-            let (inside, after) = rest.split_once(&end)?;
-            Some((before, inside, after))
+            let (_, after) = rest.split_once(&end)?;
+            Some((before, after))
         });
         let lacks = || check!("{} lacks the markers {begin} and {end}", self.file);
-        parts.ok_or_else(lacks)
+        let (before, after) = parts.ok_or_else(lacks)?;
+        let note = format!("<!-- written by `{}`: do not edit -->", self.command);
+        Ok(format!("{before}{begin}\n{note}\n{text}{end}{after}"))
     }
 }
 
-/// Today and the commit that is checked out, for figures that no step measures anew.
+/// Today and the commit that is checked out.
 pub fn today_and_commit(workspace: &Workspace) -> String {
     let today = OffsetDateTime::now_utc().date();
     let mut git = Command::new("git");
@@ -106,6 +65,14 @@ pub fn today_and_commit(workspace: &Workspace) -> String {
 
 pub fn json(value: &impl serde::Serialize) -> Result<String> {
     serde_json::to_string_pretty(value).map_err(|e| check!("cannot write the JSON: {e}"))
+}
+
+/// A list of values, one a line.
+pub fn json_lines(values: &[impl serde::Serialize]) -> Result<String> {
+    let line =
+        |value| serde_json::to_string(value).map_err(|e| check!("cannot write the JSON: {e}"));
+    let lines = values.iter().map(line).collect::<Result<Vec<_>>>()?;
+    Ok(format!("[\n{}\n]", lines.join(",\n")))
 }
 
 pub fn print_json(value: &impl serde::Serialize) -> Result<()> {
@@ -131,87 +98,30 @@ pub fn rustc_of(page: &str) -> Option<&str> {
     after.lines().next()?.trim_end().strip_suffix('.')
 }
 
-/// Fails unless what was written is what would be written now with the compiler `rustc`. If the
-/// text names another one, only the words are compared: the step `costs` and `budgets.toml` bound
-/// its figures. If it names none, or `rustc` is empty, nothing but the same will do.
-pub fn compare(file: &str, command: &str, written: &str, fresh: &str, rustc: &str) -> Result<()> {
-    let [written, fresh] = [written, fresh].map(seal::unsealed);
-    let same_figures = rustc.is_empty() || rustc_of(written).is_none_or(|by| by == rustc);
-    let compared = [written, fresh].map(|text| match same_figures {
-        true => text.trim().to_owned(),
-        false => words(text.trim()),
-    });
-    match first_difference(&compared[0], &compared[1]) {
-        None => Ok(()),
-        Some((old, new)) => Err(check!(
-            "{file} is out of date: `{command}` rewrites it\n  there: {old}\n  now:   {new}"
-        )),
-    }
-}
-
-/// A page without its figures, the rules and the padding that are as wide as they are, and the name
-/// of its compiler.
-fn words(page: &str) -> String {
-    let lines = page.lines().map(|line| {
-        let end = line.find(MEASURED).map(|at| at + MEASURED.len());
-        let line = without_numbers(&line[..end.unwrap_or(line.len())]);
-        line.replace([' ', ':'], "").replace("-", "")
-    });
-    lines.collect::<Vec<_>>().join("\n")
-}
-
 /// The cells of a line of a table.
 pub fn cells(line: &str) -> Option<Vec<&str>> {
     let inside = line.strip_prefix('|')?.strip_suffix('|')?;
     Some(inside.split('|').map(str::trim).collect())
 }
 
-/// Printed in place of a missing line.
-const NO_LINE: &str = "(nothing)";
+#[cfg(test)]
+mod tests {
+    use super::Page;
+    use crate::kit::workspace::Workspace;
 
-/// The first lines that are not the same.
-fn first_difference<'a>(old: &'a str, new: &'a str) -> Option<(&'a str, &'a str)> {
-    let (mut old, mut new) = (old.lines(), new.lines());
-    loop {
-        match (old.next(), new.next()) {
-            (None, None) => return None,
-            (a, b) if a == b => {}
-            (a, b) => return Some((a.unwrap_or(NO_LINE), b.unwrap_or(NO_LINE))),
+    #[test]
+    fn a_part_is_written_between_its_markers() {
+        const PART: Page<'_> = Page { file: "page.md", name: "demo", command: "cargo xtask demo" };
+        let folder = tempfile::tempdir().expect("a folder");
+        let (workspace, path) = (Workspace::at(folder.path()), folder.path().join(PART.file));
+        let (begin, end) = ("By hand.\n<!-- demo:begin -->\n", "<!-- demo:end -->\nBelow.\n");
+        std::fs::write(&path, format!("{begin}{end}")).expect("written");
+        for text in ["The text.", "Another."] {
+            PART.write(&workspace, text).expect("written");
+            let page = std::fs::read_to_string(&path).expect("there");
+            assert!(page.starts_with(begin) && page.ends_with(end), "{page}");
+            assert!(page.contains(&format!("do not edit -->\n{text}\n\nWritten on ")), "{page}");
         }
+        assert!(PART.replaced("no markers", "").is_err());
     }
-}
-
-/// Fails unless a picture is what would be drawn now. If its figures were measured with another
-/// compiler (`same_figures` is false), its numbers may be others, but neither its words nor the
-/// shapes that it is made of.
-pub fn compare_picture(
-    workspace: &Workspace,
-    file: &str,
-    command: &str,
-    fresh: &str,
-    same_figures: bool,
-) -> Result<()> {
-    let written = workspace::read(&workspace.root.join(file))?;
-    let same = if same_figures {
-        written == fresh
-    } else {
-        without_numbers(&written) == without_numbers(fresh)
-    };
-    if same {
-        return Ok(());
-    }
-    Err(check!("{file} is not the picture of today's figures: `{command}` draws it anew"))
-}
-
-/// A picture with each number in it replaced by the same sign.
-fn without_numbers(svg: &str) -> String {
-    let mut text = String::new();
-    for letter in svg.chars() {
-        match letter {
-            '0'..='9' | '.' | ',' | '-' | '−' if text.ends_with('#') => {}
-            '0'..='9' | '-' | '−' => text.push('#'),
-            other => text.push(other),
-        }
-    }
-    text
 }

@@ -79,16 +79,6 @@ impl Row {
         let trig = if self.trig { " trig" } else { "" };
         format!("{} {} {} {}{trig}", self.robot, self.algorithm, self.form, self.inputs)
     }
-
-    /// The figures that bars are set for.
-    pub fn figures(&self) -> [(&'static str, u64); 4] {
-        [
-            ("instructions", self.instructions.max),
-            ("cycles", self.cycles.max),
-            ("code_bytes", self.code_bytes),
-            ("stack_bytes", self.stack_bytes),
-        ]
-    }
 }
 
 /// Builds these bins in a profile, runs each of them under the meter, and returns their rows in

@@ -25,12 +25,11 @@ use crate::kit::error::{Result, bail};
 use crate::kit::setup::{self, Options};
 use crate::kit::workspace::{self, Workspace};
 use crate::kit::{docs, output, own_robot};
-use crate::studies::scenes::first_screen;
 use crate::studies::study::Bench;
 
 pub use choice::{Allowed, Budget};
 use measure::{Measured, Plan};
-use point::{Kind, Point, of_group};
+use point::{Kind, Point};
 pub use robot::Robot;
 
 #[derive(clap::Args)]
@@ -56,7 +55,7 @@ pub struct Args {
     /// The proven errors, as docs/accuracy-proven.json has them, which is read if no file is given
     #[arg(long, value_name = "JSON", requires = "proven_error")]
     proven: Option<PathBuf>,
-    /// Measure single changes anew and rewrite the rest of the page by its record
+    /// Rewrite the page by its record, with nothing measured but the reference's own errors
     #[arg(long, conflicts_with_all = ["chosen", "measure", "json"])]
     recorded: bool,
     /// Choose the most accurate configuration whose worst tick takes no more cycles than this
@@ -97,7 +96,7 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
     if choice.is_none() | args.measure {
         let plan = Plan {
             robots: args.robot.map_or(Robot::ALL.to_vec(), |robot| vec![robot]),
-            quick: by_record,
+            recorded: by_record,
             kind: choice.map(|(budget, robot)| budget.group(robot).1),
         };
         let mut measured = plan.run(&workspace, &setup::for_demo(options)?)?;
@@ -142,75 +141,40 @@ fn show(budget: Budget, points: &[Point], json: bool) -> Result<()> {
     }
 }
 
-/// Fails unless what single changes cost and lose is what the page says; else says how many there
-/// are.
+/// Fails unless the generated code costs and errs as the chooser promises it by the record, and no
+/// recorded error is larger than it is proven to be; else says how many configurations these are.
 pub fn check(bench: &Bench<'_>) -> Result<String> {
     let (workspace, tools) = (bench.workspace, bench.tools()?);
-    let plan = Plan { robots: Robot::COMPUTED.to_vec(), quick: true, kind: Some(Kind::Inverse) };
-    let measured = plan.run(workspace, tools)?;
-    let (single, host, rustc) = (&measured.single, &measured.host, &measured.rustc);
-    let generated = printed::check(&measured.generated, &measured.single)?;
-    page::SINGLES.check(workspace, &page::singles(single, rustc), Some(rustc))?;
-    let brief = page::brief(single, measured.shares, rustc);
-    page::README.check(workspace, &brief, Some(rustc))?;
     let recorded = recorded::read(workspace)?;
-    recorded::check(&recorded, single)?;
     let proven = proven::check(&recorded)?;
-    // Parts and pictures of a whole run, by its record, and by the compiler that they name.
-    page::NAMES.check(workspace, &names::glossary(), None)?;
-    let text = workspace::read(&workspace.root.join(page::FILE))?;
-    let mut pictures = 0;
-    for robot in Robot::ALL {
-        let part = page::page_of(robot);
-        let rustc = docs::rustc_of(part.written(&text)?).unwrap_or_default();
-        part.check(workspace, &page::text(&recorded, host, robot, rustc), None)?;
-        for (file, svg) in plot::pictures(&recorded, host, robot)? {
-            docs::compare_picture(workspace, &file, page::COMMAND, &svg, true)?;
-            pictures += 1;
-        }
-    }
-    // The leg's bars are missed: docs/decisions/0002-bars.md.
-    let saved = [Robot::Ur5e, Robot::Panda]
-        .map(|robot| page::check_bars(&of_group(&recorded, (robot.name(), Kind::Inverse, ""))))
-        .into_iter()
-        .collect::<Result<Vec<String>>>()?
-        .join("; ");
-    Ok(format!(
-        "{} configurations, {generated} of them as printed; {proven} with a proven error; {pictures} pictures as recorded; {saved}",
-        single.len()
-    ))
+    let generated = printed::measure(workspace, tools)?;
+    let kept = printed::check(&generated, &recorded)?;
+    Ok(format!("{kept} configurations as promised; {proven} with a proven error"))
 }
 
-/// Rewrites the page's parts that this run has all of, and their pictures; all of them or none.
-/// Recorded parts keep the name of their compiler.
+/// Rewrites the parts of the page that this run has all of, and their pictures; all of them or
+/// none. By the record alone, they keep the name of its compiler.
 fn write(
     workspace: &Workspace,
     measured: &Measured,
     only: Option<Robot>,
     is_recorded: bool,
 ) -> Result<()> {
-    let (points, host, rustc) = (&measured.points, &measured.host, &measured.rustc);
+    let (points, host) = (&measured.points, &measured.host);
     let mut text = workspace::read(&workspace.root.join(page::FILE))?;
-    let mut files: Vec<(PathBuf, String)> = vec![recorded::replaced(workspace, points)?];
-    let is_whole = |robot: &Robot| only.is_none_or(|only| only == *robot);
-    for robot in Robot::ALL.into_iter().filter(is_whole) {
+    let old = docs::rustc_of(&text).filter(|_| is_recorded).map(str::to_owned);
+    let rustc = old.as_ref().unwrap_or(&measured.rustc);
+    let mut files: Vec<(PathBuf, String)> = Vec::new();
+    if !is_recorded {
+        files.push(recorded::replaced(workspace, points)?);
+    }
+    for robot in Robot::ALL.into_iter().filter(|one| only.is_none_or(|only| only == *one)) {
         let pictures = plot::pictures(points, host, robot)?.into_iter();
         files.extend(pictures.map(|(file, svg)| (workspace.report(&file), svg)));
-        let part = page::page_of(robot);
-        let by = docs::rustc_of(part.written(&text)?).filter(|_| is_recorded);
-        let fresh = page::text(points, host, robot, by.unwrap_or(rustc));
-        text = part.replaced(&text, &fresh)?;
-    }
-    if only.is_none() {
-        let single = &measured.single;
-        text = page::SINGLES.replaced(&text, &page::singles(single, rustc))?;
-        text = page::NAMES.replaced(&text, &names::glossary())?;
-        let readme = workspace::read(&workspace.root.join(page::README.file))?;
-        let brief = page::brief(single, measured.shares, rustc);
-        let readme = page::README.replaced(&readme, &brief)?;
-        files.push((workspace.report(page::README.file), readme));
+        let stamp = docs::today_and_commit(workspace);
+        let part = page::text(points, host, robot, rustc);
+        text = page::page_of(robot).replaced(&text, &format!("{part} Written on {stamp}.\n"))?;
     }
     files.push((workspace.report(page::FILE), text));
-    workspace::write_whole(&files)?;
-    first_screen::write_why(workspace)
+    workspace::write_whole(&files)
 }

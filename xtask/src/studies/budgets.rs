@@ -16,18 +16,8 @@ use crate::studies::scenes::report::Report;
 const OTHER_RUSTC_FLASH: f64 = 0.06;
 
 /// The figures that bars are set for.
-const BARRED: [&str; 10] = [
-    "instructions",
-    "cycles",
-    "code_bytes",
-    "stack_bytes",
-    "flash_bytes",
-    "ram_bytes",
-    "ns",
-    "stages_0",
-    "stages_1",
-    "stages_2",
-];
+const BARRED: [&str; 6] =
+    ["instructions", "cycles", "code_bytes", "stack_bytes", "flash_bytes", "ram_bytes"];
 
 const FILE: &str = "budgets.toml";
 
@@ -48,8 +38,6 @@ type Figures = [u64; FIGURES.len()];
 struct Budgets {
     #[serde(default)]
     bars: Bars,
-    #[serde(default)]
-    ratios: Bars,
     /// By the compiler that they were measured with, then by scene.
     #[serde(default)]
     scenes: BTreeMap<String, BTreeMap<String, Figures>>,
@@ -132,9 +120,8 @@ fn read(workspace: &Workspace) -> Result<Budgets> {
     let wrong = |why: String| check!("{}: {why}", path.display());
     let budgets: Budgets =
         toml_edit::de::from_str(&workspace::read(&path)?).map_err(|e| wrong(e.to_string()))?;
-    for (key, bar) in budgets.bars.iter().chain(&budgets.ratios) {
-        let mut names = bar.most.keys().chain(&bar.missed);
-        if let Some(name) = names.find(|name| !BARRED.contains(&&***name)) {
+    for (key, bar) in &budgets.bars {
+        if let Some(name) = bar.most.keys().find(|name| !BARRED.contains(&&***name)) {
             return Err(wrong(format!("{key}: {name} is no figure")));
         }
     }
@@ -158,9 +145,7 @@ fn put(workspace: &Workspace, scene: &str, budget: Budget) -> Result<()> {
 
 /// The bars of rows and of pairs of rows.
 pub fn bars(workspace: &Workspace) -> Result<Bars> {
-    let Budgets { mut bars, ratios, .. } = read(workspace)?;
-    bars.extend(ratios);
-    Ok(bars)
+    Ok(read(workspace)?.bars)
 }
 
 /// Fails if the report exceeds its scene's budget; else says what there is to spare.

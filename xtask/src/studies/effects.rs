@@ -14,6 +14,7 @@ use crate::kit::rows::{self, Row};
 use crate::kit::table::Table;
 use crate::kit::toolchain::RELEASE;
 use crate::kit::{firmware, host_bin::SHARED, workspace};
+use crate::studies::scenes;
 use crate::studies::study::{Bench, Found};
 
 const FEATURE: &str = "effects";
@@ -55,11 +56,10 @@ pub struct Price {
 pub fn measure(bench: &Bench<'_>) -> Result<Found> {
     let (prices, rustc) = (prices(bench)?, bench.rustc()?);
     let table = in_rows(&prices).markdown();
-    let readme = workspace::read(&bench.workspace.root.join("README.md"))?;
+    let scenes = workspace::read(&bench.workspace.root.join(scenes::PAGE.file))?;
     Ok(Found {
-        picture: Some(picture::svg(&prices, &picture::factors(&readme))?),
+        picture: Some(picture::svg(&prices, &picture::factors(&scenes))?),
         summary: format!("{} prices", prices.len()),
-        rustc: Some(rustc.clone()),
         ..Found::new(format!("{table}\n{MODEL}. Measured with {rustc}."), &prices)?
     })
 }
@@ -148,13 +148,10 @@ fn in_rows(prices: &[Price]) -> Table {
         sorted,
         &[
             ("effect, robot", &|p| format!("{} {}", p.effect, p.robot)),
-            ("insn: core", &|p| p.instructions.to_string()),
-            ("engine", &|p| engine(p, |p| p.instructions)),
             ("cycles: core", &|p| p.cycles.to_string()),
             ("engine", &|p| engine(p, |p| p.cycles)),
             ("code: core", &|p| p.code_bytes.to_string()),
             ("engine", &|p| engine(p, |p| p.code_bytes)),
-            ("RAM", &|p| p.ram_bytes.to_string()),
             ("torque, N·m", &|p| format!("{:.3}", p.torque_rms_nm)),
         ],
     )

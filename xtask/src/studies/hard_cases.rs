@@ -1,14 +1,11 @@
 //! Situations in which dynamics libraries fail, measured on the host.
 
 mod picture;
-mod reference;
 
 use serde::{Deserialize, Serialize};
 
-use crate::kit::docs::cells;
-use crate::kit::error::{Result, check};
+use crate::kit::error::Result;
 use crate::kit::host_bin;
-use crate::kit::workspace::{self, Workspace};
 use crate::studies::study::{Bench, Found};
 
 const BIN: &str = "hard_cases";
@@ -19,8 +16,6 @@ const OVERVIEW: &str = "case | f32: error / bound | f64: error / bound | a naive
 #[derive(Deserialize)]
 struct Suite {
     cases: Vec<Case>,
-    /// The numbers of the cases that the step `bits` runs in QEMU.
-    in_qemu: Vec<u32>,
     rows: Vec<Row>,
     /// The rows that are not as demanded.
     wrong: Vec<String>,
@@ -30,10 +25,6 @@ struct Suite {
 struct Case {
     number: u32,
     name: String,
-    parameters: String,
-    source: String,
-    oracle: String,
-    reason: String,
 }
 
 /// A measurement; a value that is not finite is `None`.
@@ -55,7 +46,6 @@ pub fn measure(bench: &Bench<'_>) -> Result<Found> {
         picture: Some(picture::svg(&suite)?),
         wrong: suite.wrong.clone(),
         summary: summary(&suite),
-        brief: Some(("README.md", brief(&suite, &known(bench.workspace)?))),
         ..Found::new(page(&suite), &suite.rows)?
     })
 }
@@ -100,7 +90,7 @@ impl Suite {
                 let way = row.quantity.trim_start_matches("naive: ");
                 format!("{way}: {}", share(Some(row)))
             });
-            format!("[{number}. {name}](#case-{number}) | {single} | {double} | {naive}\n")
+            format!("{number}. {name} | {single} | {double} | {naive}\n")
         });
         format!("{OVERVIEW}{}", rows.collect::<String>())
     }
@@ -118,39 +108,7 @@ fn summary(suite: &Suite) -> String {
     )
 }
 
-/// The page with the figures that are known to be beyond their bounds, and the first words of
-/// their row.
-const DECISION: &str = "docs/decisions/0002-bars.md";
-const KNOWN: &str = "`aba` in f32, case 87,";
-
-/// The reason of the figure that is beyond its bound.
-fn known(workspace: &Workspace) -> Result<String> {
-    let page = workspace::read(&workspace.root.join(DECISION))?;
-    let mut rows = page.lines().filter_map(cells);
-    let row = rows.find(|row| row.len() == 3 && row[0].starts_with(KNOWN));
-    let row = row.ok_or_else(|| check!("{DECISION} has no row of {KNOWN}"))?;
-    Ok(row[2].to_owned())
-}
-
-/// The README's lines.
-fn brief(suite: &Suite, known: &str) -> String {
-    let count = |verdict: &str| suite.rows.iter().filter(|r| r.verdict == verdict).count();
-    format!(
-        "{} cases in f32 and f64, against computations in 50 digits and closed forms: {} figures are \
-         within their bounds, {} beyond,\n\
-         and {} naive methods are shown to fail ([each case](docs/hard-cases.md)). One figure of a \
-         further case\n\
-         is beyond its bound, `aba` of case 87 in f32: {known} ([decision 2]({DECISION})).",
-        suite.cases.len(),
-        count("pass"),
-        count("fail"),
-        count("shown")
-    )
-}
-
 /// The text between the markers.
 fn page(suite: &Suite) -> String {
-    let (summary, overview) = (summary(suite), suite.overview());
-    let reference = reference::text(suite);
-    format!("{summary}.\n\n{overview}\n## Reference\n{reference}")
+    format!("{}.\n\n{}", summary(suite), suite.overview())
 }

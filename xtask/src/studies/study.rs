@@ -13,7 +13,6 @@ use crate::kit::output;
 use crate::kit::setup::{self, Options, Tools};
 use crate::kit::table::plain;
 use crate::kit::workspace::{self, Workspace};
-use crate::studies::scenes::first_screen;
 
 pub struct Study {
     /// The name of its command and of its step, and in the markers of its page.
@@ -26,7 +25,7 @@ pub struct Study {
     pub form: Form,
 }
 
-/// The check that the files are current.
+/// The check that the figures keep their bounds.
 pub enum Held {
     /// A step of `cargo xtask test`, for this claim.
     Step(Lane, Scope, &'static str),
@@ -37,8 +36,6 @@ pub enum Held {
 
 /// The way in which a study is measured and shown.
 pub enum Form {
-    /// It writes the whole page.
-    Whole(Measure),
     /// It writes the part of the page between its markers.
     Part(Measure),
     /// Its command has options of its own, and it writes and compares its files itself.
@@ -72,19 +69,17 @@ pub enum Lane {
 pub struct Bench<'a> {
     pub workspace: &'a Workspace,
     pub options: Options,
-    /// Whether every robot is measured, or the cheapest witness of each claim.
-    pub full: bool,
     tools: OnceCell<Tools>,
 }
 
 impl<'a> Bench<'a> {
     pub fn new(workspace: &'a Workspace, options: Options) -> Self {
-        Self { workspace, options, full: true, tools: OnceCell::new() }
+        Self { workspace, options, tools: OnceCell::new() }
     }
 
     /// With tools that are set up already, for one of the tests.
-    pub fn of_test(workspace: &'a Workspace, options: Options, full: bool, tools: Tools) -> Self {
-        Self { workspace, options, full, tools: tools.into() }
+    pub fn of_test(workspace: &'a Workspace, options: Options, tools: Tools) -> Self {
+        Self { workspace, options, tools: tools.into() }
     }
 
     /// The compiler of the firmware and the emulator, set up when the first study asks: a study of
@@ -107,13 +102,8 @@ impl<'a> Bench<'a> {
 pub struct Found {
     /// The page, or its part.
     pub text: String,
-    /// The lines of another page, the README or one of the guide, between the markers of the
-    /// study's name, if it has any.
-    pub brief: Option<(&'static str, String)>,
     pub picture: Option<String>,
     pub json: String,
-    /// The compiler that the figures depend on, if they do on one.
-    pub rustc: Option<String>,
     /// Bars that are missed, and cases that fail.
     pub wrong: Vec<String>,
     /// The figures that the step of the tests names.
@@ -150,7 +140,7 @@ impl Study {
     pub fn run(&self, options: Options, matches: &ArgMatches) -> Result<ExitCode> {
         match self.form {
             Form::Own(_, run, _) => run(options, matches),
-            Form::Whole(measure) | Form::Part(measure) => {
+            Form::Part(measure) => {
                 let workspace = Workspace::for_reports()?;
                 let found = measure(&Bench::new(&workspace, options))?;
                 self.write(&workspace, &found)?;
@@ -163,64 +153,25 @@ impl Study {
         }
     }
 
-    /// Fails unless all bars hold and the files are what would be written now; else says what was
-    /// measured.
+    /// Fails unless all bounds hold; else says what was measured.
     pub fn check(&self, bench: &Bench<'_>) -> Result<String> {
         match self.form {
             Form::Own(_, _, check) => check(bench),
-            Form::Whole(measure) | Form::Part(measure) => {
+            Form::Part(measure) => {
                 let found = measure(bench)?;
-                self.compare(bench.workspace, &found)?;
-                Ok(found.summary)
+                found.verdict().map(|()| found.summary)
             }
         }
     }
 
     fn write(&self, workspace: &Workspace, found: &Found) -> Result<()> {
-        self.page(&self.words()).write(workspace, &found.text)?;
-        if let Some((file, brief)) = &found.brief {
-            self.part(file, &self.words()).write(workspace, brief)?;
-        }
-        let in_readme = matches!(found.brief, Some(("README.md", _)));
-        if in_readme || self.files[0] == first_screen::RTL {
-            first_screen::write_why(workspace)?;
-        }
+        let command = format!("cargo xtask {}", self.name);
+        let page = Page { file: self.files[0], name: self.name, command: &command };
+        page.write(workspace, &found.text)?;
         for (file, picture) in self.files[1..].iter().zip(&found.picture) {
             workspace::write(&workspace.report(file), picture)?;
         }
         Ok(())
-    }
-
-    fn compare(&self, workspace: &Workspace, found: &Found) -> Result<()> {
-        found.verdict()?;
-        let (words, rustc) = (self.words(), found.rustc.as_deref());
-        let page = self.page(&words);
-        page.check(workspace, &found.text, rustc)?;
-        if let Some((file, brief)) = &found.brief {
-            self.part(file, &words).check(workspace, brief, rustc)?;
-        }
-        let written = workspace::read(&workspace.root.join(page.file))?;
-        let same = rustc.is_none() || docs::rustc_of(page.written(&written)?) == rustc;
-        for (file, picture) in self.files[1..].iter().zip(&found.picture) {
-            docs::compare_picture(workspace, file, &words, picture, same)?;
-        }
-        Ok(())
-    }
-
-    fn words(&self) -> String {
-        format!("cargo xtask {}", self.name)
-    }
-
-    fn part<'a>(&self, file: &'a str, command: &'a str) -> Page<'a> {
-        Page { file, name: self.name, command }
-    }
-
-    fn page<'a>(&self, command: &'a str) -> Page<'a> {
-        let name = match self.form {
-            Form::Part(_) => self.name,
-            _ => "",
-        };
-        Page { file: self.files[0], name, command }
     }
 }
 
@@ -234,47 +185,28 @@ mod tests {
     use super::{Form, Found, Held, Study};
     use crate::kit::workspace::Workspace;
 
-    fn study(form: Form) -> Study {
-        Study {
+    #[test]
+    fn a_study_writes_its_files_and_fails_beyond_a_bound() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let workspace = Workspace::at(folder.path());
+        let part = "# By hand\n\n<!-- sample:begin -->\n<!-- sample:end -->\n";
+        let read = |file| std::fs::read_to_string(folder.path().join(file)).expect("there");
+        std::fs::write(folder.path().join("page.md"), part).expect("written");
+        let mut found =
+            Found { text: "| 1 |\n".into(), picture: Some("<svg/>".into()), ..Found::default() };
+        let study = Study {
             name: "sample",
             about: "",
             files: &["page.md", "page.svg"],
             held: Held::Bars(""),
-            form,
-        }
-    }
-
-    fn found(text: &str, picture: &str) -> Found {
-        Found {
-            text: text.into(),
-            picture: Some(picture.into()),
-            brief: Some(("guide.md", "| 5 |".into())),
-            ..Found::default()
-        }
-    }
-
-    #[test]
-    fn what_a_study_writes_agrees_with_itself_and_nothing_else() {
-        let folder = tempfile::tempdir().expect("a folder");
-        let workspace = Workspace::at(folder.path());
-        let part = "# By hand\n\n<!-- sample:begin -->\n<!-- sample:end -->\n";
-        for file in ["page.md", "guide.md"] {
-            std::fs::write(folder.path().join(file), part).expect("written");
-        }
-        for form in [Form::Part, Form::Whole] {
-            let study = study(form(|_| Ok(Found::default())));
-            study.write(&workspace, &found("| 1 |\n", "<svg/>")).expect("written");
-            let compare = |found| study.compare(&workspace, &found);
-            compare(found("| 1 |\n", "<svg/>")).expect("the same");
-            compare(found("| 2 |\n", "<svg/>")).expect_err("another page");
-            compare(found("| 1 |\n", "<svg />")).expect_err("another picture");
-            let mut other = found("| 1 |\n", "<svg/>");
-            other.brief = Some(("guide.md", "| 6 |".into()));
-            compare(other).expect_err("another part of the guide");
-            let mut missed = found("| 1 |\n", "<svg/>");
-            missed.wrong.push("cycles 2 > 1".into());
-            let error = compare(missed).expect_err("a bar").to_string();
-            assert_eq!(error, "bar: cycles 2 > 1");
-        }
+            form: Form::Part(|_| Ok(Found::default())),
+        };
+        study.write(&workspace, &found).expect("written");
+        assert!(read("page.md").contains("# By hand") && read("page.md").contains("| 1 |\n"));
+        assert_eq!(read("page.svg"), "<svg/>");
+        assert!(found.verdict().is_ok());
+        found.wrong.push("cycles 2 > 1".into());
+        let error = found.verdict().expect_err("a bound").to_string();
+        assert_eq!(error, "bar: cycles 2 > 1");
     }
 }

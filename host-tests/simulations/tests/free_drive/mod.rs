@@ -62,7 +62,7 @@ fn a_released_arm_stays() {
         most(of(1)),
     );
     assert!(pairs().count() >= 4 * *RUNS as usize / 5);
-    // The bar is none. 8 of 989 miss it, by up to 5.1 mm: a row of decision 2.
+    // The bar is none. 8 of 989 miss it, by up to 5.1 mm: the guide says so.
     let share = far as f32 / pairs().count() as f32;
     assert!(share <= 0.02, "{far} runs");
     assert!(most(of(0)) < 6.0);
@@ -81,7 +81,7 @@ fn less_force_starts_a_motion() {
         "of the force under gravity compensation alone, median and worst: start {start:.2?} ({above} \
          above 0.5), after 10 s of rest {again:.2?}, on the way {drag:.2?}"
     );
-    // The bar is that of each run, which 319 of 989 miss: a row of decision 2.
+    // The bar is that of each run, which 319 of 989 miss: the guide says so.
     assert!(start[0] <= 0.5, "{start:?}");
 }
 

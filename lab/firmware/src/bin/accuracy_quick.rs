@@ -1,5 +1,4 @@
-//! The cost of single changes to the default way to compute torques, few enough for the tests; and
-//! what is printed to be generated, as it is printed.
+//! The cost of the generated code, as it is printed.
 #![no_std]
 #![no_main]
 
@@ -10,13 +9,11 @@ mod printed {
 }
 
 use dynamics_core::robots::{A1Leg, Panda, Ur5e};
-use fixtures::accuracy::list;
 
 /// Robots, and what is printed of them.
 macro_rules! measure {
     ($($robot:ident, $b:literal, $n:literal, $w:literal, $printed:ident;)*) => {$({
         let mut priced = accuracy::states::<$robot, $b, $n, $w>();
-        list::single::<$robot, $b, $n>(&mut priced);
         priced.algorithm = "generated";
         printed::$printed(&mut priced);
     })*};

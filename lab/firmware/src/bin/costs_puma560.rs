@@ -17,6 +17,7 @@ fn run() -> ! {
         forward::of_engine::<robots::Puma560, 6, 6, 5>(),
     ];
     forward::run::<robots::Puma560, 6, 6, 5>(&asks, &forms);
+    forward::derivatives::<robots::Puma560, 6, 6, 5>(&asks, &forms);
     costs::done()
 }
 

@@ -76,7 +76,6 @@ const STEPS: &[Step] = &[
     ("telemetry", Target, Full, "a tick costs the same with a listener, without one, and with a full queue", |c| watch::check(&c.workspace, &c.tools, c.meter()?)),
     ("absent-effects", Target, Everyday, "an effect that a scene does not name costs it nothing", absent::absent_effects_cost_nothing),
     ("projects", Host, Full, "new projects in Rust and in C build, run in QEMU and compute the host's torques", others::projects),
-    ("readme", Target, Everyday, "the tables of README.md and docs/scenes.md are those of this run, which repeats itself", scenes::readme),
 ];
 
 impl Context {
@@ -87,7 +86,7 @@ impl Context {
 
     fn bench(&self) -> Bench<'_> {
         let tools = self.tools.clone();
-        Bench::of_test(&self.workspace, self.options, self.full, tools)
+        Bench::of_test(&self.workspace, self.options, tools)
     }
 
     /// The scenes under test: all of them in a full run, the default one else.

@@ -2,13 +2,12 @@
 
 use super::Context;
 use crate::commands::demo;
-use crate::kit::docs;
 use crate::kit::error::{Result, check, refuse_if};
 use crate::kit::meter::CLOCK_MHZ;
 use crate::kit::protocol::FEEDFORWARD;
 use crate::kit::scene::Scene;
-use crate::studies::scenes::{first_screen, plot};
-use crate::studies::{budgets, scenes};
+use crate::studies::budgets;
+use crate::studies::scenes::plot;
 
 /// The largest ratio of a scene's bound to the measured error.
 const SLACK: f64 = 10.0;
@@ -30,8 +29,7 @@ const PLAIN: &str = "mode Full, fault None, limited false";
 /// rad/s.
 const LEAST_PEAK_SPEED: f64 = 1.5;
 
-/// The scene that runs twice: its laws are of the core and of the engine. The step `readme` repeats
-/// the default one.
+/// The scene that runs twice: its laws are of the core and of the engine.
 const TWICE: &str = "direct_drive";
 
 pub fn runs(context: &Context) -> Result<String> {
@@ -125,34 +123,6 @@ pub fn budgets(context: &Context) -> Result<String> {
         outcomes.push(budgets::check(&context.workspace, report)?);
     }
     Ok(outcomes.join("; "))
-}
-
-pub fn readme(context: &Context) -> Result<String> {
-    let workspace = &context.workspace;
-    let reports: Vec<_> = context.measured()?.iter().map(|one| &one.report).collect();
-    for measured in context.measured()? {
-        // The README shows the default scene alone.
-        if measured.report.scene == Scene::default().name() {
-            let brackets = demo::brackets(workspace, &context.tools, context.meter()?, measured)?;
-            let (text, rustc) = (measured.report.markdown(&brackets), &measured.report.rustc);
-            docs::TICK.check(workspace, &text, Some(rustc))?;
-            first_screen::WORTH.check(
-                workspace,
-                &first_screen::worth(&measured.report),
-                Some(rustc),
-            )?;
-            first_screen::WHY.check(workspace, &first_screen::composed(workspace)?, None)?;
-            // The scene's result is the same to the bit with every compiler.
-            let (picture, command) = (plot::svg(&measured.recording)?, docs::TICK.command);
-            docs::compare_picture(workspace, demo::PICTURE, command, &picture, true)?;
-        }
-    }
-    if !context.full {
-        return Ok("README.md alone".into());
-    }
-    let rustc = reports.first().map(|report| report.rustc.as_str());
-    scenes::PAGE.check(workspace, &scenes::markdown(&reports), rustc)?;
-    Ok(String::new())
 }
 
 #[cfg(test)]

@@ -32,13 +32,9 @@ pub struct Line {
     /// The largest error over states anywhere, as a share of full scale.
     pub anywhere: Option<f64>,
     pub what: String,
-    /// rad/s: no joint is faster.
-    pub speed: f64,
     /// The oracle's own: Pinocchio's version, the recorded states, and those of 50 digits with how
     /// far it is off there.
     pub pinocchio: String,
-    pub states: u64,
-    pub sample: u64,
     pub from_50_digits: f64,
 }
 

@@ -110,13 +110,6 @@ pub fn lines(point: &Point) -> String {
     rows.iter().map(line).collect()
 }
 
-/// A line for each name in print.
-pub fn glossary() -> String {
-    let named = ROWS.iter().filter(|row| !row.3.is_empty());
-    let lines: Vec<String> = named.map(|row| format!("- **{}**: {}", row.3, row.4)).collect();
-    lines.join("\n")
-}
-
 /// Three digits of an error, as people write it.
 pub fn digits(x: f64) -> String {
     if x == 0.0 {

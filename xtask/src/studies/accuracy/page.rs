@@ -1,41 +1,23 @@
-//! docs/accuracy.md: fronts, what single choices cost, yardsticks, simulations; and the README's
-//! few lines.
-
-#[cfg(test)]
-mod tests;
+//! docs/accuracy.md: fronts, what single choices cost, yardsticks, simulations.
 
 use super::front;
-use super::join::{Host, Line};
+use super::join::Host;
 use super::names::{cycles, digits, name, stated};
 use super::point::{Kind, Point, of_group};
-use super::proven::Proven;
 use super::robot::Robot;
 use crate::kit::docs::Page;
-use crate::kit::error::{Result, check, refuse_if};
 use crate::kit::meter::MODEL;
 use crate::kit::table::{Table, thousands};
 
 pub const FILE: &str = "docs/accuracy.md";
 pub const COMMAND: &str = "cargo xtask accuracy";
 
-/// A part of a page that the command writes.
-const fn part(file: &'static str, name: &'static str) -> Page<'static> {
-    Page { file, name, command: COMMAND }
-}
-
-/// Single changes, which CI compares with a quick run.
-pub const SINGLES: Page<'_> = part(FILE, "accuracy-single");
-/// The meaning of the names in the tables.
-pub const NAMES: Page<'_> = part(FILE, "accuracy-names");
-/// The few of them that the README shows.
-pub const README: Page<'_> = part("README.md", "accuracy");
-
-/// The configurations that the bins `accuracy_quick` run; those of the README, and of the pictures,
-/// come first.
+/// The configurations whose generated code a test measures; those of the pictures come first.
 const SINGLE: &str = "default trig=table model=pruned1000 rate=10,between=linearised model=no_coriolis model=gravity \
                       trig=minimax5 trig=minimax3 trig=minimax7 trig=incremental model=params8 rate=10 \
                       rate=10,between=interpolated trig=table3x4,form=core";
 
+/// Those of the pictures.
 pub const BRIEF_ROWS: usize = 6;
 
 /// Whether a point is one of the first so many of them.
@@ -47,10 +29,8 @@ pub fn is_single(point: &Point, most: usize) -> bool {
 /// but not worth a word.
 const STEP: f64 = 0.8;
 
-/// The negligible error, as a share of full scale, and what a point of the front may cost of the
-/// default at it: its worst tick, its mean.
+/// The negligible error, as a share of full scale.
 const ERROR: f64 = 1e-3;
-const MOST: [f64; 2] = [0.85, 0.6];
 
 /// The part of the page about a robot's torques, or about the simulations.
 pub fn page_of(robot: Robot) -> Page<'static> {
@@ -60,7 +40,7 @@ pub fn page_of(robot: Robot) -> Page<'static> {
         Robot::A1Leg => "accuracy-a1_leg",
         Robot::DoublePendulum => "accuracy-simulation",
     };
-    part(FILE, name)
+    Page { file: FILE, name, command: COMMAND }
 }
 
 /// The points of a front, from the cheapest on, each much more accurate than the one before; the
@@ -99,7 +79,6 @@ fn table(rows: &[(String, &Point)], first: &str, columns: &str) -> Table {
             let ratio = default.map(|(_, default)| point.costs()[cost] / default.costs()[cost]);
             ratio.map_or_else(String::new, percent)
         };
-        let step = 1e-6 * point.on("step").parse().unwrap_or(1.0);
         let [max, p99, rms, relative] = point.errors().map(stated);
         let cells = [
             thousands(point.instructions),
@@ -111,8 +90,6 @@ fn table(rows: &[(String, &Point)], first: &str, columns: &str) -> Table {
             p99,
             rms,
             relative,
-            cycles(point.cycles as f64 * step),
-            stated(point.drift),
             stated(point.proven),
             stated(point.error_box),
         ];
@@ -141,16 +118,13 @@ pub fn percent(ratio: f64) -> String {
 }
 
 /// Columns that are left out if no point has them.
-const PROVEN: usize = 11;
-const IN_BOX: usize = 12;
-const COSTS: &str =
-    "0 insn; 1 worst tick; 3 mean; 5 max, N·m; 11 proven, N·m; 6 99 %; 7 RMS; 8 of full scale";
-const FRONTS: &str = "0 insn; 1 worst tick; 3 mean; 5 max error; 11 proven; 8 of full scale";
-const SHARES: &str = "1 worst tick; 2 of default's; 3 mean; 4 of default's; 5 max, N·m; 11 proven, N·m; 12 in the box; 6 99 %; 7 RMS; 8 of full scale";
-const BRIEF: &str = "1 worst tick, cycles; 3 mean; 5 largest error, N·m; 8 of full scale";
-const STEPS: &str = "1 cycles a second; 9 a step; 5 max, rad; 6 99 %; 7 RMS; 10 energy drift";
-const SPEEDS: &str = "5 max, N·m; 8 of full scale";
-const ERRORS: &str = "5 max, N·m; 6 99 %; 7 RMS; 8 of full scale";
+const PROVEN: usize = 9;
+const IN_BOX: usize = 10;
+const FRONTS: &str = "0 insn; 1 worst tick; 3 mean; 5 max error; 9 proven; 8 of full scale";
+const SHARES: &str = "1 worst tick; 2 of default's; 3 mean; 4 of default's; 5 max, N·m; 9 proven, N·m; 10 in the box; 6 99 %; 7 RMS; 8 of full scale";
+const PAGE: &str = "1 worst tick; 3 mean; 5 max, N·m; 9 proven, N·m";
+const STEPS: &str = "1 cycles a second; 5 max, rad";
+const ERRORS: &str = "5 max, N·m";
 
 /// The fronts, for a terminal.
 pub fn terminal(points: &[Point]) -> String {
@@ -164,32 +138,13 @@ pub fn every(points: &[Point]) -> String {
     table(&named(&all), "configuration", SHARES).text()
 }
 
-/// Single changes to the default.
-pub fn singles(points: &[Point], rustc: &str) -> String {
-    let few = of_robots(points, |point| is_single(point, usize::MAX));
-    let table = table(&few, "robot, what is changed", COSTS).markdown();
-    format!("{table}\nMeasured with {rustc}.")
-}
-
-pub fn brief(points: &[Point], shares: Option<[f64; 2]>, rustc: &str) -> String {
-    let mut few = of_group(points, ("ur5e", Kind::Inverse, ""));
-    few.retain(|point| is_single(point, BRIEF_ROWS));
-    few.sort_by(|a, b| a.error().total_cmp(&b.error()));
-    let table = table(&named(&few), "UR5e", BRIEF).markdown();
-    let range = shares.map_or(String::new(), |shares| {
-        let [least, most] = shares.map(percent);
-        format!("By the most and the least favourable reading of the manual the cycles are between {least} and {most} of these.\n")
-    });
-    format!("{table}\n{range}Measured with {rustc}.")
-}
-
 /// The text about a robot's torques, or about simulations.
 pub fn text(points: &[Point], host: &Host, robot: Robot, rustc: &str) -> String {
     let text = match robot {
         Robot::DoublePendulum => simulations(points),
         _ => torques(points, host, robot),
     };
-    format!("{text}Measured with {rustc}.\n")
+    format!("{text}Measured with {rustc}.")
 }
 
 fn torques(points: &[Point], host: &Host, robot: Robot) -> String {
@@ -204,11 +159,10 @@ fn torques(points: &[Point], host: &Host, robot: Robot) -> String {
     for line in host.of(Kind::Oracle, robot.name()) {
         let [scale, precise] = [line.full_scale, line.from_50_digits].map(digits);
         let [off, anywhere] = [line.point.relative_max, host.anywhere(robot.name())].map(stated);
-        let (pinocchio, states, sample) = (&line.pinocchio, line.states, line.sample);
         text += &format!(
-            "Full scale is {scale} N·m. The f64 that errors are measured from is off by at most {off} of it from Pinocchio \
-             {pinocchio} on {states} states, and by at most {precise} from 50 digits on {sample}. Over all states anywhere \
-             the default is within {anywhere} of it.\n\n"
+            "Full scale is {scale} N·m. The reference in f64 is off by at most {off} of it from Pinocchio {}, {precise} from \
+             50 digits; over all states anywhere the default is within {anywhere}.\n\n",
+            line.pinocchio
         );
     }
     if let Some([worst, mean]) = cheapest(&rigid) {
@@ -220,27 +174,14 @@ fn torques(points: &[Point], host: &Host, robot: Robot) -> String {
              cheapest mean {ticks} (*{mean}*).\n\n"
         );
     }
-    if let Some(proven) = Proven::of(&host.proven, robot.name()) {
-        text += &format!("{} The path of the measured errors lies in the box.\n\n", proven.note());
-    }
-    for (cost, which) in ["worst tick", "mean over ticks"].into_iter().enumerate() {
-        let mut shown = steps(&rigid, cost);
-        // A point on both fronts is listed in the first; the default is always shown.
-        shown.retain(|point| cost == 0 || !point.fronts[0]);
-        shown.extend(rigid.iter().filter(|point| point.is_default()));
-        shown.sort_by(|a, b| a.costs()[cost].total_cmp(&b.costs()[cost]));
-        shown.dedup_by_key(|point| &point.key);
-        let head = format!("The {which}: what each step costs and gives up");
-        text += &section(&head, &named(&shown), "configuration", SHARES);
-    }
-    let lines = |kind, name: fn(&Line) -> String| -> Vec<_> {
-        let lines = host.of(kind, robot.name());
-        lines.map(|line| (name(line), &line.point)).collect()
-    };
-    let head = "Without Coriolis: how slow is slow enough";
-    let speeds = lines(Kind::Speed, |line| digits(line.speed));
-    text += &section(head, &speeds, "joints as fast as, rad/s", SPEEDS);
-    let others = lines(Kind::Yardstick, |line| line.what.clone());
+    // The steps of both fronts, and what the picture names beside them.
+    let mut shown: Vec<&Point> = [0, 1].into_iter().flat_map(|cost| steps(&rigid, cost)).collect();
+    shown.extend(rigid.iter().filter(|point| is_single(point, BRIEF_ROWS)));
+    shown.sort_by(|a, b| a.cycles.cmp(&b.cycles).then(a.key.cmp(&b.key)));
+    shown.dedup_by_key(|point| &point.key);
+    text += &format!("{}\n", table(&named(&shown), "configuration", PAGE).markdown());
+    let others = host.of(Kind::Yardstick, robot.name());
+    let others: Vec<_> = others.map(|line| (line.what.clone(), &line.point)).collect();
     text + &section("Where accuracy stops mattering", &others, "what is off", ERRORS)
 }
 
@@ -260,18 +201,6 @@ fn cheapest<'a>(points: &[&'a Point]) -> Option<[(&'a Point, f64); 2]> {
     Some([of(0)?, of(1)?])
 }
 
-/// Fails unless a negligible error saves as much as was promised; returns the saving.
-pub fn check_bars(points: &[&Point]) -> Result<String> {
-    let none = || check!("nothing on the front is within the bar's error");
-    let [worst, mean] = cheapest(points).ok_or_else(none)?.map(|(_, share)| share);
-    let saved = format!("{worst:.3} of the worst tick, {mean:.3} of the mean");
-    refuse_if!(
-        worst > MOST[0] || mean > MOST[1],
-        "bar: within {ERROR} of full scale, the cheapest takes {saved} of the default's; at most {MOST:?}"
-    );
-    Ok(saved)
-}
-
 /// Robots and scenes in the order of the page and of its picture.
 pub const SCENES: [(Robot, &str, &str); 4] = [
     (Robot::DoublePendulum, "free", "A double pendulum, let go"),
@@ -287,11 +216,12 @@ pub const SCENES: [(Robot, &str, &str); 4] = [
 fn simulations(points: &[Point]) -> String {
     let mut text = format!(
         "![Errors against cycles of integrators over their lengths of step](accuracy-simulation.svg)\n\n\
-         Cycles are those of as many steps as make a simulated second; trajectory errors are over its first second, \
-         energy drift over five, a second, as a share of the largest kinetic energy. {MODEL}.\n\n"
+         Cycles are those of a simulated second; errors are over its first second. f64 and the energy's \
+         drift are in the record alone. {MODEL}.\n\n"
     );
     for (robot, scene, title) in SCENES {
-        let own = of_group(points, (robot.name(), Kind::Simulation, scene));
+        let mut own = of_group(points, (robot.name(), Kind::Simulation, scene));
+        own.retain(|point| point.on("arith") == "f32");
         let steps = steps(&own, 0);
         text += &section(title, &named(&steps), "configuration", STEPS);
     }

@@ -15,8 +15,6 @@ pub enum Kind {
     /// Torques by the code that is printed as generated code.
     Generated,
     Yardstick,
-    /// The error without velocity products.
-    Speed,
     /// The error of the reference itself.
     Oracle,
 }

@@ -21,13 +21,13 @@ const ERRORS: i32 = 590;
 const CYCLES: i32 = 940;
 
 /// By effect, its name in lower case without signs, how many times larger the scene's tracking
-/// error is without it: by the table of the README.
-pub fn factors(readme: &str) -> BTreeMap<String, f64> {
+/// error is without it: by the page of scenes.
+pub fn factors(scenes: &str) -> BTreeMap<String, f64> {
     let factor = |row: Vec<&str>| {
         let times = row.get(1)?.strip_suffix(" ×")?.parse().ok()?;
         Some((plain(row[0]), times))
     };
-    readme.lines().filter_map(cells).filter_map(factor).collect()
+    scenes.lines().filter_map(cells).filter_map(factor).collect()
 }
 
 fn plain(name: &str) -> String {

@@ -5,10 +5,10 @@ use std::path::Path;
 use crate::kit::meter::{CHIPS, CLOCK_MHZ, Cost, IN_FLASH, MODEL};
 use crate::kit::protocol::label;
 use crate::kit::table::{Column, Table, thousands};
-use crate::studies::scenes::report::{Errors, JointError, Report, Tracking};
-use crate::studies::scenes::table;
+use crate::studies::scenes::guided;
+use crate::studies::scenes::report::{Ablation, Errors, JointError, Report, Tracking};
 
-const BY_MANUAL: &str = "max by the manual";
+const BY_MANUAL: &str = "by the manual";
 
 impl Report {
     pub fn text(&self, plot: &Path) -> String {
@@ -20,7 +20,7 @@ impl Report {
         let (memory, rustc, qemu) = (self.memory(), &self.rustc, &self.qemu);
         let memory = format!("\n{memory}\n{rustc}; {qemu}; µs at {CLOCK_MHZ} MHz\n");
         if self.is_guided() {
-            return text + "\n" + &table(&[self], true, str::to_owned).text() + &memory;
+            return text + "\n" + &guided([self].into_iter()).text() + &memory;
         }
         for (what, tracking) in self.trackings() {
             text += &format!("\n{what}\n\n{}", errors_table(tracking).text());
@@ -59,8 +59,17 @@ impl Report {
                 ("model off", &|(_, (_, errors))| percent(errors, off)),
             ],
         );
+        let mut effects: Vec<&Ablation> = self.effects.iter().collect();
+        effects.sort_by(|a, b| b.without.rms_rad.total_cmp(&a.without.rms_rad));
+        let full = exact.feedforward.rms_rad;
+        let worth: [Column<'_, Ablation>; 3] = [
+            ("left out of the feed-forward", &|one| one.effect.clone()),
+            ("tracking error", &|one| format!("{:.0} ×", one.without.rms_rad / full)),
+            ("cycles of the tick", &|one| signed(-one.cycles, "−")),
+        ];
         format!(
             include_str!("readme.md"),
+            worth = Table::of(effects, &worth).markdown(),
             ticks = thousands(self.ticks_measured as u64),
             model = MODEL,
             in_flash = IN_FLASH,
@@ -125,32 +134,20 @@ impl Report {
             let number = self.tick.get_index_of(name)?;
             Some(brackets.get(number)?.map(thousands).join(" to "))
         };
-        let whole = self.tick["total"].cycles.median as f64;
         let period = f64::from(self.period_us);
-        let microseconds = |cycles: u64| format!("{:.2}", cycles as f64 / CLOCK_MHZ);
+        let microseconds = |cost: &Cost| cost.cycles.max as f64 / CLOCK_MHZ;
         let of_period = format!("of {} ms", period / 1e3);
         let parts = self.tick.iter().skip(1).chain(self.tick.first());
         let parts: Vec<_> = parts.collect();
-        let columns: [Column<'_, (&String, &Cost)>; 14] = [
+        let columns: [Column<'_, (&String, &Cost)>; 8] = [
             ("phase", &|(name, _)| (*name).clone()),
-            ("insn min", &|(_, cost)| thousands(cost.instructions.min)),
-            ("median", &|(_, cost)| thousands(cost.instructions.median)),
-            ("max", &|(_, cost)| thousands(cost.instructions.max)),
-            ("cycles min", &|(_, cost)| thousands(cost.cycles.min)),
-            ("median", &|(_, cost)| thousands(cost.cycles.median)),
-            ("max", &|(_, cost)| thousands(cost.cycles.max)),
+            ("insn", &|(_, cost)| thousands(cost.instructions.max)),
+            ("cycles", &|(_, cost)| thousands(cost.cycles.max)),
             (BY_MANUAL, &|(name, _)| by_manual(name).unwrap_or_default()),
             (CHIPS[0], &|(_, cost)| thousands(cost.in_flash[0].max)),
             (CHIPS[1], &|(_, cost)| thousands(cost.in_flash[1].max)),
-            ("µs median", &|(_, cost)| microseconds(cost.cycles.median)),
-            ("µs max", &|(_, cost)| microseconds(cost.cycles.max)),
-            ("of the work", &|(_, cost)| {
-                format!("{:.1} %", 100.0 * cost.cycles.median as f64 / whole)
-            }),
-            (&of_period, &|(_, cost)| {
-                let share = cost.cycles.max as f64 / CLOCK_MHZ / period;
-                format!("{:.2} %", 100.0 * share)
-            }),
+            ("µs", &|(_, cost)| format!("{:.2}", microseconds(cost))),
+            (&of_period, &|(_, cost)| format!("{:.2} %", 100.0 * microseconds(cost) / period)),
         ];
         let is_shown = |head: &str| !brackets.is_empty() || head != BY_MANUAL;
         let columns = columns.into_iter().filter(|(head, _)| is_shown(head));

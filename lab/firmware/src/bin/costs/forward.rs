@@ -67,7 +67,9 @@ forms!(of_engine, engine_factor_solve, Engine, "engine");
 
 pub fn both<T: Robot<B, N, N>, const B: usize, const N: usize, const TIP: usize>() -> ! {
     let asks = &asks::<T, B, N, STATES>();
-    run::<T, B, N, TIP>(asks, &[of_core::<T, B, N, TIP>(), of_engine::<T, B, N, TIP>()]);
+    let forms = [of_core::<T, B, N, TIP>(), of_engine::<T, B, N, TIP>()];
+    run::<T, B, N, TIP>(asks, &forms);
+    derivatives::<T, B, N, TIP>(asks, &forms);
     momentum::both::<T, B, N>(asks);
     loaded::engine::<T, B, N>(asks);
     estimators::payload::<T, B, N>(asks);
@@ -75,9 +77,24 @@ pub fn both<T: Robot<B, N, N>, const B: usize, const N: usize, const TIP: usize>
 }
 
 pub fn core<T: Robot<B, N, N>, const B: usize, const N: usize, const TIP: usize>() -> ! {
-    let asks = &asks::<T, B, N, STATES>();
-    run::<T, B, N, TIP>(asks, &[of_core::<T, B, N, TIP>()]);
+    let (asks, forms) = (&asks::<T, B, N, STATES>(), [of_core::<T, B, N, TIP>()]);
+    run::<T, B, N, TIP>(asks, &forms);
+    derivatives::<T, B, N, TIP>(asks, &forms);
     done()
+}
+
+pub fn derivatives<'a, T: Robot<B, N, N>, const B: usize, const N: usize, const TIP: usize>(
+    asks: &'a [Ask<N>; STATES],
+    forms: &[Forms<'a, N, TIP>],
+) {
+    for form in forms {
+        let run = form.derivatives;
+        Row::of::<T, B, N>("forward_dynamics_derivatives", form.name, "full", true).measure(
+            run as usize,
+            asks,
+            |ask| run(&ask.state, &ask.state.qdd, &RIGID_BODY),
+        );
+    }
 }
 
 /// Measures the rows of these forms. Torques are the states' accelerations: any will do, since the
@@ -112,9 +129,6 @@ pub fn run<'a, T: Robot<B, N, N>, const B: usize, const N: usize, const TIP: usi
         });
     }
     for form in forms {
-        let run = form.derivatives;
-        row(form, "forward_dynamics_derivatives", true)
-            .measure(run as usize, asks, |ask| run(&ask.state, &ask.state.qdd, scene));
         let (inside, precomputed) = (form.jacobian, form.jacobian_before);
         row(form, "jacobian", true)
             .measure(inside as usize, asks, |ask| inside(&ask.state.q, OnBody, LocalWorldAligned));

@@ -36,24 +36,39 @@ pub fn run<T: Robot<B, N, N>, const B: usize, const N: usize>() -> ! {
     done()
 }
 
-/// Inverse dynamics and its derivatives of a robot with joints of several coordinates, by the
-/// engine.
-pub fn free<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>() {
+/// States of a robot with joints of several coordinates.
+fn free_asks<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>()
+-> [(State<f32, Q, V>, JointTrig<f32, Q>); STATES] {
     let mut number = numbers();
-    let asks: [(State<f32, Q, V>, JointTrig<f32, Q>); STATES] = [(); STATES].map(|()| {
+    [(); STATES].map(|()| {
         let q = [(); Q].map(|()| number(3.0));
         let [qd, qdd] = [3.0, 10.0].map(|bound| [(); V].map(|()| number(bound)));
         (State { q, qd, qdd }, Core::<T>::joint_trig(&q))
-    });
-    let row = |algorithm| {
-        let (robot, form, inputs) = (T::MODEL.name, "engine", "full");
-        Row { robot, algorithm, form, inputs, trig: false, joints: V }
-    };
+    })
+}
+
+fn free_row<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>(
+    algorithm: &'static str,
+) -> Row<'static> {
+    let (robot, form, inputs) = (T::MODEL.name, "engine", "full");
+    Row { robot, algorithm, form, inputs, trig: false, joints: V }
+}
+
+/// Its inverse dynamics, by the engine.
+pub fn free_torques<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>() {
     let run: fn(_, &RigidBody) -> [f32; V] = Engine::<T>::rnea;
-    row("rnea").measure(run as usize, &asks, |(at, trig)| run(trig.with(at), &RIGID_BODY));
+    let asks = free_asks::<T, B, Q, V>();
+    free_row::<T, B, Q, V>("rnea")
+        .measure(run as usize, &asks, |(at, trig)| run(trig.with(at), &RIGID_BODY));
+}
+
+/// And their derivatives.
+pub fn free<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>() {
+    free_torques::<T, B, Q, V>();
     let run: fn(_, &RigidBody) -> TorqueGradient<f32, V> = Engine::<T>::rnea_derivatives;
-    let row = row("rnea_derivatives");
-    row.measure(run as usize, &asks, |(at, trig)| run(trig.with(at), &RIGID_BODY));
+    let asks = free_asks::<T, B, Q, V>();
+    free_row::<T, B, Q, V>("rnea_derivatives")
+        .measure(run as usize, &asks, |(at, trig)| run(trig.with(at), &RIGID_BODY));
 }
 
 /// Inverse dynamics in both forms.

@@ -15,9 +15,12 @@ pub mod effects;
 pub mod estimators;
 pub mod forward;
 pub mod inverse;
+pub mod laws;
 pub mod loaded;
 pub mod momentum;
 pub mod row;
+pub mod so101;
+pub mod tips;
 
 use cortex_m_semihosting::debug;
 use dynamics_core::Core;

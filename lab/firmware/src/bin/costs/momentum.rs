@@ -24,7 +24,7 @@ pub fn both<T: Robot<B, N, N>, const B: usize, const N: usize>(asks: &[Ask<N>; S
 
 /// Inverse dynamics with all friction, the observer's residual with the same friction, and the
 /// wrench at the tip.
-fn observer<T: Robot<B, N, N>, const B: usize, const N: usize>(asks: &[Ask<N>; STATES]) {
+pub fn observer<T: Robot<B, N, N>, const B: usize, const N: usize>(asks: &[Ask<N>; STATES]) {
     let row = |algorithm, inputs, trig| Row::of::<T, B, N>(algorithm, "engine", inputs, trig);
     let (torque, width) = ([2.0; N], Width::new(0.05));
     let friction = (Viscous([0.5; N]), Coulomb { torque, width });

@@ -82,9 +82,6 @@ pub fn print<T: Compared<B, N, W>, const B: usize, const N: usize, const W: usiz
     let way = ticks.map(|tick| labelled(way.at(tick.saturating_sub(REST))));
     let way: Vec<_> = way.collect();
     yardsticks::print::<T, B, N>(full_scale, &way);
-    if !own {
-        yardsticks::print_speeds::<T, B, N>(full_scale);
-    }
     let (kind, robot) = ("inverse", T::MODEL.name);
     ways(&mut Bench { kind, robot, own, full_scale, floor, states, way });
 }

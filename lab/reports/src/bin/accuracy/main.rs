@@ -6,7 +6,6 @@
 //! |---|---|
 //! | `inverse` | torque errors of a way along the robot's trajectory, and over states anywhere, N·m |
 //! | `yardstick` | torque errors that an encoder, parameters and friction leave, N·m |
-//! | `speed` | torque errors of a way that leaves out velocity products, by the joints' speed, N·m |
 //! | `simulation` | trajectory error in the first second, rad, and energy bias_acceleration, J/s, of a way with a length of step, µs |
 //! | `oracle` | the error of the f64 reference itself |
 //!

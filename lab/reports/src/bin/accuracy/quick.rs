@@ -1,6 +1,5 @@
-//! The errors of single changes to the default way to compute a torque: what the bin `accuracy`
-//! prints of them, from less to build; and of the generated code, as it is printed. Arguments name
-//! the robots; none names all.
+//! The errors of the generated code, as it is printed, and those of the reference. Arguments name the
+//! robots; none names all.
 
 mod inverse;
 /// Written by `cargo xtask accuracy`.
@@ -12,14 +11,12 @@ mod statistics;
 mod yardsticks;
 
 use dynamics_core::robots::{A1Leg, Panda, Ur5e};
-use fixtures::accuracy::list;
 
 macro_rules! print {
     ($($robot:ident, $b:literal, $n:literal, $w:literal, $name:ident;)*) => {
         let requested: Vec<String> = std::env::args().skip(1).collect();
         $(if requested.is_empty() || requested.iter().any(|robot| robot == stringify!($name)) {
             inverse::print::<$robot, $b, $n, $w>(|bench| {
-                list::single::<$robot, $b, $n>(bench);
                 bench.kind = "generated";
                 printed::$name(bench);
             });

@@ -1,18 +1,16 @@
 //! Other torque errors, those of measurement and identification, for comparison with those of the
-//! computation: along the robot's way, in f64, so that nothing of the computation is in them. And
-//! what leaving out the velocity products loses, against the joints' speed: a slow arm does not
-//! need them.
+//! computation: along the robot's way, in f64, so that nothing of the computation is in them.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
+use dynamics_core::Core;
 use dynamics_core::algorithms::rnea;
-use dynamics_core::effects::{Gravity, Inertia, RIGID_BODY};
+use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::model::{Calibrated, Robot, model};
-use dynamics_core::{Core, Engine};
 use host_tests::random::{random_numbers, within};
 use serde_json::json;
 
-use super::problem::{Problem, drawn};
+use super::problem::Problem;
 use super::statistics::{Errors, widened};
 
 /// Steps of an encoder in a turn: 14 bits.
@@ -24,11 +22,6 @@ const DRAWINGS: usize = 20;
 /// Share of a joint's greatest torque that friction takes at its greatest speed: assumed, of the
 /// order of harmonic drives.
 const FRICTION: f64 = 0.1;
-
-/// rad/s: every joint's speed lies within ± this.
-const SPEEDS: [f64; 7] = [0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 3.0];
-
-const STATES: usize = 1000;
 
 /// Prints a line for each of them.
 pub fn print<T: Robot<B, N, N>, const B: usize, const N: usize>(
@@ -89,19 +82,4 @@ fn inertial<T: Robot<B, N, N>, const B: usize, const N: usize>(
         });
     let worst = drawings.max_by(|a, b| a.rms().total_cmp(&b.rms()));
     worst.expect("some drawings")
-}
-
-/// Prints a line for each speed.
-pub fn print_speeds<T: Robot<B, N, N>, const B: usize, const N: usize>(full_scale: f64) {
-    let mut random = random_numbers();
-    for speed in SPEEDS {
-        let errors = Errors::of((0..STATES).map(|_| {
-            let state = drawn::<N>(&mut random, [PI, speed, 10.0]);
-            let without = Engine::<T>::rnea(&state, &(Gravity::EARTH, Inertia));
-            let truth = Core::<T>::rnea(&widened(&state), &RIGID_BODY);
-            (without.map(f64::from), truth)
-        }));
-        let line = json!({"key": "model=no_coriolis", "speed": speed});
-        errors.print(T::MODEL.name, "speed", [full_scale, 0.0], line);
-    }
 }

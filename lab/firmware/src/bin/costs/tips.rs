@@ -1,17 +1,14 @@
-//! The cost of M, forward dynamics and Jacobians on the UR5e, and of a motion of its tip.
-#![no_std]
-#![no_main]
+//! A motion of the UR5e's tip.
 
-mod costs;
-
-use costs::row::Row;
-use costs::{Ask, STATES, asks};
 use dynamics_core::Engine;
 use dynamics_core::algorithms::frame::LocalWorldAligned;
 use dynamics_core::model::OnBody;
+use dynamics_core::robots::Ur5e;
 use dynamics_core::spatial::Motion;
 use motion_control::{ConfigError, MotionLimits, TipGoal, TipMotion, TipMotionConfig, TipStatus};
-use robots::Ur5e;
+
+use super::row::Row;
+use super::{Ask, STATES};
 
 const TIP: usize = 5;
 
@@ -32,7 +29,7 @@ fn to_goal(tip: &mut TipMotion<f32, 6>, goal: &TipGoal<f32>) -> TipStatus {
 }
 
 /// The motion of a free arm, and of one whose joints all come to the ends of their ranges.
-fn tips(asks: &[Ask<6>; STATES]) -> Result<(), ConfigError> {
+pub fn rows(asks: &[Ask<6>; STATES]) -> Result<(), ConfigError> {
     let goals = asks.each_ref().map(|ask| {
         let [pose] = Engine::<Ur5e>::poses_of(&ask.trig, OnBody::<TIP>);
         TipGoal { pose, gain: 4.0, linear: 0.5, angular: 1.0 }
@@ -66,12 +63,3 @@ fn tips(asks: &[Ask<6>; STATES]) -> Result<(), ConfigError> {
     }
     Ok(())
 }
-
-fn run() -> ! {
-    if tips(&asks::<Ur5e, 6, 6, STATES>()).is_err() {
-        costs::done()
-    }
-    costs::forward::both::<Ur5e, 6, 6, TIP>()
-}
-
-costs::main!(run());

@@ -1,31 +1,29 @@
-//! The cost of control laws and the regressor on the UR5e, beside inverse dynamics.
-#![no_std]
-#![no_main]
+//! Control laws and the regressor on the UR5e.
 
-mod costs;
-
-use costs::row::Row;
-use costs::{Ask, STATES};
 use dynamics_core::algorithms::frame::LocalWorldAligned;
 use dynamics_core::algorithms::jacobian_rows;
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::model::{OnBody, Static};
+use dynamics_core::robots::Ur5e;
 use dynamics_core::state::{ArmState, State};
 use dynamics_core::trig::sin_cos;
 use dynamics_core::{Core, Engine};
 use motion_control::*;
 
+use super::row::Row;
+use super::{Ask, STATES};
+
 const TIP: usize = 5;
 
 /// The row of a law under all effects, with sines and cosines inside or outside.
 fn row(algorithm: &'static str, form: &'static str, trig: bool) -> Row<'static> {
-    Row::of::<robots::Ur5e, 6, 6>(algorithm, form, "full", trig)
+    Row::of::<Ur5e, 6, 6>(algorithm, form, "full", trig)
 }
 
 #[inline(never)]
 fn slotine_li(gains: &PassivityGains<f32, 6>, at: &ArmState<f32, 6>) -> [f32; 6] {
     let estimate = Estimate { q: at.q, qd: at.qdd };
-    passivity_based_torque(&Static::<robots::Ur5e>::NEW, gains, at, &estimate, &RIGID_BODY)
+    passivity_based_torque(&Static::<Ur5e>::NEW, gains, at, &estimate, &RIGID_BODY)
 }
 
 #[inline(never)]
@@ -48,14 +46,14 @@ fn detected(detector: &mut ContactDetector<f32, 6>, at: &ArmState<f32, 6>) -> bo
 /// All of a Cartesian impedance: inverse dynamics, Jacobian, M with its factors and the law.
 #[inline(never)]
 fn impedance(law: &mut CartesianImpedance<f32, 6>, ask: &Ask<6>) -> [f32; 6] {
-    let columns = Engine::<robots::Ur5e>::jacobian(&ask.trig, OnBody::<TIP>, LocalWorldAligned);
+    let columns = Engine::<Ur5e>::jacobian(&ask.trig, OnBody::<TIP>, LocalWorldAligned);
     let rows = jacobian_rows(&columns);
-    let m = Engine::<robots::Ur5e>::crba(&ask.trig, &RIGID_BODY);
-    let Ok(factors) = Engine::<robots::Ur5e>::ltdl(&m) else {
+    let m = Engine::<Ur5e>::crba(&ask.trig, &RIGID_BODY);
+    let Ok(factors) = Engine::<Ur5e>::ltdl(&m) else {
         return [0.0; 6];
     };
-    let solve = |tau: &_| Engine::<robots::Ur5e>::solve(&factors, tau);
-    let bias = Engine::<robots::Ur5e>::rnea(ask.trig.with(&ask.state), &RIGID_BODY);
+    let solve = |tau: &_| Engine::<Ur5e>::solve(&factors, tau);
+    let bias = Engine::<Ur5e>::rnea(ask.trig.with(&ask.state), &RIGID_BODY);
     let deviation = TaskDeviation { position: ask.state.qd, velocity: ask.state.qdd };
     let torque = law.torque(&rows, solve, &deviation, &bias, &[0.0; 6]);
     torque.map_or([0.0; 6], |torque| torque.tau)
@@ -66,7 +64,7 @@ fn around(start: &ArmState<f32, 6>) -> [Ask<6>; STATES] {
     core::array::from_fn(|k| {
         let (sin, cos) = sin_cos(core::f32::consts::TAU * k as f32 / STATES as f32);
         let q = core::array::from_fn(|i| start.q[i] + 0.015 * [sin, cos][i % 2]);
-        let (state, trig) = (State { q, ..*start }, Core::<robots::Ur5e>::joint_trig(&q));
+        let (state, trig) = (State { q, ..*start }, Core::<Ur5e>::joint_trig(&q));
         Ask { state, trig }
     })
 }
@@ -82,7 +80,7 @@ fn laws(asks: &[Ask<6>; STATES]) -> Result<(), ConfigError> {
     })?;
     // Those that jump are the way in: from one posture to any other.
     for (inputs, asks) in [("full", &around(&asks[0].state)), ("jumps", asks)] {
-        let row = Row::of::<robots::Ur5e, 6, 6>("impedance", "engine", inputs, false);
+        let row = Row::of::<Ur5e, 6, 6>("impedance", "engine", inputs, false);
         row.measure(impedance as *const () as usize, asks, |ask| impedance(&mut law, ask));
     }
     let spring = LimitedSpring { stiffness: [300.0; 6], damping: [20.0; 6], torque: [40.0; 6] };
@@ -117,17 +115,17 @@ fn laws(asks: &[Ask<6>; STATES]) -> Result<(), ConfigError> {
 
 #[inline(never)]
 fn regressor(at: &ArmState<f32, 6>) -> [[[f32; 10]; 6]; 6] {
-    Core::<robots::Ur5e>::regressor(at, &RIGID_BODY)
+    Core::<Ur5e>::regressor(at, &RIGID_BODY)
 }
 
 #[inline(never)]
 fn regressor_columns(at: &ArmState<f32, 6>) -> [[f32; 10]; 6] {
-    Core::<robots::Ur5e>::regressor_columns(at, &RIGID_BODY, TIP)
+    Core::<Ur5e>::regressor_columns(at, &RIGID_BODY, TIP)
 }
 
 #[inline(never)]
 fn regressor_row(at: &ArmState<f32, 6>) -> [[f32; 10]; 6] {
-    Core::<robots::Ur5e>::regressor_row(at, &RIGID_BODY, 0)
+    Core::<Ur5e>::regressor_row(at, &RIGID_BODY, 0)
 }
 
 fn regressors(asks: &[Ask<6>; STATES]) {
@@ -201,12 +199,12 @@ fn goals(asks: &[Ask<6>; STATES]) {
     let started = goal.set_from(0, &State::at([0.0; 6]), &[1.5; 6]);
     let (mut tick, mut spreading) = (started.unwrap_or(0) - 250, (goal, None));
     let farther = |tick: u32| core::array::from_fn(|j| 1.5 + 1e-5 * (tick * (j as u32 + 1)) as f32);
-    Row::of::<robots::Ur5e, 6, 6>("moving_goal", "law", "longest", false).measure(
+    Row::of::<Ur5e, 6, 6>("moving_goal", "law", "longest", false).measure(
         moving_goal as *const () as usize,
         &[(goal, farther(tick))],
         |(goal, to)| moving_goal(&mut goal.clone(), tick, to),
     );
-    Row::of::<robots::Ur5e, 6, 6>("moving_goal", "law", "spread", false).measure(
+    Row::of::<Ur5e, 6, 6>("moving_goal", "law", "spread", false).measure(
         spread as *const () as usize,
         &[(); STATES],
         |()| {
@@ -227,7 +225,7 @@ fn paths(asks: &[Ask<6>; STATES]) {
         friction: [JointFriction::NONE; 6],
     };
     let fitted = path.fit(&points, &[0.1; 6], &[0.0; 6]).is_ok();
-    let inverse = |state: &ArmState<f32, 6>| Core::<robots::Ur5e>::rnea(state, &RIGID_BODY);
+    let inverse = |state: &ArmState<f32, 6>| Core::<Ur5e>::rnea(state, &RIGID_BODY);
     let Ok(motion) = TimedPath::new(&path, 1e-3, &limits, inverse) else {
         return;
     };
@@ -245,14 +243,10 @@ fn paths(asks: &[Ask<6>; STATES]) {
     });
 }
 
-fn run() -> ! {
-    let asks = costs::asks::<robots::Ur5e, 6, 6, STATES>();
-    if laws(&asks).is_ok() {
-        regressors(&asks);
-        paths(&asks);
-        goals(&asks);
+pub fn rows(asks: &[Ask<6>; STATES]) {
+    if laws(asks).is_ok() {
+        regressors(asks);
+        paths(asks);
+        goals(asks);
     }
-    costs::done()
 }
-
-costs::main!(run());

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::{env, fs};
 
 /// The folders of the crates of the repository that a project may use.
-const CRATES: [&str; 4] = ["drivers", "dynamics-core", "motion-control", "telemetry"];
+const CRATES: [&str; 5] = ["c", "drivers", "dynamics-core", "motion-control", "telemetry"];
 /// The files of a crate that are carried beside its sources.
 const BESIDE: [&str; 3] = ["build.rs", "Cargo.toml", "NOTATION.md"];
 /// The files of the repository that `src/project/libraries.rs` names by their place here.
@@ -47,7 +47,11 @@ fn main() -> Result<(), Box<dyn Error>> {
                 files.push(beside);
             }
         }
-        walk(&folder.join("src"), &mut files)?;
+        for below in ["src", "include"].map(|name| folder.join(name)) {
+            if below.exists() {
+                walk(&below, &mut files)?;
+            }
+        }
         files.sort();
         writeln!(list, "Crate {{ folder: {name:?}, files: &[")?;
         for file in &files {

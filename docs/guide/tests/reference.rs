@@ -89,9 +89,9 @@ fn items(code: &str) -> Vec<&str> {
 
 /// Everything of a new project in C, which names what its users see: constants, settings, statuses.
 static PROJECT_IN_C: LazyLock<String> = LazyLock::new(|| {
-    let template = root().join("tools/robot-import/template/c");
+    let folders = ["tools/robot-import/template/c", "c"].map(|folder| root().join(folder));
     let named = ["rs", "liquid", "h", "c", "cmake", "toml"];
-    let all = named.iter().flat_map(|extension| files(&template, extension));
+    let all = folders.iter().flat_map(|of| named.iter().flat_map(|extension| files(of, extension)));
     all.map(|file| file.display().to_string() + &read_to_string(&file).expect("text")).collect()
 });
 

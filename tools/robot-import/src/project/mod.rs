@@ -1,8 +1,8 @@
 //! A project outside the repository: firmware in Rust, for a board or simulated, or a static
 //! library for C.
 //!
-//! The templates are in `template/rust`, `template/c` and `template/board`; the first two are
-//! templates of `cargo generate` as well. A placeholder is replaced by text, nothing else: no
+//! The templates are in `template/rust`, which is one of `cargo generate` as well, `template/c` and
+//! `template/board`; the header of C is that of the crate `dynamics-c`. A placeholder is replaced by text, nothing else: no
 //! condition, no loop. Lines of a board's files are left out if they are for joints that the robot
 //! does not have.
 
@@ -344,6 +344,7 @@ fn values(project: &Project) -> Result<Vec<Value>, ProjectError> {
         ("crate_name", crate_name),
         ("crate_name | upcase", prefix),
         ("library", dependency(DYNAMICS)?),
+        ("dynamics_c", dependency("c")?),
         ("motion_control", dependency("motion-control")?),
         ("joint_drivers", dependency("drivers")?),
         ("machine_link", optional(&dependency("telemetry")?)),

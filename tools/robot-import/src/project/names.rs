@@ -15,7 +15,7 @@ const RESERVED: &str = "
     alloc core proc_macro std test
     bool char f128 f16 f32 f64 i128 i16 i32 i64 i8 isize str u128 u16 u32 u64 u8 usize
     build deps examples incremental
-    cortex_m cortex_m_rt cortex_m_semihosting dynamics_core embedded_hal joint_drivers machine_link motion_control watch
+    cortex_m cortex_m_rt cortex_m_semihosting dynamics_c dynamics_core embedded_hal joint_drivers machine_link motion_control watch
     defmt defmt_rtt embassy_executor embassy_rp embassy_sync embassy_time embedded_hal_bus panic_halt rtic stm32f4xx_hal";
 
 /// Fails unless the name can be that of a crate, and in lower case a prefix of C functions.

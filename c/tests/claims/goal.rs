@@ -1,12 +1,11 @@
 //! Goals that move as C calls them.
 
-use ::{{crate_name}}::control::{Config, Where, field};
-use ::{{crate_name}}::memory::Memory;
-use ::{{crate_name}}::scene::N;
-use ::{{crate_name}}::*;
-
+use super::Memory;
 use super::controller::{config, ends, moving, report, there_and_back, tick};
 use super::numbers;
+use crate::library::{self as c, *};
+use crate::scene::N;
+use dynamics_c::{field, status};
 
 pub fn limited() -> Config {
     Config { speed: [2.0; N], acceleration: [20.0; N], ..config() }
@@ -14,7 +13,7 @@ pub fn limited() -> Config {
 
 pub fn goal(config: &Config, jerk: f32) -> Goal {
     let mut goal = numbers();
-    assert_eq!({{crate_name}}_goal_init(Some(&mut goal), Some(config), Some(&[jerk; N]), None), status::OK);
+    assert_eq!(c::goal_init(Some(&mut goal), Some(config), Some(&[jerk; N]), None), status::OK);
     goal
 }
 
@@ -31,21 +30,37 @@ fn a_moving_arm_takes_a_goal_at_any_tick_and_arrives() {
     }
     let (mut at, mut ticks, mut last) = (Where::NOWHERE, 0, report(handle).reference);
     assert!(last.qd.iter().any(|qd| qd.abs() > 0.1), "{last:?}");
-    assert_eq!({{crate_name}}_controller_move(handle, Some(&there_and_back(&config, 500)), Some(&mut at)), status::STATE);
+    assert_eq!(
+        c::controller_move(handle, Some(&there_and_back(&config, 500)), Some(&mut at)),
+        status::STATE
+    );
     // The goal moves while the arm moves to it.
     for (target, most) in [(away, 200), (home, 70), (away, u32::MAX)] {
-        let found = {{crate_name}}_controller_goal(handle, Some(&mut motion), Some(&target), Some(&mut ticks), Some(&mut at));
+        let found = c::controller_goal(
+            handle,
+            Some(&mut motion),
+            Some(&target),
+            Some(&mut ticks),
+            Some(&mut at),
+        );
         assert_eq!(found, status::OK);
         for k in 0..ticks.min(most) {
             let mut next = State::at([7.0; N]);
-            assert_eq!({{crate_name}}_goal_state(Some(&motion), k, Some(&mut next)), status::OK);
+            assert_eq!(c::goal_state(Some(&motion), k, Some(&mut next)), status::OK);
             for joint in 0..N {
-                assert!(k > 0 || next.q[joint] == last.q[joint] && next.qd[joint] == last.qd[joint], "{next:?} {last:?}");
+                assert!(
+                    k > 0 || next.q[joint] == last.q[joint] && next.qd[joint] == last.qd[joint],
+                    "{next:?} {last:?}"
+                );
                 assert!(next.qd[joint].abs() <= 2.0 && next.qdd[joint].abs() <= 20.0, "{next:?}");
                 assert!((next.qdd[joint] - last.qdd[joint]).abs() <= 0.201, "{next:?} {last:?}");
             }
-            assert_eq!({{crate_name}}_goal_state(Some(&motion), k + 1, Some(&mut next)), status::OK);
-            assert_eq!({{crate_name}}_controller_follow(handle, Some(&next), Some(&mut at)), status::OK, "{at:?}");
+            assert_eq!(c::goal_state(Some(&motion), k + 1, Some(&mut next)), status::OK);
+            assert_eq!(
+                c::controller_follow(handle, Some(&next), Some(&mut at)),
+                status::OK,
+                "{at:?}"
+            );
             assert_eq!(tick(&mut memory, &q).fault, 0);
             (last, q) = (report(handle).reference, report(handle).reference.q);
         }
@@ -56,21 +71,51 @@ fn a_moving_arm_takes_a_goal_at_any_tick_and_arrives() {
     let mut next = State::at([7.0; N]);
     for torque in [None, Some([1e9; N])] {
         let (start, steps) = (ticks + 40, if torque.is_some() { 3 * N + 1 } else { 1 });
-        let begin = {{crate_name}}_controller_goal_begin(handle, Some(&motion), Some(&mut change), start, Some(&home), torque.as_ref(), Some(&mut at));
+        let begin = c::controller_goal_begin(
+            handle,
+            Some(&motion),
+            Some(&mut change),
+            start,
+            Some(&home),
+            torque.as_ref(),
+            Some(&mut at),
+        );
         assert_eq!(begin, status::OK);
         let (mut moved, mut arrival) = (motion, 0);
         for tick in (ticks..=start).flat_map(|tick| core::iter::repeat_n(tick, steps)) {
-            let found = {{crate_name}}_controller_goal_advance(handle, Some(&mut moved), Some(&mut change), tick, Some(&mut arrival), Some(&mut at));
+            let found = c::controller_goal_advance(
+                handle,
+                Some(&mut moved),
+                Some(&mut change),
+                tick,
+                Some(&mut arrival),
+                Some(&mut at),
+            );
             assert_eq!((found, arrival > 0), (status::OK, tick == start), "{at:?}");
         }
         for (tick, q) in [(start, away), (arrival, home)] {
-            assert_eq!({{crate_name}}_goal_state(Some(&moved), tick, Some(&mut next)), status::OK);
+            assert_eq!(c::goal_state(Some(&moved), tick, Some(&mut next)), status::OK);
             assert_eq!((next.q, next.qd), (q, [0.0; N]));
         }
-        let late = {{crate_name}}_controller_goal_advance(handle, Some(&mut moved), Some(&mut change), start + 1, None, Some(&mut at));
+        let late = c::controller_goal_advance(
+            handle,
+            Some(&mut moved),
+            Some(&mut change),
+            start + 1,
+            None,
+            Some(&mut at),
+        );
         assert_eq!(late, status::LATE);
     }
-    let weak = {{crate_name}}_controller_goal_begin(handle, Some(&motion), Some(&mut change), 9, Some(&home), Some(&[0.0; N]), Some(&mut at));
+    let weak = c::controller_goal_begin(
+        handle,
+        Some(&motion),
+        Some(&mut change),
+        9,
+        Some(&home),
+        Some(&[0.0; N]),
+        Some(&mut at),
+    );
     assert_eq!((weak, at.field, at.joint), (status::TORQUE_LIMIT, field::TORQUE, 0));
 }
 
@@ -85,7 +130,7 @@ fn wrong_goals_are_named_and_a_stopped_arm_starts_where_it_is() {
     }
     let (handle, home) = (memory.handle(), ends(&config)[0]);
     let mut refused = |goal: &mut Goal, q: [f32; N]| {
-        let found = {{crate_name}}_controller_goal(handle, Some(goal), Some(&q), None, Some(&mut at));
+        let found = c::controller_goal(handle, Some(goal), Some(&q), None, Some(&mut at));
         (found, at.field)
     };
     let mut wrong = home;
@@ -93,15 +138,20 @@ fn wrong_goals_are_named_and_a_stopped_arm_starts_where_it_is() {
     assert_eq!(refused(&mut slow, wrong), (status::NOT_FINITE, field::POSITION));
     assert_eq!(refused(&mut slow, home), (status::TOO_FAST, field::VELOCITY));
     assert_eq!(refused(&mut numbers(), home).0, status::MEMORY);
-    assert_eq!({{crate_name}}_controller_off(handle), status::OK);
+    assert_eq!(c::controller_off(handle), status::OK);
     tick(&mut memory, &home);
     tick(&mut memory, &home);
     assert_eq!(refused(&mut slow, home), (status::OK, field::NONE));
     let mut state = State::at([7.0; N]);
-    assert_eq!({{crate_name}}_goal_state(Some(&slow), 0, Some(&mut state)), status::OK);
+    assert_eq!(c::goal_state(Some(&slow), 0, Some(&mut state)), status::OK);
     assert_eq!((state.q, state.qd), (report(handle).q, [0.0; N]));
-    for (config, jerk, field) in [(config, f32::NAN, field::JERK), (Config { tick: 0.0, ..config }, 1.0, field::TICK)] {
-        let found = {{crate_name}}_goal_init(Some(&mut slow), Some(&config), Some(&[jerk; N]), Some(&mut at));
-        assert_eq!((found, at.field, at.joint), (status::CONFIG, field, if field == field::JERK { 0 } else { -1 }));
+    for (config, jerk, field) in
+        [(config, f32::NAN, field::JERK), (Config { tick: 0.0, ..config }, 1.0, field::TICK)]
+    {
+        let found = c::goal_init(Some(&mut slow), Some(&config), Some(&[jerk; N]), Some(&mut at));
+        assert_eq!(
+            (found, at.field, at.joint),
+            (status::CONFIG, field, if field == field::JERK { 0 } else { -1 })
+        );
     }
 }

@@ -1,9 +1,10 @@
 //! Wrenches in joints and of loads against each other, and a sensor's load that is found again.
 
+use crate::library::{self as c, *};
+use crate::scene::{self, N};
+use dynamics_c::status;
 use dynamics_core::Core;
 use dynamics_core::glam::Vec3;
-use ::{{crate_name}}::scene::{Arm, EFFECTS, N, TOOL_BODY};
-use ::{{crate_name}}::*;
 
 use super::{LOAD, TILTED, close, close_for, numbers, probe};
 
@@ -13,7 +14,8 @@ pub fn six(wrench: &Wrench) -> [f32; 6] {
 
 fn joint(tool: Option<&Tool>, body: usize) -> ([f32; N], Wrench) {
     let (mut tau, mut wrench) = ([7.0; N], Wrench::ZERO);
-    let found = {{crate_name}}_joint_wrench(Some(&probe()), tool, body as i32, Some(&mut tau), Some(&mut wrench));
+    let found =
+        c::joint_wrench(Some(&probe()), tool, body as i32, Some(&mut tau), Some(&mut wrench));
     assert_eq!(found, status::OK);
     (tau, wrench)
 }
@@ -21,30 +23,31 @@ fn joint(tool: Option<&Tool>, body: usize) -> ([f32; N], Wrench) {
 /// The wrench of a load on a body, and the tool that has it.
 fn of_tool(state: &State, body: usize, load: &Load, gravity: &[f32; 3]) -> (Wrench, Tool) {
     let (mut wrench, mut tool) = (Wrench::ZERO, Tool::default());
-    assert_eq!({{crate_name}}_tool_set(Some(&mut tool), body as i32, Some(load), Some(gravity)), status::OK);
-    assert_eq!({{crate_name}}_tool_wrench(Some(state), Some(&tool), Some(&mut wrench)), status::OK);
+    assert_eq!(c::tool_set(Some(&mut tool), body as i32, Some(load), Some(gravity)), status::OK);
+    assert_eq!(c::tool_wrench(Some(state), Some(&tool), Some(&mut wrench)), status::OK);
     (wrench, tool)
 }
 
 #[test]
 fn wrenches_in_joints_are_those_of_the_textbook_with_what_a_tool_adds() {
-    let all = Core::<Arm>::rnea_and_wrenches(&probe(), &EFFECTS);
+    let all = Core::<scene::Arm>::rnea_and_wrenches(&probe(), &scene::EFFECTS);
     for (body, expected) in all.wrenches.iter().enumerate() {
         let (tau, wrench) = joint(None, body);
         close(&tau, &all.tau);
         close(&six(&wrench), &six(expected));
         // The wrench in its own joint with a tool is that without it and the tool's.
-        let [(zero, light), (added, heavy)] = [Load::default(), LOAD].map(|load| of_tool(&probe(), body, &load, &TILTED));
+        let [(zero, light), (added, heavy)] =
+            [Load::default(), LOAD].map(|load| of_tool(&probe(), body, &load, &TILTED));
         let sum = joint(Some(&light), body).1 + added - zero;
         close(&six(&joint(Some(&heavy), body).1), &six(&sum));
     }
     let (mut tau, mut wrench) = ([7.0; N], Wrench::ZERO);
     for body in [-1, N as i32] {
-        let found = {{crate_name}}_joint_wrench(Some(&probe()), None, body, Some(&mut tau), Some(&mut wrench));
+        let found = c::joint_wrench(Some(&probe()), None, body, Some(&mut tau), Some(&mut wrench));
         assert_eq!((found, tau), (status::NO_BODY, [7.0; N]));
     }
-    let unset = {{crate_name}}_tool_wrench(Some(&probe()), Some(&Tool::default()), Some(&mut wrench));
-    assert_eq!((unset, {{crate_name}}_sensor_fit_load(None, None)), (status::TOOL, status::NULL));
+    let unset = c::tool_wrench(Some(&probe()), Some(&Tool::default()), Some(&mut wrench));
+    assert_eq!((unset, c::sensor_fit_load(None, None)), (status::TOOL, status::NULL));
 }
 
 #[test]
@@ -53,12 +56,15 @@ fn the_load_of_a_sensor_is_found_from_poses_at_rest() {
     let offset = Wrench::new(Vec3::new(0.2, -0.1, 0.05), Vec3::new(3.0, -2.0, 5.0));
     // A tool at rest: its gravity turns instead of its body.
     let state = State::at(probe().q);
-    let rot = Core::<Arm>::poses(&state.q)[TOOL_BODY].rot;
-    let shown = |gravity| of_tool(&state, TOOL_BODY, &LOAD, &gravity).0 + offset;
+    let rot = Core::<scene::Arm>::poses(&state.q)[scene::TOOL_BODY].rot;
+    let shown = |gravity| of_tool(&state, scene::TOOL_BODY, &LOAD, &gravity).0 + offset;
     let mut add = |gravity: [f32; 3], expected| {
         let here = rot.transpose() * Vec3::from(gravity);
-        let found = {{crate_name}}_sensor_fit_add(Some(&mut fit), Some(&here), Some(&shown(gravity)));
-        assert_eq!((found, {{crate_name}}_sensor_fit_load(Some(&fit), Some(&mut load))), (status::OK, expected));
+        let found = c::sensor_fit_add(Some(&mut fit), Some(&here), Some(&shown(gravity)));
+        assert_eq!(
+            (found, c::sensor_fit_load(Some(&fit), Some(&mut load))),
+            (status::OK, expected)
+        );
     };
     let (few, line) = (status::FEW_POSES, status::ONE_DIRECTION);
     [few, few, line, line].into_iter().for_each(|expected| add([0.0, 0.0, -9.81], expected));
@@ -69,8 +75,11 @@ fn the_load_of_a_sensor_is_found_from_poses_at_rest() {
     close_for(10.0, &six(&load.offset), &six(&offset));
     let (gravity, mut rest) = ([-4.0, 8.0, 1.0], Wrench::ZERO);
     let here = rot.transpose() * Vec3::from(gravity);
-    assert_eq!({{crate_name}}_sensor_at_rest(Some(&load), Some(&here), Some(&mut rest)), status::OK);
+    assert_eq!(c::sensor_at_rest(Some(&load), Some(&here), Some(&mut rest)), status::OK);
     close_for(10.0, &six(&rest), &six(&shown(gravity)));
-    let refused = {{crate_name}}_sensor_fit_add(Some(&mut fit), Some(&Vec3::NAN), Some(&rest));
-    assert_eq!((refused, {{crate_name}}_sensor_fit_load(Some(&fit), Some(&mut load))), (status::NOT_FINITE, status::OK));
+    let refused = c::sensor_fit_add(Some(&mut fit), Some(&Vec3::NAN), Some(&rest));
+    assert_eq!(
+        (refused, c::sensor_fit_load(Some(&fit), Some(&mut load))),
+        (status::NOT_FINITE, status::OK)
+    );
 }

@@ -1,29 +1,36 @@
 //! Inverse kinematics as C calls it.
 
-use ::{{crate_name}}::control::{Config, Where, field};
-use ::{{crate_name}}::scene::{N, TOOL_BODY};
-use ::{{crate_name}}::*;
-
 use super::controller::ends;
 use super::goal::limited;
 use super::{close_for, numbers};
+use crate::library::{self as c, *};
+use crate::scene::{self, N};
+use dynamics_c::{field, status};
 
 pub fn solver(config: &Config) -> PoseSolver {
-    PoseSolver { lower: config.lower, upper: config.upper, length: 0.3, tolerance: 1e-4, iterations: 500 }
+    PoseSolver {
+        lower: config.lower,
+        upper: config.upper,
+        length: 0.3,
+        tolerance: 1e-4,
+        iterations: 500,
+    }
 }
 
 fn pose(q: &[f32; N]) -> Pose {
     let mut pose = Pose::default();
-    assert_eq!({{crate_name}}_body_pose(Some(q), TOOL_BODY as i32, Some(&mut pose)), status::OK);
+    assert_eq!(c::body_pose(Some(q), scene::TOOL_BODY as i32, Some(&mut pose)), status::OK);
     pose
 }
 
 #[test]
 fn a_tip_moves_to_a_pose_within_limits_and_brakes_without_one() {
-    let (config, mut tip, mut at, mut why): (_, Tip, _, _) = (limited(), numbers(), Where::NOWHERE, Where::NOWHERE);
+    let (config, mut tip, mut at, mut why): (_, Tip, _, _) =
+        (limited(), numbers(), Where::NOWHERE, Where::NOWHERE);
     let ([home, away], mut now): (_, State) = (ends(&config), numbers());
     let mut init = |tip: &mut Tip, config: &Config, start: &State| {
-        let found = {{crate_name}}_tip_init(Some(tip), Some(config), Some(start), 0.01, 0.3, 0.0, Some(&mut at));
+        let found =
+            c::tip_init(Some(tip), Some(config), Some(start), 0.01, 0.3, 0.0, Some(&mut at));
         (found, at.field, at.joint)
     };
     let (start, last) = (State::at(home), N as i32 - 1);
@@ -31,10 +38,13 @@ fn a_tip_moves_to_a_pose_within_limits_and_brakes_without_one() {
     (wrong.0.acceleration[N - 1], wrong.1.qd[N - 1]) = (f32::INFINITY, f32::NAN);
     assert_eq!(init(&mut tip, &wrong.0, &start), (status::CONFIG, field::RANGE, last));
     assert_eq!(init(&mut tip, &config, &wrong.1), (status::NOT_FINITE, field::VELOCITY, last));
-    assert_eq!(init(&mut tip, &Config { tick: 0.0, ..config }, &start), (status::CONFIG, field::TIP, -1));
+    assert_eq!(
+        init(&mut tip, &Config { tick: 0.0, ..config }, &start),
+        (status::CONFIG, field::TIP, -1)
+    );
     let mut goal = pose(&away);
     let go = |tip: &mut Tip, goal: &Pose, now: &mut State| {
-        {{crate_name}}_tip_goal(Some(tip), Some(goal), 4.0, 1.0, 0.25, Some(now), None)
+        c::tip_goal(Some(tip), Some(goal), 4.0, 1.0, 0.25, Some(now), None)
     };
     assert_eq!(go(&mut tip, &goal, &mut now), status::MEMORY);
     assert_eq!(init(&mut tip, &config, &start), (status::OK, field::NONE, -1));
@@ -43,7 +53,10 @@ fn a_tip_moves_to_a_pose_within_limits_and_brakes_without_one() {
         assert_eq!(go(&mut tip, &goal, &mut now), status::OK);
         for joint in 0..N {
             let (q, qd) = (now.q[joint], now.qd[joint]);
-            assert!(q >= config.lower[joint] && q <= config.upper[joint] && qd.abs() <= 2.0, "{now:?}");
+            assert!(
+                q >= config.lower[joint] && q <= config.upper[joint] && qd.abs() <= 2.0,
+                "{now:?}"
+            );
             assert!((qd - before.qd[joint]).abs() <= 0.0201, "{now:?}");
         }
     }
@@ -52,7 +65,7 @@ fn a_tip_moves_to_a_pose_within_limits_and_brakes_without_one() {
     close_for(500.0, &found.position, &goal.position);
     // A rotation and a twist that are none: the joints brake.
     let mut step = |tip: &mut Tip, twist, now: &mut State| {
-        ({{crate_name}}_tip_step(Some(tip), Some(&[twist; 6]), Some(now), Some(&mut why)), why.field)
+        (c::tip_step(Some(tip), Some(&[twist; 6]), Some(now), Some(&mut why)), why.field)
     };
     assert_eq!(step(&mut tip, 1e3, &mut now).0, status::OK);
     assert!([field::SPEED, field::RANGE].contains(&step(&mut tip, 1e3, &mut now).1));
@@ -69,17 +82,17 @@ fn positions_of_a_pose_are_those_of_its_kinematics() {
     let config = limited();
     let [home, away] = ends(&config);
     let (solver, mut goal, mut q) = (solver(&config), pose(&away), home);
-    assert_eq!({{crate_name}}_solve_pose(Some(&solver), Some(&goal), Some(&mut q)), status::OK);
+    assert_eq!(c::solve_pose(Some(&solver), Some(&goal), Some(&mut q)), status::OK);
     let reached = pose(&q);
     close_for(50.0, reached.rotation.as_flattened(), goal.rotation.as_flattened());
     close_for(50.0, &reached.position, &goal.position);
     goal.position[0] += 100.0;
-    assert_eq!({{crate_name}}_solve_pose(Some(&solver), Some(&goal), Some(&mut q)), status::NOT_REACHED);
+    assert_eq!(c::solve_pose(Some(&solver), Some(&goal), Some(&mut q)), status::NOT_REACHED);
     assert!(q != away && pose(&q).position[0] >= reached.position[0] - 1e-3, "{q:?}");
     let before = q;
     goal.position[0] = f32::NAN;
-    assert_eq!({{crate_name}}_solve_pose(Some(&solver), Some(&goal), Some(&mut q)), status::NOT_FINITE);
+    assert_eq!(c::solve_pose(Some(&solver), Some(&goal), Some(&mut q)), status::NOT_FINITE);
     goal = Pose::default();
-    assert_eq!({{crate_name}}_solve_pose(Some(&solver), Some(&goal), Some(&mut q)), status::ROTATION);
+    assert_eq!(c::solve_pose(Some(&solver), Some(&goal), Some(&mut q)), status::ROTATION);
     assert_eq!(q, before);
 }

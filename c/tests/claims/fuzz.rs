@@ -1,12 +1,12 @@
 //! Numbers of all exponents into every function: what leaves with OK is finite, what does not leaves the output alone.
 //!
-//! `SAMPLES=1000000 cargo test` makes a million calls of each function; the numbers are the same in each run.
+//! `SAMPLES=1000000 cargo test -p dynamics-c` makes a million calls of each function; the numbers are the same in each run.
 
+use super::Memory;
+use crate::library::{self as c, *};
+use crate::scene::{self, N};
+use dynamics_c::{WayPoint, status};
 use dynamics_core::glam::Vec3;
-use ::{{crate_name}}::control::{Config, WayPointC, Where};
-use ::{{crate_name}}::memory::{BYTES, Memory};
-use ::{{crate_name}}::scene::{MOST_POINTS, N};
-use ::{{crate_name}}::*;
 
 use super::controller::{blank, config, ends, there_and_back};
 use super::goal::{goal, limited};
@@ -55,7 +55,7 @@ impl Random {
         if self.bits() & 1 == 0 {
             return self.finites();
         }
-        core::array::from_fn(|joint| self.up_to(check::RANGE[joint]))
+        core::array::from_fn(|joint| self.up_to(Exports::RANGE[joint]))
     }
 
     fn state(&mut self) -> State {
@@ -69,7 +69,7 @@ impl Random {
 }
 
 fn samples() -> u64 {
-    std::env::var("SAMPLES").map_or(100_000, |samples| samples.parse().expect("a number"))
+    std::env::var("SAMPLES").map_or(2_000, |samples| samples.parse().expect("a number"))
 }
 
 /// How often each function was called, and how often with OK.
@@ -78,7 +78,13 @@ struct Tally(std::collections::BTreeMap<&'static str, [u64; 2]>);
 
 impl Tally {
     /// Checks an output that was 42 before the call.
-    fn check(&mut self, name: &'static str, status: i32, output: &[f32], input: &dyn Fn() -> String) {
+    fn check(
+        &mut self,
+        name: &'static str,
+        status: i32,
+        output: &[f32],
+        input: &dyn Fn() -> String,
+    ) {
         let [calls, good] = self.0.entry(name).or_default();
         *calls += 1;
         if status == status::OK {
@@ -117,51 +123,61 @@ fn no_result_of_the_dynamics_is_other_than_finite() {
         // Half of the loads have a mass alone, and a fourth are ordinary, or none would be accepted.
         let point = Load { mass: load.mass.abs(), com: load.com, ..Load::default() };
         let load = if random.bits() & 1 == 0 { load } else { point };
-        let status = {{crate_name}}_tool_set(Some(&mut drawn), body, Some(&load), Some(&gravity));
+        let status = c::tool_set(Some(&mut drawn), body, Some(&load), Some(&gravity));
         // What a refused tool holds is that of no tool.
-        tally.check("tool_set", status, &[if status == status::OK { load.mass } else { 42.0 }], &input);
+        tally.check(
+            "tool_set",
+            status,
+            &[if status == status::OK { load.mass } else { 42.0 }],
+            &input,
+        );
         let ordinary = random.bits() & 3 == 0 || status != status::OK;
         let tool = if ordinary { &usual[random.below(N)] } else { &drawn };
 
         let mut out = [42.0; N];
-        tally.check("inverse_dynamics", {{crate_name}}_inverse_dynamics(at, Some(&mut out)), &out, &input);
+        tally.check("inverse_dynamics", c::inverse_dynamics(at, Some(&mut out)), &out, &input);
         out = [42.0; N];
-        tally.check("gravity", {{crate_name}}_gravity(q, Some(&mut out)), &out, &input);
+        tally.check("gravity", c::gravity(q, Some(&mut out)), &out, &input);
         out = [42.0; N];
-        let status = {{crate_name}}_forward_dynamics(at, given, Some(&mut out));
+        let status = c::forward_dynamics(at, given, Some(&mut out));
         tally.check("forward_dynamics", status, &out, &input);
         out = [42.0; N];
-        let status = {{crate_name}}_inverse_dynamics_with_tool(at, Some(tool), Some(&mut out));
+        let status = c::inverse_dynamics_with_tool(at, Some(tool), Some(&mut out));
         tally.check("inverse_dynamics_with_tool", status, &out, &input);
         out = [42.0; N];
-        let status = {{crate_name}}_gravity_with_tool(q, Some(tool), Some(&mut out));
+        let status = c::gravity_with_tool(q, Some(tool), Some(&mut out));
         tally.check("gravity_with_tool", status, &out, &input);
         out = [42.0; N];
-        let status = {{crate_name}}_forward_dynamics_with_tool(at, given, Some(tool), Some(&mut out));
+        let status = c::forward_dynamics_with_tool(at, given, Some(tool), Some(&mut out));
         tally.check("forward_dynamics_with_tool", status, &out, &input);
         let mut m = [[42.0; N]; N];
-        tally.check("inertia", {{crate_name}}_inertia(q, Some(&mut m)), m.as_flattened(), &input);
+        tally.check("inertia", c::inertia(q, Some(&mut m)), m.as_flattened(), &input);
         let mut by = [[[42.0; N]; N]; 2];
         let [by_q, by_qd] = &mut by;
-        let status = {{crate_name}}_inverse_dynamics_derivatives(at, Some(by_q), Some(by_qd));
-        tally.check("inverse_dynamics_derivatives", status, by.as_flattened().as_flattened(), &input);
+        let status = c::inverse_dynamics_derivatives(at, Some(by_q), Some(by_qd));
+        tally.check(
+            "inverse_dynamics_derivatives",
+            status,
+            by.as_flattened().as_flattened(),
+            &input,
+        );
         m = [[42.0; N]; N];
-        let status = {{crate_name}}_inertia_with_tool(q, Some(tool), Some(&mut m));
+        let status = c::inertia_with_tool(q, Some(tool), Some(&mut m));
         tally.check("inertia_with_tool", status, m.as_flattened(), &input);
         let mut j = [[42.0; N]; 6];
-        let status = {{crate_name}}_body_jacobian(q, body, Some(&mut j));
+        let status = c::body_jacobian(q, body, Some(&mut j));
         tally.check("body_jacobian", status, j.as_flattened(), &input);
         let mut pose = Pose { rotation: [[42.0; 3]; 3], position: [42.0; 3] };
-        let status = {{crate_name}}_body_pose(q, body, Some(&mut pose));
+        let status = c::body_pose(q, body, Some(&mut pose));
         tally.check("body_pose", status, pose.rotation.as_flattened(), &input);
         tally.check("body_pose", status, &pose.position, &input);
         out = [42.0; N];
         let blank = Wrench::new(Vec3::splat(42.0), Vec3::splat(42.0));
         let (mut wrench, set) = (blank, (random.bits() & 1 == 0).then_some(tool));
-        let status = {{crate_name}}_joint_wrench(at, set, body, Some(&mut out), Some(&mut wrench));
+        let status = c::joint_wrench(at, set, body, Some(&mut out), Some(&mut wrench));
         tally.check("joint_wrench", status, &[&out, &six(&wrench)[..]].concat(), &input);
         wrench = blank;
-        let status = {{crate_name}}_tool_wrench(at, Some(tool), Some(&mut wrench));
+        let status = c::tool_wrench(at, Some(tool), Some(&mut wrench));
         tally.check("tool_wrench", status, &six(&wrench), &input);
         let turn = random.up_to(100.0);
         let (sin, cos) = turn.sin_cos();
@@ -170,7 +186,7 @@ fn no_result_of_the_dynamics_is_other_than_finite() {
             attitude[random.below(3)][random.below(3)] = random.finite();
         }
         let mut field = [42.0; 3];
-        let status = {{crate_name}}_gravity_of_base(Some(&attitude), Some(&mut field));
+        let status = c::gravity_of_base(Some(&attitude), Some(&mut field));
         tally.check("gravity_of_base", status, &field, &input);
     }
     tally.print(&[]);
@@ -178,81 +194,130 @@ fn no_result_of_the_dynamics_is_other_than_finite() {
 
 #[test]
 fn no_load_of_a_sensor_and_no_thermal_limit_is_other_than_finite() {
-    let (mut random, mut tally, nothing) = (Random(0xfeed_5eed_0bad_cafe), Tally::default(), || String::new());
+    let (mut random, mut tally, nothing) =
+        (Random(0xfeed_5eed_0bad_cafe), Tally::default(), || String::new());
     let (mut fit, mut usual) = (numbers(), limits(None));
     for _ in 0..samples() {
         // A pose in ten is wild, and a fit has some five.
         let size = if random.below(10) == 0 { f32::MAX } else { 1e3 };
         fit = if random.below(5) == 0 { numbers() } else { fit };
         let mut three = || Vec3::from(core::array::from_fn(|_| random.up_to(size)));
-        let (gravity, measured, blank) = (three(), Wrench::new(three(), three()), Wrench::new(Vec3::splat(42.0), Vec3::splat(42.0)));
-        {{crate_name}}_sensor_fit_add(Some(&mut fit), Some(&gravity), Some(&measured));
+        let (gravity, measured, blank) = (
+            three(),
+            Wrench::new(three(), three()),
+            Wrench::new(Vec3::splat(42.0), Vec3::splat(42.0)),
+        );
+        c::sensor_fit_add(Some(&mut fit), Some(&gravity), Some(&measured));
         let mut load = SensorLoad { mass: 42.0, first_moment: blank.lin, offset: blank };
-        let status = {{crate_name}}_sensor_fit_load(Some(&fit), Some(&mut load));
-        tally.check("sensor_fit_load", status, &[&[load.mass, load.first_moment.x], &six(&load.offset)[..]].concat(), &nothing);
-        let (drawn, mut shown) = (SensorLoad { mass: random.finite(), first_moment: measured.lin, offset: measured }, blank);
-        let status = {{crate_name}}_sensor_at_rest(Some(&drawn), Some(&gravity), Some(&mut shown));
+        let status = c::sensor_fit_load(Some(&fit), Some(&mut load));
+        tally.check(
+            "sensor_fit_load",
+            status,
+            &[&[load.mass, load.first_moment.x], &six(&load.offset)[..]].concat(),
+            &nothing,
+        );
+        let (drawn, mut shown) = (
+            SensorLoad { mass: random.finite(), first_moment: measured.lin, offset: measured },
+            blank,
+        );
+        let status = c::sensor_at_rest(Some(&drawn), Some(&gravity), Some(&mut shown));
         tally.check("sensor_at_rest", status, &six(&shown), &nothing);
 
         let (mut motors, mut drawn, off) = (MOTORS, usual, random.finite());
         motors.continuous[random.below(N)] = random.finite();
         (motors.winding_time, motors.ambient) = ([random.up_to(1e4).abs(); N], random.up_to(1e2));
         let saved = Temperatures { winding: random.finites(), housing: random.finites() };
-        let status = {{crate_name}}_thermal_init(Some(&mut drawn), Some(&motors), None, Some(&saved), off, None);
+        let status =
+            c::thermal_init(Some(&mut drawn), Some(&motors), None, Some(&saved), off, None);
         tally.check("thermal_init", status, &[42.0], &nothing);
         let thermal = if status == status::OK { &mut drawn } else { &mut usual };
         let (mut limit, mut seconds, joint) = ([42.0; N], 42.0, random.below(N + 1) as i32);
-        let status = {{crate_name}}_thermal_update(Some(thermal), Some(&random.finites()), Some(&mut limit));
+        let status = c::thermal_update(Some(thermal), Some(&random.finites()), Some(&mut limit));
         tally.check("thermal_update", status, &limit, &nothing);
-        {{crate_name}}_thermal_measured(Some(thermal), joint, random.finite());
-        let status = {{crate_name}}_thermal_holds_for(Some(thermal), joint, random.finite(), Some(&mut seconds));
+        c::thermal_measured(Some(thermal), joint, random.finite());
+        let status =
+            c::thermal_holds_for(Some(thermal), joint, random.finite(), Some(&mut seconds));
         tally.check("thermal_holds_for", status, &[seconds], &nothing);
         let mut heat: Heat = numbers();
-        let status = {{crate_name}}_thermal_report(Some(thermal), Some(&mut heat));
+        let status = c::thermal_report(Some(thermal), Some(&mut heat));
         let all = [heat.torque, heat.celsius, heat.saved.winding, heat.saved.housing];
-        assert!(status == status::OK && all.as_flattened().iter().all(|x| x.is_finite()), "{motors:?} {heat:?}");
+        assert!(
+            status == status::OK && all.as_flattened().iter().all(|x| x.is_finite()),
+            "{motors:?} {heat:?}"
+        );
     }
     tally.print(&["thermal_update"]);
 }
 
 #[test]
 fn no_goal_and_no_inverse_kinematics_is_other_than_finite() {
-    let (mut random, mut tally, config, nothing) = (Random(0x0dd_ba11_5eed), Tally::default(), limited(), || String::new());
+    let (mut random, mut tally, config, nothing) =
+        (Random(0x0dd_ba11_5eed), Tally::default(), limited(), || String::new());
     let (mut tip, mut memory): (Tip, _) = (numbers(), Memory::new());
     for k in 0..samples() / 10 {
         let (wild, usual) = (random.state(), State::at(ends(&config)[k as usize & 1]));
         let start = if random.bits() & 1 == 0 { wild } else { usual };
         let (mut speeds, mut jerk) = (config, 100.0);
-        *[&mut speeds.speed[0], &mut speeds.acceleration[0], &mut jerk][random.below(3)] = random.finite();
-        let status = {{crate_name}}_goal_init(Some(&mut numbers()), Some(&speeds), Some(&[jerk; N]), None);
+        *[&mut speeds.speed[0], &mut speeds.acceleration[0], &mut jerk][random.below(3)] =
+            random.finite();
+        let status = c::goal_init(Some(&mut numbers()), Some(&speeds), Some(&[jerk; N]), None);
         tally.check("goal_init", status, &[42.0], &nothing);
-        {{crate_name}}_controller_init(memory.handle(), BYTES, Some(&config), None);
-        let (mut motion, mut now) = (goal(&config, random.up_to(1e6).abs().max(1e-6)), State::at([42.0; N]));
-        let status = {{crate_name}}_controller_goal(memory.handle(), Some(&mut motion), Some(&start.q), None, None);
+        c::controller_init(memory.handle(), Exports::CONTROLLER_BYTES, Some(&config), None);
+        let (mut motion, mut now) =
+            (goal(&config, random.up_to(1e6).abs().max(1e-6)), State::at([42.0; N]));
+        let status =
+            c::controller_goal(memory.handle(), Some(&mut motion), Some(&start.q), None, None);
         tally.check("controller_goal", status, &[42.0], &nothing);
         let (mut change, torque): (GoalChange, [f32; N]) = (numbers(), random.finites());
         let due = random.below(64) as u32;
-        {{crate_name}}_controller_goal_begin(memory.handle(), Some(&motion), Some(&mut change), due, Some(&usual.q), Some(&torque), None);
+        c::controller_goal_begin(
+            memory.handle(),
+            Some(&motion),
+            Some(&mut change),
+            due,
+            Some(&usual.q),
+            Some(&torque),
+            None,
+        );
         for tick in 0..=due {
-            {{crate_name}}_controller_goal_advance(memory.handle(), Some(&mut motion), Some(&mut change), tick, None, None);
+            c::controller_goal_advance(
+                memory.handle(),
+                Some(&mut motion),
+                Some(&mut change),
+                tick,
+                None,
+                None,
+            );
         }
-        let status = {{crate_name}}_goal_state(Some(&motion), random.bits() as u32, Some(&mut now));
+        let status = c::goal_state(Some(&motion), random.bits() as u32, Some(&mut now));
         tally.check("goal_state", status, [now.q, now.qd].as_flattened(), &nothing);
 
         let (length, mut q) = (random.up_to(1e3), start.q);
-        let status = {{crate_name}}_tip_init(Some(&mut tip), Some(&config), Some(&start), random.up_to(1e3), length, 0.0, None);
+        let status = c::tip_init(
+            Some(&mut tip),
+            Some(&config),
+            Some(&start),
+            random.up_to(1e3),
+            length,
+            0.0,
+            None,
+        );
         tally.check("tip_init", status, &[42.0], &nothing);
         // An old tip, or one of a reference beyond all limits; what is written is finite with any status.
-        let (twist, mut pose, mut next): ([f32; 6], _, State) = (random.finites(), Pose::default(), numbers());
-        {{crate_name}}_tip_step(Some(&mut tip), Some(&twist), Some(&mut next), None);
-        {{crate_name}}_body_pose(Some(&usual.q), N as i32 - 1, Some(&mut pose));
-        pose.position[random.below(3)] += if random.bits() & 1 == 0 { random.finite() } else { 0.0 };
+        let (twist, mut pose, mut next): ([f32; 6], _, State) =
+            (random.finites(), Pose::default(), numbers());
+        c::tip_step(Some(&mut tip), Some(&twist), Some(&mut next), None);
+        c::body_pose(Some(&usual.q), N as i32 - 1, Some(&mut pose));
+        pose.position[random.below(3)] +=
+            if random.bits() & 1 == 0 { random.finite() } else { 0.0 };
         let [gain, angular, linear] = random.finites();
-        {{crate_name}}_tip_goal(Some(&mut tip), Some(&pose), gain, angular, linear, Some(&mut next), None);
+        c::tip_goal(Some(&mut tip), Some(&pose), gain, angular, linear, Some(&mut next), None);
         let solver = PoseSolver { length, iterations: 20, ..solver(&config) };
-        let status = {{crate_name}}_solve_pose(Some(&solver), Some(&pose), Some(&mut q));
+        let status = c::solve_pose(Some(&solver), Some(&pose), Some(&mut q));
         let all = [next.q, next.qd, next.qdd, q];
-        tally.check("solve_pose", status::OK, all.as_flattened(), &|| format!("{status} {start:?} {pose:?}"));
+        tally.check("solve_pose", status::OK, all.as_flattened(), &|| {
+            format!("{status} {start:?} {pose:?}")
+        });
     }
     tally.print(&["solve_pose", "goal_state"]);
 }
@@ -283,9 +348,10 @@ fn no_command_of_the_controller_is_other_than_finite() {
                     ..good
                 };
             }
-            let status = {{crate_name}}_controller_init(handle, BYTES, Some(&wild), Some(&mut at));
+            let status =
+                c::controller_init(handle, Exports::CONTROLLER_BYTES, Some(&wild), Some(&mut at));
             tally.check("controller_init", status, &[42.0], &|| format!("{wild:?}"));
-            let moved = {{crate_name}}_controller_move(handle, Some(&motion), Some(&mut at));
+            let moved = c::controller_move(handle, Some(&motion), Some(&mut at));
             tally.check("controller_move", moved, &[42.0], &|| String::new());
             state = State::at(ends(&good)[0]);
         }
@@ -293,55 +359,56 @@ fn no_command_of_the_controller_is_other_than_finite() {
         let is_wild = random.below(20) == 0;
         let measured = if is_wild { random.positions() } else { state.q };
         let valid = core::array::from_fn(|_| u8::from(!is_wild || random.bits() & 7 != 0));
-        {{crate_name}}_controller_observe(handle, Some(&measured), Some(&valid));
+        c::controller_observe(handle, Some(&measured), Some(&valid));
         match random.below(200) {
             0 => {
-                let points = core::array::from_fn::<_, MOST_POINTS, _>(|_| WayPointC {
+                let points = core::array::from_fn::<_, { scene::MOST_POINTS }, _>(|_| WayPoint {
                     q: random.positions(),
                     qd: random.finites(),
                     ticks: random.bits() as u32,
                 });
-                let count = random.below(MOST_POINTS + 2) as u32;
+                let count = random.below(scene::MOST_POINTS + 2) as u32;
                 let motion = Motion { count, points };
-                let status = {{crate_name}}_controller_move(handle, Some(&motion), Some(&mut at));
+                let status = c::controller_move(handle, Some(&motion), Some(&mut at));
                 tally.check("controller_move", status, &[42.0], &|| String::new());
             }
             1 | 2 => {
                 let wild = random.state();
                 let reference = if random.bits() & 1 == 0 { state } else { wild };
-                let status = {{crate_name}}_controller_follow(handle, Some(&reference), Some(&mut at));
+                let status = c::controller_follow(handle, Some(&reference), Some(&mut at));
                 tally.check("controller_follow", status, &[42.0], &|| String::new());
             }
             3 => {
                 let kind = random.below(25) as i32;
-                {{crate_name}}_controller_fault(handle, kind, random.below(N + 1) as i32 - 1);
+                c::controller_fault(handle, kind, random.below(N + 1) as i32 - 1);
             }
             4 => {
-                {{crate_name}}_controller_missed(handle, random.below(12) as u32);
+                c::controller_missed(handle, random.below(12) as u32);
             }
             5 => {
                 let tool = (random.bits() & 1 == 0).then(|| &tools[random.below(N)]);
-                {{crate_name}}_controller_tool(handle, tool);
+                c::controller_tool(handle, tool);
             }
             6 => {
-                {{crate_name}}_controller_stop(handle);
+                c::controller_stop(handle);
             }
             7 => {
-                {{crate_name}}_controller_off(handle);
+                c::controller_off(handle);
             }
             _ => {}
         }
         let mut command = blank();
-        let status = {{crate_name}}_controller_command(handle, Some(&mut command));
+        let status = c::controller_command(handle, Some(&mut command));
         assert_eq!(status, status::OK);
         let limits = command.torque.iter().all(|torque| torque.is_finite());
         assert!(limits, "{command:?}");
         modes[command.mode as usize] += 1;
         if command.mode == 2 {
-            {{crate_name}}_controller_reset(handle, None);
+            c::controller_reset(handle, None);
         }
-        let mut known = Report { q: [42.0; N], qd: [42.0; N], reference: State::at([42.0; N]), left: 42 };
-        let status = {{crate_name}}_controller_report(handle, Some(&mut known));
+        let mut known =
+            Report { q: [42.0; N], qd: [42.0; N], reference: State::at([42.0; N]), left: 42 };
+        let status = c::controller_report(handle, Some(&mut known));
         let all = [known.q, known.qd, known.reference.q, known.reference.qd];
         if status == status::OK {
             tally.check("controller_report", status, all.as_flattened(), &|| String::new());
@@ -382,7 +449,8 @@ fn wild_configurations_motions_and_references_leave_finite_commands() {
         }
         let (mut memory, mut at) = (Memory::new(), Where::NOWHERE);
         let handle = memory.handle();
-        let status = {{crate_name}}_controller_init(handle, BYTES, Some(&wild), Some(&mut at));
+        let status =
+            c::controller_init(handle, Exports::CONTROLLER_BYTES, Some(&wild), Some(&mut at));
         tally.check("controller_init", status, &[42.0], &nothing);
         if status != status::OK {
             continue;
@@ -394,33 +462,33 @@ fn wild_configurations_motions_and_references_leave_finite_commands() {
             drawn.points[1].qd = random.finites();
             drawn.points[1].ticks = random.bits() as u32;
         }
-        let status = {{crate_name}}_controller_move(handle, Some(&drawn), Some(&mut at));
+        let status = c::controller_move(handle, Some(&drawn), Some(&mut at));
         tally.check("controller_move", status, &[42.0], &nothing);
         let mut reference = State::at(drawn.points[0].q);
         if random.bits() & 1 == 0 {
             reference = random.state();
         }
-        let status = {{crate_name}}_controller_follow(handle, Some(&reference), Some(&mut at));
+        let status = c::controller_follow(handle, Some(&reference), Some(&mut at));
         tally.check("controller_follow", status, &[42.0], &nothing);
         for k in 0..3 {
             let measured = if k < 2 { reference.q } else { random.positions() };
-            {{crate_name}}_controller_observe(handle, Some(&measured), None);
+            c::controller_observe(handle, Some(&measured), None);
             let mut command = blank();
-            let status = {{crate_name}}_controller_command(handle, Some(&mut command));
+            let status = c::controller_command(handle, Some(&mut command));
             assert_eq!(status, status::OK);
             assert!(command.torque.iter().all(|torque| torque.is_finite()), "{wild:?} {command:?}");
-            {{crate_name}}_controller_reset(handle, None);
+            c::controller_reset(handle, None);
         }
         let state = State { q: [42.0; N], qd: [42.0; N], qdd: [42.0; N] };
         let mut known = Report { q: [42.0; N], qd: [42.0; N], reference: state, left: 42 };
-        let status = {{crate_name}}_controller_report(handle, Some(&mut known));
+        let status = c::controller_report(handle, Some(&mut known));
         let State { q, qd, qdd } = known.reference;
         let all = [known.q, known.qd, q, qd, qdd];
         tally.check("controller_report", status, all.as_flattened(), &nothing);
         // The configuration of the description, of any tick and frequency.
         let (tick, frequency, mut made) = (random.finite(), random.finite(), good);
         (made.kp, made.kd) = ([42.0; N], [42.0; N]);
-        let status = {{crate_name}}_config_of_description(tick, frequency, Some(&mut made));
+        let status = c::config_of_description(tick, frequency, Some(&mut made));
         tally.check("config_of_description", status, [made.kp, made.kd].as_flattened(), &nothing);
     }
     tally.print(&["controller_report"]);

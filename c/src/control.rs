@@ -1,21 +1,22 @@
 //! The controller: limits, estimate, reference, law, safety gate, as `motion_control` has them.
 
+use core::marker::PhantomData;
+
 use dynamics_core::Core;
+use dynamics_core::model::model;
 use motion_control::{
     Command, CurrentTick, Estimate, Fault, Gains, Mode, MotionController, MotionControllerConfig,
     MotionLimits, Reference, ResetError, SafetyLimits, SupervisorConfig, Trajectory,
-    TrajectoryError, WayPoint, feedback,
+    TrajectoryError, feedback,
 };
-use dynamics_core::model::model;
 
-use crate::scene::{Arm, EFFECTS, Form, MOST_POINTS, N};
 use crate::tool::Tool;
-use crate::{State, check, dynamics, status};
+use crate::{Exports, Form, Library, State, field, status};
 
 /// The parameters of a controller: `..._config` of the header.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Config {
+pub struct Config<const N: usize> {
     /// Length of a tick, s.
     pub tick: f32,
     /// Step of the encoders, rad or m.
@@ -62,34 +63,6 @@ pub struct Where {
     pub point: i32,
 }
 
-/// The fields that [`Where`] names: `enum ..._field` of the header.
-pub mod field {
-    #![allow(missing_docs, reason = "the names are those of the header")]
-    pub const NONE: i32 = 0;
-    pub const TICK: i32 = 1;
-    pub const RESOLUTION: i32 = 2;
-    pub const BANDWIDTH: i32 = 3;
-    pub const DECAY_RATE: i32 = 4;
-    pub const RESTART_DISTANCE: i32 = 5;
-    pub const LOWER: i32 = 6;
-    pub const UPPER: i32 = 7;
-    pub const SPEED: i32 = 8;
-    pub const ACCELERATION: i32 = 9;
-    pub const TORQUE: i32 = 10;
-    pub const RATE: i32 = 11;
-    pub const KP: i32 = 12;
-    pub const KD: i32 = 13;
-    pub const POSITION: i32 = 14;
-    pub const VELOCITY: i32 = 15;
-    pub const TICKS: i32 = 16;
-    pub const COUNT: i32 = 17;
-    pub const THERMAL_TORQUE: i32 = 18;
-    pub const THERMAL_MOTOR: i32 = 19;
-    pub const JERK: i32 = 20;
-    pub const RANGE: i32 = 21;
-    pub const TIP: i32 = 22;
-}
-
 /// A status with what it is about.
 pub type Rejected = (i32, Where);
 
@@ -109,71 +82,7 @@ impl Where {
     }
 }
 
-impl Config {
-    /// The limits of the robot's description, gains for the natural frequency `omega_n` (rad/s),
-    /// and the usual numbers for the rest. Limits that the description does not have are infinite.
-    pub fn of_description(tick: f32, omega_n: f32) -> Self {
-        let some = |limit: f32| if limit > 0.0 { limit } else { f32::INFINITY };
-        let links = &model::<f32, Arm, N, N, N>().links;
-        let limits = |of: fn(&dynamics_core::model::JointLimits<f32>) -> f32| {
-            let mut limits = [f32::INFINITY; N];
-            for (limit, link) in limits.iter_mut().zip(links) {
-                *limit = of(&link.limits);
-            }
-            limits
-        };
-        let torque = limits(|limits| limits.torque).map(some);
-        let mut config = Self {
-            tick,
-            resolution: 0.0,
-            bandwidth: 10.0 * omega_n,
-            decay_rate: omega_n,
-            restart_distance: 0.15,
-            ride_through_ticks: 5,
-            hold_ticks: 100,
-            reentry_ticks: 200,
-            lower: limits(|limits| limits.lower),
-            upper: limits(|limits| limits.upper),
-            speed: limits(|limits| limits.velocity).map(some),
-            acceleration: [f32::INFINITY; N],
-            torque,
-            rate: torque.map(|torque| 0.5 * torque),
-            kp: [0.0; N],
-            kd: [0.0; N],
-        };
-        let gains = Gains::from_inertia(&config.inertia(), omega_n, 1.0);
-        (config.kp, config.kd) = (gains.kp, gains.kd);
-        config
-    }
-
-    /// The inertia of each joint with all others free to give way, 1/(M⁻¹)ᵢᵢ, in the middle of the
-    /// joints' ranges.
-    fn inertia(&self) -> [f32; N] {
-        let mut q = [0.0; N];
-        for (q, (lower, upper)) in q.iter_mut().zip(self.lower.iter().zip(&self.upper)) {
-            let middle = 0.5 * (lower + upper);
-            *q = if middle.is_finite() { middle } else { 0.0_f32.max(*lower).min(*upper) };
-        }
-        let m = Form::<Arm>::crba(&q, &EFFECTS);
-        let factors = Core::<Arm>::ltdl(&m);
-        let mut inertia = [0.0; N];
-        for (joint, inertia) in inertia.iter_mut().enumerate() {
-            let mut unit = [0.0; N];
-            if let Some(place) = unit.get_mut(joint) {
-                *place = 1.0;
-            }
-            *inertia = match &factors {
-                Ok(factors) => {
-                    let inverse = Core::<Arm>::solve(factors, &unit);
-                    1.0 / inverse.get(joint).copied().unwrap_or(1.0)
-                }
-                // A joint that moves no mass.
-                Err(_) => m.get(joint, joint),
-            };
-        }
-        inertia
-    }
-
+impl<const N: usize> Config<N> {
     /// Accepts a configuration that a controller can work with.
     fn check(&self) -> Result<(), Rejected> {
         let reject = |field, joint| Err((status::CONFIG, Where::of(field, joint, None)));
@@ -242,6 +151,75 @@ impl Config {
     }
 }
 
+impl<L, const N: usize, const TOOL: usize, const POINTS: usize> Exports<L, N, TOOL, POINTS>
+where
+    L: Library<N, TOOL, POINTS>,
+{
+    /// The limits of the robot's description, gains for the natural frequency `omega_n` (rad/s),
+    /// and the usual numbers for the rest. Limits that the description does not have are infinite.
+    pub(crate) fn described(tick: f32, omega_n: f32) -> Config<N> {
+        let some = |limit: f32| if limit > 0.0 { limit } else { f32::INFINITY };
+        let links = &model::<f32, L::Arm, N, N, N>().links;
+        let limits = |of: fn(&dynamics_core::model::JointLimits<f32>) -> f32| {
+            let mut limits = [f32::INFINITY; N];
+            for (limit, link) in limits.iter_mut().zip(links) {
+                *limit = of(&link.limits);
+            }
+            limits
+        };
+        let torque = limits(|limits| limits.torque).map(some);
+        let mut config = Config {
+            tick,
+            resolution: 0.0,
+            bandwidth: 10.0 * omega_n,
+            decay_rate: omega_n,
+            restart_distance: 0.15,
+            ride_through_ticks: 5,
+            hold_ticks: 100,
+            reentry_ticks: 200,
+            lower: limits(|limits| limits.lower),
+            upper: limits(|limits| limits.upper),
+            speed: limits(|limits| limits.velocity).map(some),
+            acceleration: [f32::INFINITY; N],
+            torque,
+            rate: torque.map(|torque| 0.5 * torque),
+            kp: [0.0; N],
+            kd: [0.0; N],
+        };
+        let gains = Gains::from_inertia(&Self::inertia_of_joints(&config), omega_n, 1.0);
+        (config.kp, config.kd) = (gains.kp, gains.kd);
+        config
+    }
+
+    /// The inertia of each joint with all others free to give way, 1/(M⁻¹)ᵢᵢ, in the middle of the
+    /// joints' ranges.
+    fn inertia_of_joints(config: &Config<N>) -> [f32; N] {
+        let mut q = [0.0; N];
+        for (q, (lower, upper)) in q.iter_mut().zip(config.lower.iter().zip(&config.upper)) {
+            let middle = 0.5 * (lower + upper);
+            *q = if middle.is_finite() { middle } else { 0.0_f32.max(*lower).min(*upper) };
+        }
+        let m = L::Form::crba(&q, L::EFFECTS);
+        let factors = Core::<L::Arm>::ltdl(&m);
+        let mut inertia = [0.0; N];
+        for (joint, inertia) in inertia.iter_mut().enumerate() {
+            let mut unit = [0.0; N];
+            if let Some(place) = unit.get_mut(joint) {
+                *place = 1.0;
+            }
+            *inertia = match &factors {
+                Ok(factors) => {
+                    let inverse = Core::<L::Arm>::solve(factors, &unit);
+                    1.0 / inverse.get(joint).copied().unwrap_or(1.0)
+                }
+                // A joint that moves no mass.
+                Err(_) => m.get(joint, joint),
+            };
+        }
+        inertia
+    }
+}
+
 /// The source of a tick's reference.
 enum Kind {
     /// No place has been named yet.
@@ -252,16 +230,16 @@ enum Kind {
     Streamed,
 }
 
-struct Source {
+struct Source<const N: usize, const POINTS: usize> {
     kind: Kind,
-    motion: Trajectory<f32, N, MOST_POINTS>,
+    motion: Trajectory<f32, N, POINTS>,
     /// The caller's last reference, and whether it is one of this tick.
-    streamed: State,
+    streamed: State<N>,
     is_fresh: bool,
 }
 
-impl Reference<f32, N> for Source {
-    fn at(&self, tick: u32) -> State {
+impl<const N: usize, const POINTS: usize> Reference<f32, N> for Source<N, POINTS> {
+    fn at(&self, tick: u32) -> State<N> {
         match self.kind {
             Kind::Points { start } => self.motion.at(tick.saturating_sub(start)),
             Kind::None | Kind::Streamed => self.streamed,
@@ -280,17 +258,18 @@ impl Reference<f32, N> for Source {
 const STEP: f32 = 1e-3;
 
 /// A controller with its reference.
-pub struct Control {
+pub(crate) struct Control<L, const N: usize, const TOOL: usize, const POINTS: usize> {
     pub(crate) controller: MotionController<f32, N, CurrentTick>,
-    source: Source,
+    source: Source<N, POINTS>,
     gains: Gains<f32, N>,
-    config: Limits,
+    config: Limits<N>,
     tool: Option<Tool>,
     measured: Option<Result<[f32; N], Fault>>,
+    library: PhantomData<L>,
 }
 
 /// The limits of the configuration with which references are compared.
-struct Limits {
+struct Limits<const N: usize> {
     tick: f32,
     lower: [f32; N],
     upper: [f32; N],
@@ -298,13 +277,16 @@ struct Limits {
     acceleration: [f32; N],
 }
 
-impl Control {
+impl<L, const N: usize, const TOOL: usize, const POINTS: usize> Control<L, N, TOOL, POINTS>
+where
+    L: Library<N, TOOL, POINTS>,
+{
     /// A controller of an arm on its brake.
     ///
     /// # Errors
     /// `CONFIG` and the field.
     #[inline(never)]
-    pub fn new(config: &Config) -> Result<Self, Rejected> {
+    pub fn new(config: &Config<N>) -> Result<Self, Rejected> {
         config.check()?;
         let controller = MotionController::try_new(config.motion_controller())
             .map_err(|_| (status::CONFIG, Where::NOWHERE))?;
@@ -326,6 +308,7 @@ impl Control {
             },
             tool: None,
             measured: None,
+            library: PhantomData,
         })
     }
 
@@ -341,7 +324,7 @@ impl Control {
     /// Accepts a position that the arm may be at.
     fn check_position(&self, q: &[f32; N], point: Option<usize>) -> Result<(), Rejected> {
         let reject = |status, field, joint| Err((status, Where::of(field, Some(joint), point)));
-        if let Some(joint) = check::beyond(q) {
+        if let Some(joint) = Exports::<L, N, TOOL, POINTS>::beyond(q) {
             let is_finite = q.get(joint).is_some_and(|q| q.is_finite());
             let status = if is_finite { status::ANGLE } else { status::NOT_FINITE };
             return reject(status, field::POSITION, joint);
@@ -370,7 +353,7 @@ impl Control {
     /// `POINT`, `ANGLE` or `NOT_FINITE` with the way-point; `STATE` while the arm moves, which takes a goal instead; `TOO_FAR`
     /// if the first way-point is not where the arm stands. The reference is then as before.
     #[inline(never)]
-    pub fn plan(&mut self, count: usize, points: &[WayPointC; MOST_POINTS]) -> Result<(), Rejected> {
+    pub fn plan(&mut self, count: usize, points: &[WayPoint<N>; POINTS]) -> Result<(), Rejected> {
         let used = points.get(..count).and_then(|used| Some((used, used.first()?, used.last()?)));
         let Some((used, first, last)) = used else {
             return Err((status::POINT, Where::of(field::COUNT, None, None)));
@@ -384,9 +367,7 @@ impl Control {
         }
         if !self.is_stopped() {
             let moves = match self.source.kind {
-                Kind::Points { .. } => {
-                    self.controller.trajectory_tick() <= self.source.ticks()
-                }
+                Kind::Points { .. } => self.controller.trajectory_tick() <= self.source.ticks(),
                 _ => self.controller.reference().qd != [0.0; N],
             };
             if moves || !matches!(self.controller.mode(), Mode::Full) {
@@ -398,10 +379,10 @@ impl Control {
             }
         }
         // After the last way-point the arm rests there for a tick at each of those that are left.
-        let rest = WayPoint { q: last.q, qd: [0.0; N], ticks: 1 };
-        let mut planned = [rest; MOST_POINTS];
-        for (place, &WayPointC { q, qd, ticks }) in planned.iter_mut().zip(used) {
-            *place = WayPoint { q, qd, ticks };
+        let rest = motion_control::WayPoint { q: last.q, qd: [0.0; N], ticks: 1 };
+        let mut planned = [rest; POINTS];
+        for (place, &WayPoint { q, qd, ticks }) in planned.iter_mut().zip(used) {
+            *place = motion_control::WayPoint { q, qd, ticks };
         }
         let mut limits = [MotionLimits { velocity: 0.0, acceleration: 0.0 }; N];
         let given = self.config.speed.iter().zip(&self.config.acceleration);
@@ -420,7 +401,7 @@ impl Control {
     ///
     /// # Errors
     /// `ANGLE`, `NOT_FINITE`, `POINT`.
-    pub fn departure(&self, goal: &[f32; N]) -> Result<State, Rejected> {
+    pub fn departure(&self, goal: &[f32; N]) -> Result<State<N>, Rejected> {
         self.check_position(goal, None)?;
         Ok(match self.controller.mode() {
             // While the arm returns to its reference, the controller's own is elsewhere.
@@ -430,8 +411,8 @@ impl Control {
     }
 
     /// The torques of a motion with the tool of the feed-forward, N·m or N.
-    pub fn torques(&self, state: &State) -> [f32; N] {
-        dynamics::inverse_dynamics(state, self.tool.as_ref())
+    pub fn torques(&self, state: &State<N>) -> [f32; N] {
+        Exports::<L, N, TOOL, POINTS>::inverse_dynamics_of(state, self.tool.as_ref())
     }
 
     /// Takes the reference of the next tick.
@@ -439,7 +420,7 @@ impl Control {
     /// # Errors
     /// `ANGLE`, `NOT_FINITE`, `POINT`; `TOO_FAR` if it is further from the last one than the joint
     /// can move in a tick. The tick then has no reference.
-    pub fn follow(&mut self, reference: &State) -> Result<(), Rejected> {
+    pub fn follow(&mut self, reference: &State<N>) -> Result<(), Rejected> {
         self.check_position(&reference.q, None)?;
         finite(reference)?;
         let speeds = reference.qd.iter().zip(&self.config.speed);
@@ -482,8 +463,9 @@ impl Control {
         }
         self.source.is_fresh = false;
         let Self { controller, source, gains, tool, .. } = self;
-        let law = |reference: &State, estimate: &Estimate<f32, N>| {
-            let mut torque = dynamics::inverse_dynamics(reference, tool.as_ref());
+        let law = |reference: &State<N>, estimate: &Estimate<f32, N>| {
+            let mut torque =
+                Exports::<L, N, TOOL, POINTS>::inverse_dynamics_of(reference, tool.as_ref());
             for (torque, pd) in torque.iter_mut().zip(feedback(gains, reference, estimate)) {
                 *torque += pd;
             }
@@ -539,15 +521,16 @@ impl Control {
     }
 
     /// The estimate, the reference of the last tick, and the ticks that are left of the way-points.
-    pub fn state(&self) -> (Estimate<f32, N>, State, u32) {
+    pub fn state(&self) -> (Estimate<f32, N>, State<N>, u32) {
         let left = self.source.ticks().saturating_sub(self.controller.trajectory_tick());
         (*self.controller.estimate(), *self.controller.reference(), left)
     }
 }
 
 /// Accepts a state of finite numbers.
-pub(crate) fn finite(State { q, qd, qdd }: &State) -> Result<(), Rejected> {
-    for (field, values) in [(field::POSITION, q), (field::VELOCITY, qd), (field::ACCELERATION, qdd)] {
+pub(crate) fn finite<const N: usize>(State { q, qd, qdd }: &State<N>) -> Result<(), Rejected> {
+    for (field, values) in [(field::POSITION, q), (field::VELOCITY, qd), (field::ACCELERATION, qdd)]
+    {
         if let Some(joint) = values.iter().position(|x| !x.is_finite()) {
             return Err((status::NOT_FINITE, Where::of(field, Some(joint), None)));
         }
@@ -558,7 +541,7 @@ pub(crate) fn finite(State { q, qd, qdd }: &State) -> Result<(), Rejected> {
 /// A way-point: `..._waypoint` of the header.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct WayPointC {
+pub struct WayPoint<const N: usize> {
     /// Positions, rad or m.
     pub q: [f32; N],
     /// Velocities in passing, rad/s or m/s.
@@ -570,7 +553,8 @@ pub struct WayPointC {
 /// The reason for which a planned motion was rejected.
 fn rejected(error: TrajectoryError) -> Rejected {
     let (field, joint, point) = match error {
-        TrajectoryError::NotFinite { point, joint } | TrajectoryError::NotAtRest { point, joint } => {
+        TrajectoryError::NotFinite { point, joint }
+        | TrajectoryError::NotAtRest { point, joint } => {
             (field::VELOCITY, Some(joint), Some(point))
         }
         TrajectoryError::Ticks { point } => (field::TICKS, None, Some(point)),

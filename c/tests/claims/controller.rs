@@ -1,17 +1,17 @@
 //! The controller as C calls it, with an arm that the library itself simulates.
 
-use ::{{crate_name}}::control::{Config, WayPointC, Where, field};
-use ::{{crate_name}}::memory::{BYTES, Handle, Memory};
-use ::{{crate_name}}::scene::{MOST_POINTS, N, TOOL_BODY};
-use ::{{crate_name}}::*;
+use super::{Memory, numbers};
+use crate::library::{self as c, *};
+use crate::scene::{self, N};
+use dynamics_c::{WayPoint, field, status};
 
 const FULL: i32 = 0;
 const HOLD: i32 = 1;
 const STOPPED: i32 = 2;
 
 pub fn config() -> Config {
-    let mut config = Config::of_description(1e-3, 25.0);
-    let status = {{crate_name}}_config_of_description(1e-3, 25.0, Some(&mut config));
+    let mut config: Config = numbers();
+    let status = c::config_of_description(1e-3, 25.0, Some(&mut config));
     assert_eq!(status, status::OK);
     for (torque, rate) in config.torque.iter_mut().zip(&mut config.rate) {
         if torque.is_infinite() {
@@ -24,44 +24,47 @@ pub fn config() -> Config {
 /// The middle of each joint's range, and a point at a tenth of the range from it.
 pub fn ends(config: &Config) -> [[f32; N]; 2] {
     let range = |joint: usize| (config.lower[joint].max(-1.0), config.upper[joint].min(1.0));
-    let at = |share: f32| core::array::from_fn(|joint| {
-        let (lower, upper) = range(joint);
-        lower + share * (upper - lower)
-    });
+    let at = |share: f32| {
+        core::array::from_fn(|joint| {
+            let (lower, upper) = range(joint);
+            lower + share * (upper - lower)
+        })
+    };
     [at(0.5), at(0.6)]
 }
 
 pub fn there_and_back(config: &Config, ticks: u32) -> Motion {
     let [home, away] = ends(config);
-    let point = |q, ticks| WayPointC { q, qd: [0.0; N], ticks };
-    let mut points = [point(home, 0); MOST_POINTS];
+    let point = |q, ticks| WayPoint { q, qd: [0.0; N], ticks };
+    let mut points = [point(home, 0); scene::MOST_POINTS];
     points[1] = point(away, ticks);
     points[2] = point(home, ticks);
     Motion { count: 3, points }
 }
 
-pub fn blank() -> CommandC {
-    CommandC { torque: [f32::NAN; N], brake: 7, enable: 7, mode: 7, fault: 7, joint: 7, limited: 7 }
+pub fn blank() -> Command {
+    Command { torque: [f32::NAN; N], brake: 7, enable: 7, mode: 7, fault: 7, joint: 7, limited: 7 }
 }
 
 pub fn report(handle: Option<Handle>) -> Report {
     let state = State { q: [7.0; N], qd: [7.0; N], qdd: [7.0; N] };
     let mut report = Report { q: [7.0; N], qd: [7.0; N], reference: state, left: 7 };
-    assert_eq!({{crate_name}}_controller_report(handle, Some(&mut report)), status::OK);
+    assert_eq!(c::controller_report(handle, Some(&mut report)), status::OK);
     report
 }
 
 fn init(memory: &mut Memory, config: &Config) {
     let mut at = Where { field: 7, joint: 7, point: 7 };
-    let status = {{crate_name}}_controller_init(memory.handle(), BYTES, Some(config), Some(&mut at));
+    let status =
+        c::controller_init(memory.handle(), Exports::CONTROLLER_BYTES, Some(config), Some(&mut at));
     assert_eq!((status, at), (status::OK, Where::NOWHERE));
 }
 
 /// Observes and commands.
-pub fn tick(memory: &mut Memory, q: &[f32; N]) -> CommandC {
+pub fn tick(memory: &mut Memory, q: &[f32; N]) -> Command {
     let (handle, mut command) = (memory.handle(), blank());
-    assert_eq!({{crate_name}}_controller_observe(handle, Some(q), None), status::OK);
-    assert_eq!({{crate_name}}_controller_command(handle, Some(&mut command)), status::OK);
+    assert_eq!(c::controller_observe(handle, Some(q), None), status::OK);
+    assert_eq!(c::controller_command(handle, Some(&mut command)), status::OK);
     command
 }
 
@@ -71,23 +74,29 @@ pub fn moving(memory: &mut Memory, config: &Config, ticks: u32) {
     let [home, _] = ends(config);
     let handle = memory.handle();
     let motion = there_and_back(config, ticks);
-    assert_eq!({{crate_name}}_controller_move(handle, Some(&motion), None), status::OK);
+    assert_eq!(c::controller_move(handle, Some(&motion), None), status::OK);
     let command = tick(memory, &home);
     assert_eq!((command.mode, command.brake, command.enable), (STOPPED, 1, 0));
-    assert_eq!({{crate_name}}_controller_reset(handle, None), status::OK);
+    assert_eq!(c::controller_reset(handle, None), status::OK);
 }
 
 #[test]
 fn a_simulated_arm_with_a_tool_follows_its_way_points() {
     let mut memory = Memory::new();
     // A load that is small for any robot, under a gravity of another direction.
-    let load = Load { mass: 0.01, com: [0.0, 0.01, 0.02], inertia: [1e-6, 0.0, 0.0, 1e-6, 0.0, 1e-6] };
+    let load =
+        Load { mass: 0.01, com: [0.0, 0.01, 0.02], inertia: [1e-6, 0.0, 0.0, 1e-6, 0.0, 1e-6] };
     let (config, mut tool) = (config(), Tool::default());
-    let status = {{crate_name}}_tool_set(Some(&mut tool), TOOL_BODY as i32, Some(&load), Some(&[3.0, -4.0, -8.4]));
+    let status = c::tool_set(
+        Some(&mut tool),
+        scene::TOOL_BODY as i32,
+        Some(&load),
+        Some(&[3.0, -4.0, -8.4]),
+    );
     assert_eq!(status, status::OK);
     moving(&mut memory, &config, 1000);
     let handle = memory.handle();
-    assert_eq!({{crate_name}}_controller_tool(handle, Some(&tool)), status::OK);
+    assert_eq!(c::controller_tool(handle, Some(&tool)), status::OK);
     let mut arm = State::at(ends(&config)[0]);
     let (mut worst, mut furthest) = (0.0_f32, 0.0_f32);
     for k in 0..2600 {
@@ -105,7 +114,8 @@ fn a_simulated_arm_with_a_tool_follows_its_way_points() {
         for _ in 0..8 {
             let (mut qdd, h) = ([0.0; N], 1e-3 / 8.0);
             let torque = Some(&command.torque);
-            let status = {{crate_name}}_forward_dynamics_with_tool(Some(&arm), torque, Some(&tool), Some(&mut qdd));
+            let status =
+                c::forward_dynamics_with_tool(Some(&arm), torque, Some(&tool), Some(&mut qdd));
             assert_eq!(status, status::OK);
             for ((q, qd), qdd) in arm.q.iter_mut().zip(&mut arm.qd).zip(qdd) {
                 *qd += h * qdd;
@@ -117,16 +127,16 @@ fn a_simulated_arm_with_a_tool_follows_its_way_points() {
     assert_eq!(report(handle).left, 0);
     // From where it stands it goes on; from elsewhere it does not.
     let mut next = there_and_back(&config, 500);
-    let accepted = {{crate_name}}_controller_move(handle, Some(&next), None);
+    let accepted = c::controller_move(handle, Some(&next), None);
     assert_eq!(accepted, status::OK);
-    assert_eq!({{crate_name}}_controller_move(handle, Some(&next), None), status::STATE);
+    assert_eq!(c::controller_move(handle, Some(&next), None), status::STATE);
     for _ in 0..1300 {
         let q = report(handle).reference.q;
         tick(&mut memory, &q);
     }
     next.points[0].q[N - 1] += 0.01;
     let mut at = Where::NOWHERE;
-    assert_eq!({{crate_name}}_controller_move(handle, Some(&next), Some(&mut at)), status::TOO_FAR);
+    assert_eq!(c::controller_move(handle, Some(&next), Some(&mut at)), status::TOO_FAR);
     assert_eq!((at.field, at.joint, at.point), (field::POSITION, N as i32 - 1, 0));
 }
 
@@ -137,26 +147,26 @@ fn memory_without_a_controller_has_a_status() {
     for fill in [0_u8, 0xff, 0x5a] {
         memory = Memory::filled(fill);
         let handle = memory.handle();
-        assert_eq!({{crate_name}}_controller_observe(handle, Some(&[0.0; N]), None), status::MEMORY);
-        assert_eq!({{crate_name}}_controller_reset(handle, None), status::MEMORY);
-        assert_eq!({{crate_name}}_controller_stop(handle), status::MEMORY);
+        assert_eq!(c::controller_observe(handle, Some(&[0.0; N]), None), status::MEMORY);
+        assert_eq!(c::controller_reset(handle, None), status::MEMORY);
+        assert_eq!(c::controller_stop(handle), status::MEMORY);
         // What a wrong memory leaves for the drives is zero torque on the brake.
         command = blank();
-        assert_eq!({{crate_name}}_controller_command(handle, Some(&mut command)), status::MEMORY);
+        assert_eq!(c::controller_command(handle, Some(&mut command)), status::MEMORY);
         assert_eq!((command.torque, command.brake, command.enable), ([0.0; N], 1, 0));
     }
-    assert_eq!({{crate_name}}_controller_command(None, Some(&mut command)), status::NULL);
-    assert_eq!({{crate_name}}_controller_command(memory.handle(), None), status::NULL);
-    let of = |handle, bytes| {{crate_name}}_controller_init(handle, bytes, Some(&config), None);
+    assert_eq!(c::controller_command(None, Some(&mut command)), status::NULL);
+    assert_eq!(c::controller_command(memory.handle(), None), status::NULL);
+    let of = |handle, bytes| c::controller_init(handle, bytes, Some(&config), None);
     assert_eq!(of(memory.handle(), 64), status::MEMORY);
-    assert_eq!(of(None, BYTES), status::NULL);
+    assert_eq!(of(None, Exports::CONTROLLER_BYTES), status::NULL);
     // A controller that moved in memory is still one; one of other bytes is not.
     init(&mut memory, &config);
     let mut copy = memory;
     assert_eq!(tick(&mut copy, &[0.0; N]).mode, STOPPED);
     // The word is odd.
     copy.spoil(0);
-    assert_eq!({{crate_name}}_controller_stop(copy.handle()), status::MEMORY);
+    assert_eq!(c::controller_stop(copy.handle()), status::MEMORY);
 }
 
 #[test]
@@ -180,16 +190,22 @@ fn a_wrong_number_of_the_configuration_is_named() {
         for bad in [f32::NAN, -1.0, f32::NEG_INFINITY] {
             let (mut wrong, mut at) = (config(), Where::NOWHERE);
             set(&mut wrong, bad);
-            let status = {{crate_name}}_controller_init(memory.handle(), BYTES, Some(&wrong), Some(&mut at));
+            let status = c::controller_init(
+                memory.handle(),
+                Exports::CONTROLLER_BYTES,
+                Some(&wrong),
+                Some(&mut at),
+            );
             assert_eq!((status, at.field, at.joint), (status::CONFIG, field, joint));
         }
     }
     let (mut empty, mut at) = (config(), Where::NOWHERE);
     (empty.lower[0], empty.upper[0]) = (1.0, 0.5);
-    let status = {{crate_name}}_controller_init(memory.handle(), BYTES, Some(&empty), Some(&mut at));
+    let status =
+        c::controller_init(memory.handle(), Exports::CONTROLLER_BYTES, Some(&empty), Some(&mut at));
     assert_eq!((status, at.field, at.joint), (status::CONFIG, field::UPPER, 0));
     // None of them left a controller.
-    assert_eq!({{crate_name}}_controller_stop(memory.handle()), status::MEMORY);
+    assert_eq!(c::controller_stop(memory.handle()), status::MEMORY);
 }
 
 #[test]
@@ -201,10 +217,10 @@ fn a_wrong_way_point_is_named() {
     let refused = |motion: &Motion| {
         let mut at = Where::NOWHERE;
         let mut copy = memory;
-        (({{crate_name}}_controller_move(copy.handle(), Some(motion), Some(&mut at))), at)
+        ((c::controller_move(copy.handle(), Some(motion), Some(&mut at))), at)
     };
     let at = |field, joint, point| Where { field, joint, point };
-    for count in [0, MOST_POINTS as u32 + 1, u32::MAX] {
+    for count in [0, scene::MOST_POINTS as u32 + 1, u32::MAX] {
         let found = refused(&Motion { count, ..good });
         assert_eq!(found, (status::POINT, at(field::COUNT, -1, -1)));
     }
@@ -223,14 +239,14 @@ fn a_wrong_way_point_is_named() {
     assert_eq!((status, place.field, place.point), (status::POINT, field::SPEED, 1));
     assert_eq!(refused(&good).0, status::OK);
     // A motion is needed for a reset, and a measurement.
-    assert_eq!({{crate_name}}_controller_reset(memory.handle(), None), status::NO_REFERENCE);
-    assert_eq!({{crate_name}}_controller_move(memory.handle(), Some(&good), None), status::OK);
-    assert_eq!({{crate_name}}_controller_reset(memory.handle(), None), status::NO_MEASUREMENT);
+    assert_eq!(c::controller_reset(memory.handle(), None), status::NO_REFERENCE);
+    assert_eq!(c::controller_move(memory.handle(), Some(&good), None), status::OK);
+    assert_eq!(c::controller_reset(memory.handle(), None), status::NO_MEASUREMENT);
     let mut far = ends(&config)[0];
     far[0] += 0.2;
     tick(&mut memory, &far);
     let (mut place, handle) = (Where::NOWHERE, memory.handle());
-    assert_eq!({{crate_name}}_controller_reset(handle, Some(&mut place)), status::TOO_FAR);
+    assert_eq!(c::controller_reset(handle, Some(&mut place)), status::TOO_FAR);
     assert_eq!(place, at(field::POSITION, 0, -1));
 }
 
@@ -250,8 +266,8 @@ fn faults_lead_from_full_to_hold_to_zero_torque() {
     for _ in 0..120 {
         let mut command = blank();
         q[N - 1] = f32::NAN;
-        assert_eq!({{crate_name}}_controller_observe(handle, Some(&q), Some(&valid)), status::OK);
-        assert_eq!({{crate_name}}_controller_command(handle, Some(&mut command)), status::OK);
+        assert_eq!(c::controller_observe(handle, Some(&q), Some(&valid)), status::OK);
+        assert_eq!(c::controller_command(handle, Some(&mut command)), status::OK);
         assert_eq!((command.fault, command.joint), (1, N as i32 - 1));
         assert!(command.torque.iter().all(|torque| torque.is_finite()));
         modes.push(command.mode);
@@ -263,15 +279,15 @@ fn faults_lead_from_full_to_hold_to_zero_torque() {
     assert_eq!(modes, [FULL, HOLD, STOPPED]);
     // It starts again after a measurement and a reset.
     let q = report(handle).q;
-    assert_eq!({{crate_name}}_controller_reset(handle, None), status::NO_MEASUREMENT);
+    assert_eq!(c::controller_reset(handle, None), status::NO_MEASUREMENT);
     tick(&mut memory, &q);
-    assert_eq!({{crate_name}}_controller_reset(handle, None), status::OK);
+    assert_eq!(c::controller_reset(handle, None), status::OK);
     assert_eq!(tick(&mut memory, &q).mode, FULL);
     // A tick without a measurement, a measurement without a command, and one that is not finite.
     let mut command = blank();
-    assert_eq!({{crate_name}}_controller_command(handle, Some(&mut command)), status::OK);
+    assert_eq!(c::controller_command(handle, Some(&mut command)), status::OK);
     assert_eq!((command.mode, command.fault), (FULL, 2));
-    assert_eq!({{crate_name}}_controller_observe(handle, Some(&q), None), status::OK);
+    assert_eq!(c::controller_observe(handle, Some(&q), None), status::OK);
     assert_eq!(tick(&mut memory, &q).fault, 3);
     let mut bad = q;
     bad[0] = f32::INFINITY;
@@ -284,19 +300,19 @@ fn faults_lead_from_full_to_hold_to_zero_torque() {
         let handle = again.handle();
         tick(&mut again, &ends(&config)[0]);
         let status = match stop {
-            0 => {{crate_name}}_controller_fault(handle, 9, 0),
-            1 => {{crate_name}}_controller_stop(handle),
-            3 => {{crate_name}}_controller_fault(handle, 23, 0),
-            _ => {{crate_name}}_controller_off(handle),
+            0 => c::controller_fault(handle, 9, 0),
+            1 => c::controller_stop(handle),
+            3 => c::controller_fault(handle, 23, 0),
+            _ => c::controller_off(handle),
         };
         assert_eq!(status, status::OK);
         let command = tick(&mut again, &ends(&config)[0]);
         let mode = if stop % 2 == 1 { HOLD } else { STOPPED };
         assert_eq!((command.mode, command.fault, command.joint), (mode, fault, joint));
     }
-    assert_eq!({{crate_name}}_controller_fault(handle, 9, N as i32), status::NO_FAULT);
-    assert_eq!({{crate_name}}_controller_fault(handle, 99, 0), status::NO_FAULT);
-    assert_eq!({{crate_name}}_controller_missed(handle, 1000), status::OK);
+    assert_eq!(c::controller_fault(handle, 9, N as i32), status::NO_FAULT);
+    assert_eq!(c::controller_fault(handle, 99, 0), status::NO_FAULT);
+    assert_eq!(c::controller_missed(handle, 1000), status::OK);
     assert_eq!(tick(&mut memory, &q).mode, STOPPED);
 }
 
@@ -307,10 +323,10 @@ fn a_streamed_reference_is_checked_and_followed() {
     init(&mut memory, &config);
     let handle = memory.handle();
     let mut reference = State::at(ends(&config)[0]);
-    let follow = |reference: &State| {{crate_name}}_controller_follow(handle, Some(reference), None);
+    let follow = |reference: &State| c::controller_follow(handle, Some(reference), None);
     assert_eq!(follow(&reference), status::OK);
     tick(&mut memory, &reference.q);
-    assert_eq!({{crate_name}}_controller_reset(handle, None), status::OK);
+    assert_eq!(c::controller_reset(handle, None), status::OK);
     for _ in 0..400 {
         assert_eq!(follow(&reference), status::OK);
         assert_eq!(tick(&mut memory, &reference.q).fault, 0);
@@ -326,7 +342,7 @@ fn a_streamed_reference_is_checked_and_followed() {
     assert_eq!(follow(&wrong), status::NOT_FINITE);
     wrong = reference;
     wrong.q[0] = 2e4;
-    let beyond = if check::RANGE[0] > 1e4 { status::POINT } else { status::ANGLE };
+    let beyond = if Exports::RANGE[0] > 1e4 { status::POINT } else { status::ANGLE };
     assert!([beyond, status::TOO_FAR].contains(&follow(&wrong)));
     // A tick without a reference is bridged, and then the arm is held.
     reference.qd[0] = 0.1;
@@ -352,10 +368,10 @@ fn an_arm_away_from_its_streamed_reference_returns_to_it() {
     let mut q = reference.q;
     // Within the distance of a restart, beyond the step of a tick.
     q[0] += 0.5 * config.restart_distance.min(0.1);
-    let follow = |reference: &State| {{crate_name}}_controller_follow(handle, Some(reference), None);
+    let follow = |reference: &State| c::controller_follow(handle, Some(reference), None);
     assert_eq!(follow(&reference), status::OK);
     tick(&mut memory, &q);
-    assert_eq!({{crate_name}}_controller_reset(handle, None), status::OK);
+    assert_eq!(c::controller_reset(handle, None), status::OK);
     for k in 0..3000 {
         // The reference moves meanwhile; the arm is where the controller wants it.
         reference.q[0] += if k % 2 == 0 { 1e-4 } else { -1e-4 };
@@ -371,7 +387,7 @@ fn an_arm_away_from_its_streamed_reference_returns_to_it() {
 fn a_configuration_in_other_units_gets_advice() {
     let mut advice = AdviceText { text: [7; 2048] };
     let mut said = |config: &Config| {
-        let count = {{crate_name}}_config_advice(Some(config), Some(&mut advice));
+        let count = c::config_advice(Some(config), Some(&mut advice));
         let text = core::ffi::CStr::from_bytes_until_nul(&advice.text).expect("a zero");
         (count, text.to_str().expect("UTF-8").to_owned())
     };
@@ -380,6 +396,6 @@ fn a_configuration_in_other_units_gets_advice() {
     let (count, text) = said(&Config { tick: 1.0, ..good });
     assert!(count > before && text.contains("tick"), "{count} {text}");
     assert_eq!(text.lines().count() as i32, count, "{text}");
-    assert_eq!({{crate_name}}_config_advice(None, Some(&mut advice)), status::NULL);
-    assert_eq!({{crate_name}}_config_advice(Some(&good), None), status::NULL);
+    assert_eq!(c::config_advice(None, Some(&mut advice)), status::NULL);
+    assert_eq!(c::config_advice(Some(&good), None), status::NULL);
 }

@@ -4,11 +4,12 @@ use core::marker::PhantomData;
 
 use dynamics_core::Core;
 use dynamics_core::model::model;
-use motion_control::{
-    Command, CurrentTick, Estimate, Fault, Gains, Mode, MotionController, MotionControllerConfig,
-    MotionLimits, Reference, ResetError, SafetyLimits, SupervisorConfig, Trajectory,
-    TrajectoryError, feedback,
-};
+use motion_control::estimate::Estimate;
+use motion_control::law::{Gains, feedback};
+use motion_control::limits::{Command, Fault, Mode, MotionLimits, SafetyLimits};
+use motion_control::motion::{CurrentTick, MotionController, MotionControllerConfig, ResetError};
+use motion_control::reference::{Reference, Trajectory, TrajectoryError};
+use motion_control::safety::SupervisorConfig;
 
 use crate::tool::Tool;
 use crate::{Exports, Form, Library, State, field, status};
@@ -379,10 +380,10 @@ where
             }
         }
         // After the last way-point the arm rests there for a tick at each of those that are left.
-        let rest = motion_control::WayPoint { q: last.q, qd: [0.0; N], ticks: 1 };
+        let rest = motion_control::reference::WayPoint { q: last.q, qd: [0.0; N], ticks: 1 };
         let mut planned = [rest; POINTS];
         for (place, &WayPoint { q, qd, ticks }) in planned.iter_mut().zip(used) {
-            *place = motion_control::WayPoint { q, qd, ticks };
+            *place = motion_control::reference::WayPoint { q, qd, ticks };
         }
         let mut limits = [MotionLimits { velocity: 0.0, acceleration: 0.0 }; N];
         let given = self.config.speed.iter().zip(&self.config.acceleration);

@@ -1,6 +1,6 @@
 //! The controller's functions: `..._controller_...` of the header.
 
-use motion_control::{Fault, Mode};
+use motion_control::limits::{Fault, Mode};
 
 use crate::control::{Config, Control, Rejected, WayPoint, Where};
 use crate::memory::Handle;
@@ -57,7 +57,7 @@ impl<const N: usize> Command<N> {
     const STOP: Self =
         Self { torque: [0.0; N], brake: 1, enable: 0, mode: 2, fault: 0, joint: -1, limited: 0 };
 
-    fn of(command: &motion_control::Command<f32, N>) -> Self {
+    fn of(command: &motion_control::limits::Command<f32, N>) -> Self {
         let (mode, is_stopped) = match command.status.mode {
             Mode::Full => (0, false),
             Mode::Hold => (1, false),

@@ -1,6 +1,7 @@
 //! A goal that may change at any tick: `..._goal_...` of the header.
 
-use motion_control::{ConfigError, ConfigParameter, GoalError, JerkLimits, MovingGoal, Reference};
+use motion_control::limits::{ConfigError, ConfigParameter};
+use motion_control::reference::{GoalError, JerkLimits, MovingGoal, Reference};
 
 use crate::control::{Config, Rejected, Where};
 use crate::controller::{bare, located};
@@ -11,7 +12,7 @@ use crate::{Exports, Library, State, check, field, status_of};
 /// The motion to a goal: `..._goal` of the header.
 pub type Goal<L, const N: usize> = Kept<MovingGoal<f32, N>, L>;
 /// A change of it that is spread over ticks: `..._goal_change` of the header.
-pub type GoalChange<L, const N: usize> = Kept<motion_control::GoalChange<f32, N>, L>;
+pub type GoalChange<L, const N: usize> = Kept<motion_control::reference::GoalChange<f32, N>, L>;
 
 fn refused(error: GoalError) -> Rejected {
     match error {

@@ -1,6 +1,7 @@
 //! Limits of torque by the motors' temperatures: `..._thermal_...` of the header.
 
-use motion_control::{ConfigError, ConfigParameter, SafetyLimits, ThermalLimit, ThermalStatus};
+use motion_control::limits::{ConfigError, ConfigParameter, SafetyLimits};
+use motion_control::safety::{ThermalLimit, ThermalStatus};
 
 use crate::control::{Config, Rejected, Where};
 use crate::controller::located;
@@ -9,9 +10,9 @@ use crate::status::{self, NULL};
 use crate::{Exports, Library, check, field, status_of};
 
 /// Motors, from data sheets: `..._motors` of the header.
-pub type Motors<const N: usize> = motion_control::ThermalConfig<f32, N>;
+pub type Motors<const N: usize> = motion_control::safety::ThermalConfig<f32, N>;
 /// Temperatures to be saved: `..._temperatures` of the header.
-pub type Temperatures<const N: usize> = motion_control::ThermalState<f32, N>;
+pub type Temperatures<const N: usize> = motion_control::safety::ThermalState<f32, N>;
 
 /// The state of the limits: `..._heat` of the header.
 #[repr(C)]

@@ -5,10 +5,8 @@ use dynamics_core::Engine;
 use dynamics_core::algorithms::frame::{self, LocalWorldAligned};
 use dynamics_core::model::OnBody;
 use dynamics_core::spatial::Motion;
-use motion_control::{
-    ConfigError, ConfigParameter, MotionLimits, PoseSolverError, TipGoal, TipMotion,
-    TipMotionConfig, TipStatus,
-};
+use motion_control::limits::{ConfigError, ConfigParameter, MotionLimits};
+use motion_control::motion::{PoseSolverError, TipGoal, TipMotion, TipMotionConfig, TipStatus};
 
 use crate::control::{Config, Where, finite};
 use crate::controller::located;
@@ -21,7 +19,7 @@ use crate::{Exports, Library, State, check, field, status_of};
 pub type Tip<L, const N: usize> = Kept<TipMotion<f32, N>, L>;
 
 /// The numbers of a solver: `..._pose_solver` of the header.
-pub type PoseSolver<const N: usize> = motion_control::PoseSolver<f32, N>;
+pub type PoseSolver<const N: usize> = motion_control::motion::PoseSolver<f32, N>;
 
 impl<L, const N: usize, const TOOL: usize, const POINTS: usize> Exports<L, N, TOOL, POINTS>
 where

@@ -3,7 +3,7 @@
 use dynamics_core::{
     Core, Engine, algorithms::Kinematics, glam::Vec3, model::OnBody, spatial::Motion,
 };
-use motion_control::{SensorLoadError, SensorLoadFit};
+use motion_control::estimate::{SensorLoadError, SensorLoadFit};
 
 use crate::status::{self, NULL};
 use crate::tool::Tool;
@@ -15,7 +15,7 @@ pub type Wrench = dynamics_core::spatial::Force<f32>;
 pub type SensorFit = SensorLoadFit<f32>;
 const _: () = assert!(size_of::<SensorFit>() == 4 * 23 && align_of::<SensorFit>() == 4);
 /// The load beyond a force sensor, and its offset: `..._sensor_load` of the header.
-pub type SensorLoad = motion_control::SensorLoad<f32>;
+pub type SensorLoad = motion_control::estimate::SensorLoad<f32>;
 
 #[inline(always)]
 fn write(result: Wrench, output: &mut Wrench) -> Result<(), i32> {

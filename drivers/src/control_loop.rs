@@ -6,11 +6,14 @@
 
 use dynamics_core::state::State;
 use embedded_hal::digital::OutputPin;
-use motion_control::{
-    Command, CompletedTick, ConfigError, Detect, Estimate, Fault, Gains, MeasurementAge, Mode,
-    MotionController, ObservedTick, OnCircles, Reference, ReferencedTick, ResetError, SafetyLimits,
-    Status, StopCategory, ThermalLimit, TickCounter, feedback,
+use motion_control::estimate::Estimate;
+use motion_control::law::{Gains, feedback};
+use motion_control::limits::{Command, ConfigError, Fault, Mode, SafetyLimits, Status};
+use motion_control::motion::{
+    MeasurementAge, MotionController, ObservedTick, OnCircles, ReferencedTick, ResetError,
 };
+use motion_control::reference::Reference;
+use motion_control::safety::{CompletedTick, Detect, StopCategory, ThermalLimit, TickCounter};
 
 #[cfg(feature = "async")]
 use crate::asynch;
@@ -77,8 +80,8 @@ fn kept<E>(kept: &LastError<E>) -> Option<JointError<&E>> {
 /// detectors.
 ///
 /// The age of the measurements is that of the encoders ([`EncoderType::Age`]), or
-/// [`motion_control::OnCircles`] of it for a robot with continuous joints. It has no heap and no
-/// panic.
+/// [`motion_control::motion::OnCircles`] of it for a robot with continuous joints. It has no heap
+/// and no panic.
 ///
 /// ```
 /// use dynamics_core::state::State;
@@ -86,7 +89,7 @@ fn kept<E>(kept: &LastError<E>) -> Option<JointError<&E>> {
 /// use joint_drivers::as5047p::{As5047p, FrameError};
 /// use joint_drivers::h_bridge::{FullScale, LockedAntiphase};
 /// use joint_drivers::{ControlLoop, Direction, JointError, JointMapping, JointRange, Law, NoBrake};
-/// use motion_control::*;
+/// use motion_control::{law::*, limits::*, motion::*, reference::*, safety::*};
 ///
 /// /// A joint of 2 kg·m² without gravity.
 /// struct Wheel;
@@ -193,7 +196,7 @@ where
     Detectors: Detect<f32, V>,
 {
     /// As [`ControlLoop::new`], of a controller with joints that are circles. Its detectors are
-    /// those [`on_circles`](motion_control::Detectors::on_circles), too.
+    /// those [`on_circles`](motion_control::safety::Detectors::on_circles), too.
     pub fn on_circles(
         mut encoders: E,
         drives: D,
@@ -313,7 +316,7 @@ where
     /// One tick under the law `L` at the count of a timer that advances by one per period.
     ///
     /// Missed ticks are reported to the controller, and so is a tick that ends after its period. A
-    /// tick that ends in time gives what feeds a [`Watchdog`](motion_control::Watchdog).
+    /// tick that ends in time gives what feeds a [`Watchdog`](motion_control::safety::Watchdog).
     pub fn tick_at<L: Law<V, X>, T: Reference<f32, V>, X>(
         &mut self,
         trajectory: &T,

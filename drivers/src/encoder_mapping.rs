@@ -275,7 +275,7 @@ pub(crate) const fn within_turn(angle: f32) -> f32 {
 /// where the joint is.
 ///
 /// It lasts until the driver's function `place_near` gets the position of the joint; the
-/// controller stops the arm ([`motion_control::Fault::LostTurn`]).
+/// controller stops the arm ([`motion_control::limits::Fault::LostTurn`]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LostTurn;
 

@@ -10,13 +10,13 @@ use core::fmt;
 
 use dynamics_core::state::State;
 use embedded_hal::digital::{self, OutputPin};
-use motion_control::{Estimate, Fault, MeasurementAge};
+use motion_control::{estimate::Estimate, limits::Fault, motion::MeasurementAge};
 
 /// The properties of an encoder that do not depend on how it is accessed.
 ///
 /// ```
 /// use joint_drivers::{EncoderType, as5600::As5600};
-/// use motion_control::CurrentTick;
+/// use motion_control::motion::CurrentTick;
 /// // An AS5600 answers with the angle of now: a controller that expects that of the tick before does not compile.
 /// fn current<E: EncoderType<Age = CurrentTick>>(_: &E) {}
 /// # use joint_drivers::{JointMapping, JointRange};
@@ -51,7 +51,7 @@ pub trait EncoderType {
 /// ```
 /// use core::convert::Infallible;
 /// use joint_drivers::{EncoderType, JointEncoder};
-/// use motion_control::CurrentTick;
+/// use motion_control::motion::CurrentTick;
 /// /// A potentiometer on a converter of 12 bits.
 /// struct Potentiometer { counts: u16 }
 /// impl EncoderType for Potentiometer {

@@ -12,10 +12,12 @@ use joint_drivers::{
     ControlLoop, DriveFault, DriveFaultKind, EncoderType, JointDrive, JointDrives, JointEncoder,
     JointEncoders, JointError, Law, NoBrake, Phase, Probe, Telemetry,
 };
-use motion_control::{
-    Circles, CurrentTick, Detectors, Fault, FrozenEncoder, Gains, Mode, MotionController,
-    MotionControllerConfig, OnCircles, Reference, ReferenceStep, SafetyLimits, Saturation,
-    SupervisorConfig,
+use motion_control::law::Gains;
+use motion_control::limits::{Circles, Fault, Mode, SafetyLimits};
+use motion_control::motion::{CurrentTick, MotionController, MotionControllerConfig, OnCircles};
+use motion_control::reference::Reference;
+use motion_control::safety::{
+    Detectors, FrozenEncoder, ReferenceStep, Saturation, SupervisorConfig,
 };
 
 mod completion;

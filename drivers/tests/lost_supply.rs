@@ -16,10 +16,10 @@ use joint_drivers::{
     CanJoint, CanJoints, ControlLoop, EncoderMapping, EncoderType, JointEncoders, JointMapping,
     JointRange, Law, NoBrake, Outbox,
 };
-use motion_control::{
-    Fault, Gains, Mode, MotionController, MotionControllerConfig, PreviousTick, ResetError,
-    SafetyLimits, SupervisorConfig,
-};
+use motion_control::law::Gains;
+use motion_control::limits::{Fault, Mode, SafetyLimits};
+use motion_control::motion::{MotionController, MotionControllerConfig, PreviousTick, ResetError};
+use motion_control::safety::SupervisorConfig;
 
 /// A drive on its bus.
 #[derive(Clone, Copy, Debug)]

@@ -9,10 +9,10 @@ use dynamics_core::state::State;
 use embedded_hal::spi::{ErrorKind, ErrorType, Operation, SpiDevice};
 use joint_drivers::as5047p::{As5047p, FrameError, encode};
 use joint_drivers::{ControlLoop, Direction, JointDrive, JointMapping, JointRange, Law, NoBrake};
-use motion_control::{
-    Fault, Gains, Mode, MotionController, MotionControllerConfig, ResetError, SafetyLimits,
-    StopCategory, SupervisorConfig,
-};
+use motion_control::law::Gains;
+use motion_control::limits::{Fault, Mode, SafetyLimits};
+use motion_control::motion::{MotionController, MotionControllerConfig, ResetError};
+use motion_control::safety::{StopCategory, SupervisorConfig};
 
 use super::Motion;
 

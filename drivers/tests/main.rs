@@ -2,7 +2,7 @@
 
 use dynamics_core::state::State;
 use joint_drivers::{EncoderMapping, JointMapping, JointRange};
-use motion_control::Reference;
+use motion_control::reference::Reference;
 
 mod absolute;
 mod arrays;

@@ -1,9 +1,10 @@
 //! Words on limits and on a controller's configuration: advice, never a refusal.
 //!
-//! `motion_control::MotionControllerConfig::advice` compares its numbers with those of machines, and
-//! names the number, the reason and what to do. The advice on a robot and on a scene is that of the
-//! crate `robot-import`, for a host. What stands here is compiled into firmware by those who call
-//! it, such as the C library; none of it is in a tick, nor in an image that does not call it.
+//! `motion_control::motion::MotionControllerConfig::advice` compares its numbers with those of
+//! machines, and names the number, the reason and what to do. The advice on a robot and on a scene
+//! is that of the crate `robot-import`, for a host. What stands here is compiled into firmware by
+//! those who call it, such as the C library; none of it is in a tick, nor in an image that does not
+//! call it.
 
 use core::f64::consts::PI;
 use core::fmt::{Display, Formatter, Result};

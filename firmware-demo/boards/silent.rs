@@ -1,7 +1,7 @@
 //! In place of the log of a project for this board: what is measured here says nothing.
 
 use joint_drivers::Telemetry;
-use motion_control::ResetError;
+use motion_control::motion::ResetError;
 
 use crate::board::N;
 

@@ -6,7 +6,8 @@ use embedded_hal::pwm::SetDutyCycle;
 use embedded_hal::spi::SpiDevice;
 use firmware_demo::scene::{self, Full, Scene, SceneLoop, SetupError, Start};
 use firmware_demo::scenes::ur5e::PickAndPlace;
-use motion_control::{Detect, Detectors, Gains};
+use motion_control::law::Gains;
+use motion_control::safety::{Detect, Detectors};
 
 pub use firmware_demo::scenes::ur5e::plan;
 

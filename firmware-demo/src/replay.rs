@@ -8,7 +8,8 @@
 use core::fmt;
 
 use joint_drivers::{Probe, Telemetry};
-use motion_control::{Mode, Reference, Status};
+use motion_control::limits::{Mode, Status};
+use motion_control::reference::Reference;
 
 use crate::digest::Digest;
 use crate::scene::{Full, Scene, SimLoop, StartError, marked_tick, simulated_loop};
@@ -17,7 +18,7 @@ use crate::sim_io::Wires;
 /// The control loop of a scene on wires whose encoders follow the reference exactly.
 ///
 /// ```
-/// use motion_control::Mode;
+/// use motion_control::limits::Mode;
 /// use firmware_demo::{replay::Replay, scenes::scara_table::Serve, sim_io::Wires};
 ///
 /// static WIRES: Wires<3> = Wires::new();

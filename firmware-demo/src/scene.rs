@@ -11,10 +11,10 @@ use embedded_hal::pwm::SetDutyCycle;
 use embedded_hal::spi::SpiDevice;
 use joint_drivers::ControlLoop;
 use joint_drivers::as5047p::RESOLUTION;
-use motion_control::{
-    Detect, Detectors, FrozenEncoder, Gains, MotionLimits, Reference, ReferenceStep, Saturation,
-    Trajectory, TrajectoryError, WayPoint,
-};
+use motion_control::law::Gains;
+use motion_control::limits::MotionLimits;
+use motion_control::reference::{Reference, Trajectory, TrajectoryError, WayPoint};
+use motion_control::safety::{Detect, Detectors, FrozenEncoder, ReferenceStep, Saturation};
 
 use crate::plant::{Plant, Simulated, last};
 

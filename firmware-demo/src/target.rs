@@ -8,7 +8,7 @@ use cortex_m_rt::{ExceptionFrame, exception};
 use cortex_m_semihosting::debug;
 use defmt_semihosting as _;
 use heapless::spsc::{Consumer, Queue};
-use motion_control::Status;
+use motion_control::limits::Status;
 
 use crate::marker::measured;
 use crate::region;

@@ -3,7 +3,7 @@
 
 use core::f32::consts::{FRAC_PI_2, FRAC_PI_4};
 
-use motion_control::WayPoint;
+use motion_control::reference::WayPoint;
 
 pub mod hop;
 pub mod picks;

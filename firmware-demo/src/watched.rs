@@ -7,7 +7,7 @@ use dynamics_core::model::{JointKind, model};
 use heapless::String;
 use joint_drivers::{Phase, Probe, Telemetry};
 use machine_link::{Axis, Machine, Producer, Sample};
-use motion_control::{Detectors, Mode, Reference};
+use motion_control::{limits::Mode, reference::Reference, safety::Detectors};
 
 use crate::marker::measured;
 use crate::plant::Rig;

@@ -9,10 +9,11 @@ use dynamics_core::robots::Ur5e;
 use dynamics_core::scalar::Real;
 use dynamics_core::sim::semi_implicit;
 use dynamics_core::state::State;
-use motion_control::{
-    Command, CurrentTick, Fault, Gains, Mode, MotionController, MotionControllerConfig,
-    MotionLimits, ResetError, SafetyLimits, SupervisorConfig, Trajectory, WayPoint, feedback,
-};
+use motion_control::law::{Gains, feedback};
+use motion_control::limits::{Command, Fault, Mode, MotionLimits, SafetyLimits};
+use motion_control::motion::{CurrentTick, MotionController, MotionControllerConfig, ResetError};
+use motion_control::reference::{Trajectory, WayPoint};
+use motion_control::safety::SupervisorConfig;
 
 /// A tick, s.
 pub const TICK: f64 = 1e-3;

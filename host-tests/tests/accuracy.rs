@@ -17,7 +17,7 @@ use host_tests::carried;
 use host_tests::measured::largest;
 use host_tests::recordings::{Precise, load, read};
 use host_tests::tolerances::check;
-use motion_control::{FirstOrderHold, InertiaUpdate};
+use motion_control::law::{FirstOrderHold, InertiaUpdate};
 use serde_json::Value;
 
 #[derive(Default)]

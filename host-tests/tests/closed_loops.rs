@@ -15,7 +15,7 @@ use firmware_demo::sim_io::Wires;
 use firmware_demo::trajectories::MID_STANCE;
 use firmware_demo::trajectories::picks::{FEEDER, LIFT, MOVE, Picks, REACH, cranks};
 use glam::Vec3;
-use motion_control::{Fault, Reference};
+use motion_control::{limits::Fault, reference::Reference};
 
 fn wide<const N: usize>(state: &State<f32, N, N>) -> State<f64, N, N> {
     State { q: state.q.map(f64::from), qd: state.qd.map(f64::from), qdd: state.qdd.map(f64::from) }

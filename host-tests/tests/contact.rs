@@ -11,7 +11,7 @@ use dynamics_core::sim::semi_implicit;
 use dynamics_core::state::{JointTrig, State};
 use glam::{DMat3, DVec3};
 use host_tests::measured::largest;
-use motion_control::{
+use motion_control::law::{
     TaskCommand, TaskForce, TaskFrame, TaskMotion, hybrid_motion_force, orientation_error,
 };
 

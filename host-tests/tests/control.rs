@@ -5,11 +5,12 @@ use dynamics_core::Core;
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::robots::Ur5e;
 use dynamics_core::state::State;
-use motion_control::{
-    Estimate, Fault, Gains, Mode, MotionController, MotionControllerConfig, MotionLimits, Observer,
-    ObserverConfig, SafetyLimits, SupervisorConfig, Trajectory, TrajectoryError, WayPoint,
-    feedback,
-};
+use motion_control::estimate::{Estimate, Observer, ObserverConfig};
+use motion_control::law::{Gains, feedback};
+use motion_control::limits::{Fault, Mode, MotionLimits, SafetyLimits};
+use motion_control::motion::{MotionController, MotionControllerConfig};
+use motion_control::reference::{Trajectory, TrajectoryError, WayPoint};
+use motion_control::safety::SupervisorConfig;
 use proptest::prelude::*;
 
 const TICK: f32 = 1e-3;

@@ -8,7 +8,7 @@ use dynamics_core::state::State;
 use firmware_demo::scene::Scene;
 use firmware_demo::scenes::ur5e::PickAndPlace;
 use host_tests::measured::{largest, within};
-use motion_control::{Fault, Mode, SafetyLimits};
+use motion_control::limits::{Fault, Mode, SafetyLimits};
 
 #[path = "../../motion-control/src/example.rs"]
 mod example;

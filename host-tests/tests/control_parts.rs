@@ -5,7 +5,8 @@ use dynamics_core::Core;
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::robots::Ur5e;
 use host_tests::measured::largest;
-use motion_control::{InertiaUpdate, Observer, ObserverConfig};
+use motion_control::estimate::{Observer, ObserverConfig};
+use motion_control::law::InertiaUpdate;
 
 const H: f64 = 1e-3;
 /// Both poles at β = exp(−ω h): e_{n+2} = 2β e_{n+1} − β² e_n, of a late measurement too.

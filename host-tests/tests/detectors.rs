@@ -6,7 +6,7 @@ use firmware_demo::scene::{Full, Noise, STEPS, Scene, TICK, simulated_loop};
 use firmware_demo::scenes::ur5e::PickAndPlace;
 use firmware_demo::sim_io::Wires;
 use host_tests::everyday_or_full;
-use motion_control::Mode;
+use motion_control::limits::Mode;
 
 // It is watched from its first tick to the rest at its end.
 #[test]

@@ -7,7 +7,7 @@ use dynamics_core::robots::{Panda, Ur5e};
 use dynamics_core::scalar::{Real, Vector};
 use dynamics_core::spatial::{Force, Motion};
 use glam::DVec3;
-use motion_control::{ContactDetector, ObserverConfig, TipWrench, TipWrenchConfig};
+use motion_control::estimate::{ContactDetector, ObserverConfig, TipWrench, TipWrenchConfig};
 use proptest::prelude::RngExt;
 use proptest::test_runner::{RngAlgorithm, TestRng};
 

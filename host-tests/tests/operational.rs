@@ -10,7 +10,7 @@ use dynamics_core::model::{ArmModel, BASE, Body, BodyInertia, Joint, Model, Robo
 use dynamics_core::robots::{Panda, Ur5e};
 use dynamics_core::spatial::Force;
 use glam::DMat3;
-use motion_control::TaskFrame;
+use motion_control::law::TaskFrame;
 
 const DAMPING: f64 = 1e-3;
 

@@ -7,7 +7,8 @@ use dynamics_core::effects::{Armature, Coriolis, Gravity, Inertia, Viscous};
 use dynamics_core::model::{ArmModel, Model, Robot};
 use dynamics_core::robots::{Panda, Ur5e};
 use dynamics_core::state::State;
-use motion_control::{Estimate, PassivityGains, passivity_based_torque};
+use motion_control::estimate::Estimate;
+use motion_control::law::{PassivityGains, passivity_based_torque};
 
 type Scene<const V: usize> = ((Gravity, Inertia, Coriolis), (Armature<f64, V>, Viscous<f64, V>));
 

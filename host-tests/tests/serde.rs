@@ -8,12 +8,17 @@ use dynamics_core::glam::Mat3;
 use dynamics_core::model::{BodyInertia, JointLimits};
 use dynamics_core::spatial::SpatialInertia;
 use dynamics_core::state::State;
-use motion_control::{
-    BreakawayConfig, Gains, HandGuidingConfig, ImpedanceConfig, InertiaShapingConfig,
-    LimitedSpring, MotionControllerConfig, MotionLimits, ObserverConfig, ParameterEstimatorConfig,
-    PassivityGains, PayloadEstimatorConfig, SafetyLimits, SpeedBrake, SupervisorConfig,
-    ThermalConfig, ThermalState, TipWrenchConfig, WayPoint,
+use motion_control::estimate::{
+    ObserverConfig, ParameterEstimatorConfig, PayloadEstimatorConfig, TipWrenchConfig,
 };
+use motion_control::law::{
+    BreakawayConfig, Gains, HandGuidingConfig, ImpedanceConfig, InertiaShapingConfig,
+    LimitedSpring, PassivityGains, SpeedBrake,
+};
+use motion_control::limits::{MotionLimits, SafetyLimits};
+use motion_control::motion::MotionControllerConfig;
+use motion_control::reference::WayPoint;
+use motion_control::safety::{SupervisorConfig, ThermalConfig, ThermalState};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 

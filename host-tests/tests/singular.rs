@@ -9,7 +9,7 @@ use dynamics_core::effects::{Armature, Inertia, RIGID_BODY};
 use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model, Robot};
 use dynamics_core::robots::{Panda, Ur5e};
 use dynamics_core::scalar::Real;
-use motion_control::TaskFrame;
+use motion_control::law::TaskFrame;
 
 const DAMPING: f64 = 1e-3;
 

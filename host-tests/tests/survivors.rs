@@ -15,7 +15,7 @@ use dynamics_core::spatial::{Force, Motion};
 use dynamics_core::state::State;
 use dynamics_core::state::manifold::{integrate, neutral};
 use glam::DVec3;
-use motion_control::{TaskCommand, TaskMotion, ZeroOrderHold};
+use motion_control::law::{TaskCommand, TaskMotion, ZeroOrderHold};
 
 fn at(q: f64, qd: f64) -> JointState<f64> {
     JointState::new(q, qd)

@@ -8,7 +8,7 @@ use dynamics_core::algorithms::{
 use dynamics_core::effects::{Coriolis, Gravity, RIGID_BODY};
 use dynamics_core::model::Robot;
 use dynamics_core::{Core, robots::Ur5e, state::State};
-use motion_control::{TaskCommand, TaskFrame, hybrid_motion_force};
+use motion_control::law::{TaskCommand, TaskFrame, hybrid_motion_force};
 
 const HAND: usize = 5; // the last of the UR5e's six bodies
 

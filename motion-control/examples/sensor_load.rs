@@ -7,7 +7,7 @@ use dynamics_core::algorithms::Kinematics;
 use dynamics_core::model::{OnBody, Robot};
 use dynamics_core::spatial::{Force, Motion};
 use dynamics_core::{Engine, glam::Vec3, robots::Ur5e, state::State};
-use motion_control::{SensorLoad, SensorLoadError, SensorLoadFit};
+use motion_control::estimate::{SensorLoad, SensorLoadError, SensorLoadFit};
 
 const WRIST: usize = Ur5e::MODEL.body("wrist_3");
 const GRAVITY: Vec3 = Vec3::new(0.0, 0.0, -9.81);

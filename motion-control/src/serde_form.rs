@@ -7,8 +7,8 @@ use dynamics_core::serde_record;
 
 /// Types with a record of their own.
 macro_rules! nested {
-    ($($name:ident),+) => {$(
-        impl<R: Real, const V: usize> Form<Self> for crate::$name<R, V> {
+    ($($module:ident::$name:ident),+) => {$(
+        impl<R: Real, const V: usize> Form<Self> for crate::$module::$name<R, V> {
             fn form(self) -> Self {
                 self
             }
@@ -19,7 +19,7 @@ macro_rules! nested {
     )+};
 }
 
-nested!(LimitedSpring, SafetyLimits, SpeedBrake, SupervisorConfig);
+nested!(law::LimitedSpring, limits::SafetyLimits, law::SpeedBrake, safety::SupervisorConfig);
 
 serde_record!(limits::SafetyLimits<R, V> {
     torque: Array<R, V>,
@@ -29,7 +29,7 @@ serde_record!(limits::SafetyLimits<R, V> {
     upper: Array<R, V>,
 } check);
 serde_record!(safety::SupervisorConfig<R, V> {
-    limits: crate::SafetyLimits<R, V>,
+    limits: crate::limits::SafetyLimits<R, V>,
     tick: R,
     resolution: R,
     ride_through_ticks: u32,
@@ -37,7 +37,7 @@ serde_record!(safety::SupervisorConfig<R, V> {
     reentry_ticks: u32,
 } check);
 serde_record!(motion::MotionControllerConfig<R, V> {
-    supervisor: crate::SupervisorConfig<R, V>,
+    supervisor: crate::safety::SupervisorConfig<R, V>,
     observer_bandwidth: R,
     decay_rate: R,
     restart_distance: R,
@@ -76,11 +76,11 @@ serde_record!(law::HandGuidingConfig<R, V> {
     rest_speed: Array<R, V>,
     compensation: Array<R, V>,
     damping: Array<R, V>,
-    brake: crate::SpeedBrake<R, V>,
+    brake: crate::law::SpeedBrake<R, V>,
     lower: Array<R, V>,
     upper: Array<R, V>,
-    wall: crate::LimitedSpring<R, V>,
-    lock: crate::LimitedSpring<R, V>,
+    wall: crate::law::LimitedSpring<R, V>,
+    lock: crate::law::LimitedSpring<R, V>,
 } check);
 serde_record!(law::BreakawayConfig<R, V> {
     tick: R,

@@ -3,7 +3,7 @@
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 
-use crate::*;
+use crate::{estimate::*, limits::*, motion::*, reference::*, safety::*};
 
 pub(crate) const fn motion_limits<R: Copy>(velocity: R, acceleration: R) -> MotionLimits<R> {
     MotionLimits { velocity, acceleration }

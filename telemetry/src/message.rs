@@ -4,7 +4,7 @@ use core::array;
 
 use dynamics_core::model::JointLimits;
 use heapless::{String, Vec};
-use motion_control::{Mode, Status};
+use motion_control::limits::{Mode, Status};
 use serde::{Deserialize, Serialize};
 
 /// The phases of a tick whose cost is sent, in their order.
@@ -96,7 +96,7 @@ impl Joint {
 /// The quantities of a control tick, for [`Producer::push`](crate::Producer::push).
 ///
 /// ```
-/// use motion_control::Mode;
+/// use motion_control::limits::Mode;
 /// let sample = machine_link::Sample::<6>::default();
 /// assert_eq!((sample.status.mode, sample.counts), (Mode::Full, [0; 6]));
 /// ```

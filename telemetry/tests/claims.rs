@@ -5,7 +5,7 @@ use machine_link::{
     Axis, Counts, Decoder, EncodeError, FrameError, Joint, Machine, Message, Queue, Slots, Tick,
     VERSION, capacity, encode, split,
 };
-use motion_control::{Fault, Mode, Status};
+use motion_control::limits::{Fault, Mode, Status};
 
 const JOINTS: usize = 6;
 type Found = Result<Message<JOINTS>, FrameError>;

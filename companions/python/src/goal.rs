@@ -1,8 +1,9 @@
 //! Goals that may change at any tick as Python sees them.
 
 use dynamics_core::state::State;
-use motion_control::ConfigParameter::{JerkLimit, JointRange};
-use motion_control::{ConfigError, GoalError, JerkLimits, MovingGoal, Reference};
+use motion_control::limits::ConfigError;
+use motion_control::limits::ConfigParameter::{JerkLimit, JointRange};
+use motion_control::reference::{GoalError, JerkLimits, MovingGoal, Reference};
 use numpy::{IntoPyArray, PyArrayMethods};
 use pyo3::prelude::*;
 use robot_dynamics_kernels::model::MOST_COORDINATES as MOST;

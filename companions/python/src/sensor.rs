@@ -2,7 +2,7 @@
 
 use dynamics_core::glam::DVec3;
 use dynamics_core::spatial::Force;
-use motion_control::{SensorLoad, SensorLoadFit};
+use motion_control::estimate::{SensorLoad, SensorLoadFit};
 use numpy::{IntoPyArray, PyArrayMethods};
 use pyo3::prelude::*;
 

@@ -1,9 +1,8 @@
 //! Limits of torque by the motors' temperatures as Python sees them.
 
-use motion_control::ConfigParameter::{ThermalMotor, ThermalTorque};
-use motion_control::{
-    ConfigError, SafetyLimits, ThermalConfig, ThermalLimit, ThermalState, ThermalStatus,
-};
+use motion_control::limits::ConfigParameter::{ThermalMotor, ThermalTorque};
+use motion_control::limits::{ConfigError, SafetyLimits};
+use motion_control::safety::{ThermalConfig, ThermalLimit, ThermalState, ThermalStatus};
 use numpy::{IntoPyArray, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 

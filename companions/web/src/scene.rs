@@ -18,7 +18,11 @@ use firmware_demo::scenes::{panda_payload::Carry, scara_table::Serve, ur5e::Pick
 use firmware_demo::sim_io::{SimDrive, SimEncoder, Wires};
 use glam::Vec3;
 use joint_drivers::{Law, Telemetry};
-use motion_control::{Detectors, Estimate, Fault, Gains, Mode, Reference, StopCategory, feedback};
+use motion_control::estimate::Estimate;
+use motion_control::law::{Gains, feedback};
+use motion_control::limits::{Fault, Mode};
+use motion_control::reference::Reference;
+use motion_control::safety::{Detectors, StopCategory};
 use serde::{Deserialize, Serialize};
 
 /// The disturbances that the page applies to an arm.

@@ -6,7 +6,7 @@ use core::mem;
 
 use embedded_can::nb::Can;
 use embedded_can::{Error as _, ErrorKind};
-use motion_control::{Fault, PreviousTick};
+use motion_control::{limits::Fault, motion::PreviousTick};
 use nb::Error::{Other, WouldBlock};
 
 use super::frame::CanError;
@@ -35,7 +35,7 @@ const MOST_FRAMES: usize = 64;
 /// with [`CanError::NoReply`], and counts in the next one if no other follows it. No reply of these
 /// protocols has a number: replies that are all late by a tick are noticed in the first tick alone,
 /// and a drive that repeats an old position by
-/// [`FrozenEncoder`](motion_control::FrozenEncoder).
+/// [`FrozenEncoder`](motion_control::safety::FrozenEncoder).
 ///
 /// ```
 /// use embedded_can::{ExtendedId, Frame, nb::Can};

@@ -1,13 +1,13 @@
 //! Probes watch a tick while it runs and keep a record of it.
 
-use motion_control::Status;
+use motion_control::limits::Status;
 
 /// A phase of a tick.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Phase {
     /// The whole tick, which contains the others.
     Tick,
-    /// Encoders, plausibility, observer: [`motion_control::MotionController::observe`].
+    /// Encoders, plausibility, observer: [`motion_control::motion::MotionController::observe`].
     Read,
     /// The trajectory at this tick.
     Reference,

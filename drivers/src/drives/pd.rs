@@ -11,7 +11,7 @@
 //! drive's rate instead of the loop's. Limits, faults and fallbacks remain those of the gate.
 
 use dynamics_core::state::State;
-use motion_control::{Estimate, Gains};
+use motion_control::{estimate::Estimate, law::Gains};
 
 use crate::joint::{JointDrives, JointError};
 
@@ -71,7 +71,7 @@ impl SetpointAt {
 /// ```compile_fail,E0277
 /// use joint_drivers::{JointDrives, PdOnDrives};
 /// # use joint_drivers::JointError;
-/// # use motion_control::Gains;
+/// # use motion_control::law::Gains;
 /// struct Torques;
 /// impl JointDrives<1> for Torques {
 ///     type Error = core::convert::Infallible;
@@ -103,7 +103,7 @@ pub trait PdDrives<const V: usize>: JointDrives<V> {
 /// use joint_drivers::can::FdFrame;
 /// use joint_drivers::mit::damiao::{DM4310, Damiao};
 /// use joint_drivers::{CanJoints, JointDrives, JointMapping, JointRange, Outbox, PdOnDrives};
-/// use motion_control::Gains;
+/// use motion_control::law::Gains;
 /// let mapping = JointMapping::IDENTITY.with_range(JointRange::Near(0.0), 5e-3)?;
 /// let joints = CanJoints::new(Outbox::<FdFrame, 1>::new(), [Damiao::new(1, 0x11, DM4310, 7.0, mapping)?]);
 /// let mut drives = PdOnDrives::new(&joints, Gains { kp: [50.0], kd: [2.0] });

@@ -6,15 +6,15 @@
 //!
 //! A frame answers the command of the frame before, with the angle latched when that one ended. One
 //! frame a tick is read, and the angle is one tick old: the observer extrapolates by one tick
-//! ([`motion_control::Observer::update_delayed`]), which costs no transfers. A second frame for the
-//! present angle would cost six transfers per tick on the bus of six joints, 10 µs and more at the
-//! 10 MHz that the part supports.
+//! ([`motion_control::estimate::Observer::update_delayed`]), which costs no transfers. A second
+//! frame for the present angle would cost six transfers per tick on the bus of six joints, 10 µs
+//! and more at the 10 MHz that the part supports.
 
 use core::f32::consts::TAU;
 use core::fmt;
 
 use embedded_hal::spi::{Error, ErrorKind, SpiDevice};
-use motion_control::{Fault, PreviousTick};
+use motion_control::{limits::Fault, motion::PreviousTick};
 
 use super::multi_turn::{MultiTurnEncoder, PreviousCount};
 use crate::{EncoderMapping, EncoderType, JointEncoder, LostTurn, MappingError};

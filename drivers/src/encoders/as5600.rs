@@ -16,7 +16,7 @@
 use core::fmt;
 
 use embedded_hal::i2c::{Error, ErrorKind, I2c};
-use motion_control::{CurrentTick, Fault};
+use motion_control::{limits::Fault, motion::CurrentTick};
 
 use super::multi_turn::MultiTurnEncoder;
 use crate::{EncoderMapping, EncoderType, JointEncoder, LostTurn, MappingError};

@@ -99,10 +99,11 @@ mod tests {
 
     use dynamics_core::state::State;
     use embedded_hal_mock::eh1::{i2c, spi};
-    use motion_control::{
-        Fault, Gains, MotionController, MotionControllerConfig, MotionLimits, SafetyLimits,
-        SupervisorConfig, Trajectory, WayPoint,
-    };
+    use motion_control::law::Gains;
+    use motion_control::limits::{Fault, MotionLimits, SafetyLimits};
+    use motion_control::motion::{MotionController, MotionControllerConfig};
+    use motion_control::reference::{Trajectory, WayPoint};
+    use motion_control::safety::SupervisorConfig;
 
     use super::*;
     use crate::as5047p::{ERROR, RESOLUTION, encode, with_parity};

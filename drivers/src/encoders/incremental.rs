@@ -12,7 +12,7 @@
 use core::convert::Infallible;
 use core::fmt;
 
-use motion_control::{CurrentTick, Fault};
+use motion_control::{limits::Fault, motion::CurrentTick};
 
 use crate::{EncoderMapping, EncoderType, JointEncoder, LostTurn, MappingError, Resolution};
 

@@ -20,7 +20,7 @@
 //! both, one of 1 kHz does not.
 
 use embedded_io::{Read, ReadReady, Write};
-use motion_control::{CurrentTick, Fault};
+use motion_control::{limits::Fault, motion::CurrentTick};
 
 use crate::encoder_mapping::floor;
 use crate::{

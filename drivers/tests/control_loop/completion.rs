@@ -2,7 +2,9 @@
 
 use std::cell::RefCell;
 
-use motion_control::{Command, Detect, Reference, SafetyLimits, Status, StopCategory};
+use motion_control::limits::{Command, SafetyLimits, Status};
+use motion_control::reference::Reference;
+use motion_control::safety::{Detect, StopCategory};
 
 use super::*;
 
@@ -240,7 +242,7 @@ fn the_law_is_feedforward_and_feedback() {
     let mut reference = State::at([0.5, 0.0]);
     reference.qd = [0.25, -1.0];
     let (q, qd) = ([0.25, 0.5], [0.5, -1.5]);
-    let estimate = motion_control::Estimate { q, qd };
+    let estimate = motion_control::estimate::Estimate { q, qd };
     let (kp, kd) = ([8.0, 2.0], [4.0, 16.0]);
     // 1 + 8 · 0.25 − 4 · 0.25 and 2 − 2 · 0.5 + 16 · 0.5.
     let torque = One::torque(&Gains { kp, kd }, &reference, &estimate, &());

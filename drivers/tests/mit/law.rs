@@ -6,10 +6,11 @@ use std::cell::Cell;
 use dynamics_core::state::State as Motion;
 use embedded_hal::digital::{self, OutputPin};
 use joint_drivers::{ControlLoop, Law, NoBrake, PdDrives, PdOnDrives, Telemetry};
-use motion_control::{
-    Command, Detect, Estimate, Fault, Gains, Mode, MotionController, MotionControllerConfig,
-    SafetyLimits, StopCategory, SupervisorConfig,
-};
+use motion_control::estimate::Estimate;
+use motion_control::law::Gains;
+use motion_control::limits::{Command, Fault, Mode, SafetyLimits};
+use motion_control::motion::{MotionController, MotionControllerConfig};
+use motion_control::safety::{Detect, StopCategory, SupervisorConfig};
 
 use super::*;
 

@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use motion_control::Fault;
+use motion_control::limits::Fault;
 
 use super::devices::{Count, GONE};
 use super::*;

@@ -48,8 +48,8 @@ struct Body<R: Real> {
 /// where (f ×̄*) w = w ×* f. C is that of
 /// [`coriolis_matrix`](crate::algorithms::coriolis_matrix()), which states its laws: Ṁ = C + Cᵀ for
 /// joints of every kind, and C(q, x) y = C(q, y) x where q̇ is the derivative of q. Both make it
-/// the C of a passive law: see `motion_control::passivity_based_torque`. On a base of given motion
-/// both velocities include that motion.
+/// the C of a passive law: see `motion_control::law::passivity_based_torque`. On a base of given
+/// motion both velocities include that motion.
 ///
 /// A non-finite input gives a non-finite output, which the safety gate of `motion-control` rejects.
 ///

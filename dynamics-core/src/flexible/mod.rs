@@ -20,7 +20,7 @@
 //! it as those of links whose joints are clamped, and settle. The torques that would move the *tip*
 //! along one are not: the tip of a link that bends is a non-minimum-phase output, whose inverse
 //! grows without bound or begins before the motion (De Luca & Siciliano, 1993). No function has it.
-//! A tip that is to come to rest is a matter of the reference: `motion_control::Shaped`.
+//! A tip that is to come to rest is a matter of the reference: `motion_control::reference::Shaped`.
 //!
 //! # Limits
 //! Displacements are linear in the modes: deflections to some 10 % of a link's length. A beam's

@@ -7,7 +7,10 @@ use heapless::spsc::Producer;
 use joint_drivers::as5047p::As5047p;
 use joint_drivers::h_bridge::LockedAntiphase;
 use joint_drivers::{ControlLoop, Law, NoBrake, Telemetry};
-use motion_control::{Detect, Gains, MotionController, Reference, TrajectoryError};
+use motion_control::law::Gains;
+use motion_control::motion::MotionController;
+use motion_control::reference::{Reference, TrajectoryError};
+use motion_control::safety::Detect;
 
 use super::firmware::control_loop;
 use super::{

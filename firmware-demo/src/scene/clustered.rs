@@ -8,7 +8,7 @@ use dynamics_core::effects::Effect;
 use dynamics_core::model::Calibrated;
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
-use motion_control::Reference;
+use motion_control::reference::Reference;
 
 use super::{Noise, Scene};
 use crate::plant::ClusterPlant;
@@ -49,9 +49,9 @@ where
 /// The motors' torques at y, ẏ, ÿ; zero where the loops do not close.
 ///
 /// A [`MotorReference`] of the same y is then NaN, and so is the feedback's torque: the supervisor
-/// stops the robot with [`Fault::Torque`](motion_control::Fault::Torque), which the telemetry
-/// shows. The status of motors near a dead point is not read: the references of the scenes have
-/// none.
+/// stops the robot with [`Fault::Torque`](motion_control::limits::Fault::Torque), which the
+/// telemetry shows. The status of motors near a dead point is not read: the references of the
+/// scenes have none.
 #[inline(always)]
 pub fn inverse<T, E, const B: usize, const V: usize, const N: usize>(
     y: &State<f32, N, N>,

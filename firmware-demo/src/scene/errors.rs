@@ -1,6 +1,6 @@
 //! Tracking errors of a run.
 
-use motion_control::Status;
+use motion_control::limits::Status;
 
 use super::Record;
 

@@ -8,9 +8,10 @@ use embedded_hal::spi::SpiDevice;
 use joint_drivers::as5047p::As5047p;
 use joint_drivers::h_bridge::{DriveError, FullScale, LockedAntiphase};
 use joint_drivers::{ControlLoop, Direction, JointMapping, JointRange, MappingError};
-use motion_control::{
-    Detect, Gains, MotionController, MotionControllerConfig, SafetyLimits, SupervisorConfig,
-};
+use motion_control::law::Gains;
+use motion_control::limits::SafetyLimits;
+use motion_control::motion::{MotionController, MotionControllerConfig};
+use motion_control::safety::{Detect, SupervisorConfig};
 
 use super::Scene;
 

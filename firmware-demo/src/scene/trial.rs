@@ -2,7 +2,7 @@
 
 use dynamics_core::model::JointLimits;
 use joint_drivers::Telemetry;
-use motion_control::Status;
+use motion_control::limits::Status;
 
 /// The accuracy of the controller's model of the plant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -5,7 +5,7 @@ use dynamics_core::effects::{
 };
 use dynamics_core::model::{JointLimits, Robot};
 use dynamics_core::state::State;
-use motion_control::TrajectoryError;
+use motion_control::reference::TrajectoryError;
 
 use crate::plant::ClusterPlant;
 use crate::robots::PickDelta;

@@ -8,7 +8,7 @@ use dynamics_core::effects::{
 };
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
-use motion_control::{Trajectory, TrajectoryError, WayPoint};
+use motion_control::reference::{Trajectory, TrajectoryError, WayPoint};
 
 use crate::plant::Plant;
 use crate::robots::DirectDrive;

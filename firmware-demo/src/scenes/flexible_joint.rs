@@ -8,7 +8,9 @@ use dynamics_core::model::Calibrated;
 use dynamics_core::robots::Iiwa14;
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
-use motion_control::{Estimate, Gains, RestToRest, TrajectoryError, WayPoint, feedback};
+use motion_control::estimate::Estimate;
+use motion_control::law::{Gains, feedback};
+use motion_control::reference::{RestToRest, TrajectoryError, WayPoint};
 
 use crate::plant::FlexiblePlant;
 use crate::scene::{Noise, OMEGA_N, PlantModel, Run, Scene, TICK, ZETA, speeds};

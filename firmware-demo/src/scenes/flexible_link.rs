@@ -7,7 +7,7 @@ use dynamics_core::flexible::{Bending, ModalFeedforward, Modes};
 use dynamics_core::model::{Calibrated, Static};
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
-use motion_control::{Shaped, TrajectoryError};
+use motion_control::reference::{Shaped, TrajectoryError};
 
 use crate::plant::BendingPlant;
 use crate::robots::TwoLink;

@@ -14,7 +14,9 @@ use dynamics_core::robots::Ur5e;
 use dynamics_core::spatial::Motion;
 use dynamics_core::state::State;
 use glam::Vec3;
-use motion_control::{MotionLimits, Reference, TipMotion, TipMotionConfig, TrajectoryError};
+use motion_control::limits::MotionLimits;
+use motion_control::motion::{TipMotion, TipMotionConfig};
+use motion_control::reference::{Reference, TrajectoryError};
 
 use super::ur5e::{EFFECTS, Effects, GravityOnly, PickAndPlace};
 use crate::plant::Plant;

@@ -6,7 +6,7 @@ use dynamics_core::effects::{
 };
 use dynamics_core::state::State;
 use glam::Vec3;
-use motion_control::TrajectoryError;
+use motion_control::reference::TrajectoryError;
 
 use crate::plant::{Plant, last};
 use crate::robots::Leg;

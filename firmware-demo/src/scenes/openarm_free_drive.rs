@@ -38,10 +38,11 @@ use joint_drivers::mit::damiao::{DM4310, DM4340, DM8009, Damiao};
 use joint_drivers::{
     CanJoints, EncoderType, JointEncoders, JointError, JointMapping, JointRange, Law, Outbox,
 };
-use motion_control::{
-    Breakaway, BreakawayConfig, ConfigError, Estimate, Fault, Gains, HandGuiding,
-    HandGuidingConfig, MotionControllerConfig, SafetyLimits, SupervisorConfig,
-};
+use motion_control::estimate::Estimate;
+use motion_control::law::{Breakaway, BreakawayConfig, Gains, HandGuiding, HandGuidingConfig};
+use motion_control::limits::{ConfigError, Fault, SafetyLimits};
+use motion_control::motion::MotionControllerConfig;
+use motion_control::safety::SupervisorConfig;
 
 pub mod plant;
 pub mod trial;

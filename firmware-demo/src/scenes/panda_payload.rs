@@ -13,10 +13,9 @@ use dynamics_core::robots::Panda;
 use dynamics_core::spatial::SpatialInertia;
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
-use motion_control::{
-    CartesianImpedance, Estimate, Gains, ImpedanceConfig, Reference, TaskDeviation, Trajectory,
-    TrajectoryError, WayPoint, feedback,
-};
+use motion_control::estimate::Estimate;
+use motion_control::law::{CartesianImpedance, Gains, ImpedanceConfig, TaskDeviation, feedback};
+use motion_control::reference::{Reference, Trajectory, TrajectoryError, WayPoint};
 
 use crate::plant::Plant;
 use crate::scene::{

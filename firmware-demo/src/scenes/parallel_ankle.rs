@@ -8,7 +8,8 @@ use dynamics_core::effects::{
 };
 use dynamics_core::model::{JointLimits, Robot};
 use dynamics_core::state::State;
-use motion_control::{MotionLimits, Trajectory, TrajectoryError, WayPoint};
+use motion_control::limits::MotionLimits;
+use motion_control::reference::{Trajectory, TrajectoryError, WayPoint};
 
 use crate::plant::ClusterPlant;
 use crate::robots::{G1Ankle, SerialAnkle};

@@ -7,7 +7,7 @@ use dynamics_core::effects::{
 };
 use dynamics_core::state::State;
 use glam::Vec3;
-use motion_control::{Trajectory, TrajectoryError, WayPoint};
+use motion_control::reference::{Trajectory, TrajectoryError, WayPoint};
 
 use crate::plant::Plant;
 use crate::robots::Scara;

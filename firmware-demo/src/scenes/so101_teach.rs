@@ -30,7 +30,9 @@ use dynamics_core::effects::{
 use dynamics_core::model::{JointLimits, Robot};
 use dynamics_core::robots::So101;
 use dynamics_core::state::State;
-use motion_control::{Estimate, Gains, Trajectory, TrajectoryError, WayPoint};
+use motion_control::estimate::Estimate;
+use motion_control::law::Gains;
+use motion_control::reference::{Trajectory, TrajectoryError, WayPoint};
 
 use crate::plant::ServoPlant;
 use crate::scene::{Noise, PlantModel, Run, Scene, limits_of, rigid, speeds};

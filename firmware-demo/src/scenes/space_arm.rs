@@ -6,7 +6,7 @@ use dynamics_core::Engine;
 use dynamics_core::effects::{Armature, Coriolis, Coulomb, Effect, Inertia, Viscous, Width};
 use dynamics_core::spatial::Force;
 use dynamics_core::state::State;
-use motion_control::{Trajectory, TrajectoryError, WayPoint};
+use motion_control::reference::{Trajectory, TrajectoryError, WayPoint};
 
 use crate::plant::{Floating, last};
 use crate::robots::SpaceArm;

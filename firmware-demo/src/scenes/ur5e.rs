@@ -6,7 +6,7 @@ use dynamics_core::effects::{
 };
 use dynamics_core::robots::Ur5e;
 use dynamics_core::state::State;
-use motion_control::{Trajectory, TrajectoryError};
+use motion_control::reference::{Trajectory, TrajectoryError};
 
 use crate::plant::Plant;
 use crate::scene::{Noise, PlantModel, Run, Scene, TICK, rigid, speeds};

@@ -16,10 +16,11 @@ use dynamics_core::effects::{Armature, Coriolis, Coulomb, Gravity, Inertia, Visc
 use dynamics_core::model::{JointLimits, Robot};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
-use motion_control::{
-    Command, ConfigError, CurrentTick, Estimate, Fault, GainTable, Mode, MotionController,
-    MotionControllerConfig, SafetyLimits, StopCategory, SupervisorConfig, TablePlace,
-};
+use motion_control::estimate::Estimate;
+use motion_control::law::{GainTable, TablePlace};
+use motion_control::limits::{Command, ConfigError, Fault, Mode, SafetyLimits};
+use motion_control::motion::{CurrentTick, MotionController, MotionControllerConfig};
+use motion_control::safety::{StopCategory, SupervisorConfig};
 
 use crate::robots::{Straight, WheelLeg};
 use crate::scene::{Less, limits_of};

@@ -20,7 +20,7 @@ use dynamics_core::model::Static;
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 use dynamics_core::trig::sin_cos_near;
-use motion_control::Reference;
+use motion_control::reference::Reference;
 
 use crate::plant::last;
 use crate::robots::Leg;
@@ -34,7 +34,7 @@ pub use phase::arc_cosine;
 /// The desired motion of the leg.
 ///
 /// ```
-/// use motion_control::Reference;
+/// use motion_control::reference::Reference;
 /// use firmware_demo::scenes::leg_hop::{COURSE, GROUND};
 /// use firmware_demo::trajectories::hop::Hop;
 /// let hop = Hop::new(&COURSE, &GROUND, 9.81);

@@ -2,7 +2,8 @@
 
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
-use motion_control::{MotionLimits, Reference, Trajectory, TrajectoryError, WayPoint};
+use motion_control::limits::MotionLimits;
+use motion_control::reference::{Reference, Trajectory, TrajectoryError, WayPoint};
 
 use crate::robots::PickDelta;
 use crate::robots::pick_delta::SIDES;

@@ -7,8 +7,9 @@ use dynamics_core::effects::Inertia;
 use dynamics_core::flexible::{ModalFeedforward, Modes, crba};
 use dynamics_core::model::RobotModel;
 use dynamics_core::state::State;
-use motion_control::{
-    MotionLimits, Reference, Shaped, Shaper, Trajectory, TrajectoryError, Vibration, WayPoint,
+use motion_control::limits::MotionLimits;
+use motion_control::reference::{
+    Reference, Shaped, Shaper, Trajectory, TrajectoryError, Vibration, WayPoint,
 };
 
 use crate::scene::TICK;

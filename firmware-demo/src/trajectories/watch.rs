@@ -2,7 +2,7 @@
 
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
-use motion_control::Reference;
+use motion_control::reference::Reference;
 
 use crate::robots::Ship;
 use crate::robots::ship::Swing;

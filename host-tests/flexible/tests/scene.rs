@@ -10,7 +10,9 @@ use firmware_demo::scene::{OMEGA_N, STEPS, Scene, TICK, ZETA};
 use firmware_demo::scenes::flexible_link::{BendingArm, EFFECTS, END, RigidLinks, START, swing};
 use firmware_demo::trajectories::swing_and_back::shaper;
 use joint_drivers::Law;
-use motion_control::{Estimate, Gains, Reference, Shaped, feedback};
+use motion_control::estimate::Estimate;
+use motion_control::law::{Gains, feedback};
+use motion_control::reference::{Reference, Shaped};
 
 /// The largest error of a joint, rad, and the vibration that is left: half of the range of the
 /// ends' deflections, m, in four periods after the reference has stopped.

@@ -9,9 +9,9 @@ use host_tests::controller::{Bench, TICK};
 use host_tests::hard::{Case, Row};
 use host_tests::measured::larger;
 use joint_drivers::{JointMapping, JointRange, MultiTurnEncoder};
-use motion_control::{
-    CurrentTick, Mode, MotionController, MotionControllerConfig, SafetyLimits, SupervisorConfig,
-};
+use motion_control::limits::{Mode, SafetyLimits};
+use motion_control::motion::{CurrentTick, MotionController, MotionControllerConfig};
+use motion_control::safety::SupervisorConfig;
 
 pub const CASES: &[Case] = &[
     Case {

@@ -11,7 +11,9 @@ use dynamics_core::sim::semi_implicit;
 use dynamics_core::state::State;
 use host_tests::hard::{Case, Row};
 use host_tests::measured::larger;
-use motion_control::{CartesianImpedance, ImpedanceConfig, TaskDeviation, TaskFrame, pose_error};
+use motion_control::law::{
+    CartesianImpedance, ImpedanceConfig, TaskDeviation, TaskFrame, pose_error,
+};
 
 pub const CASES: &[Case] = &[Case {
     number: 70,

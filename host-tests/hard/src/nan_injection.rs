@@ -9,7 +9,7 @@ use dynamics_core::state::State;
 use host_tests::controller::{Bench, INPUTS, Input, Poison, TICK, apart};
 use host_tests::hard::{Case, Row};
 use host_tests::measured::larger;
-use motion_control::{Fault, Mode};
+use motion_control::limits::{Fault, Mode};
 
 pub const CASES: &[Case] = &[Case {
     number: 37,

@@ -9,9 +9,9 @@ use dynamics_core::state::State;
 use fixtures::hard::{N, counts, scene};
 use host_tests::hard::{Case, Row};
 use joint_drivers::{JointMapping, JointRange, MultiTurnEncoder};
-use motion_control::{
-    Fault, MotionController, MotionControllerConfig, SafetyLimits, SupervisorConfig,
-};
+use motion_control::limits::{Fault, SafetyLimits};
+use motion_control::motion::{MotionController, MotionControllerConfig};
+use motion_control::safety::SupervisorConfig;
 
 const ORACLE: &str = "computation in 50 digits from the same f32 bits (oracle/hard.py)";
 

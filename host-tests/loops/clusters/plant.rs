@@ -10,7 +10,7 @@ use firmware_demo::plant::{ClusterPlant, Rig, Simulated};
 use firmware_demo::scene::{Full, STEPS, Scene, TICK, simulated_loop};
 use firmware_demo::scenes::parallel_ankle::AnkleSteps;
 use firmware_demo::sim_io::Wires;
-use motion_control::{Mode, Reference};
+use motion_control::{limits::Mode, reference::Reference};
 
 #[test]
 fn the_motors_of_a_leg_with_rods_follow_their_reference() {

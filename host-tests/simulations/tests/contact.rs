@@ -10,10 +10,12 @@ use dynamics_core::state::State;
 use firmware_demo::scene::{HOLD, NEAR, OMEGA_N, REENTRY, RIDE, Scene, TICK, ZETA};
 use firmware_demo::scenes::ur5e::{self, EFFECTS, PickAndPlace};
 use firmware_demo::trajectories::HOME;
-use motion_control::{
-    ContactDetector, Estimate, Gains, MotionController, MotionControllerConfig, Observer,
-    ObserverConfig, SafetyLimits, SupervisorConfig, Trajectory, feedback,
-};
+use motion_control::estimate::{ContactDetector, Estimate, Observer, ObserverConfig};
+use motion_control::law::{Gains, feedback};
+use motion_control::limits::SafetyLimits;
+use motion_control::motion::{MotionController, MotionControllerConfig};
+use motion_control::reference::Trajectory;
+use motion_control::safety::SupervisorConfig;
 use simulation_tests::plant::{EXCESS, Plant, bristles, coulomb};
 
 /// Laps of a million ticks.

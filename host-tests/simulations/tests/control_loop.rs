@@ -3,7 +3,7 @@
 use crate::arm::outcome::bad_frames;
 use crate::arm::{Arm, HOLD, POISON, RIDE};
 use host_tests::measured::{largest, within};
-use motion_control::{Mode, ResetError};
+use motion_control::{limits::Mode, motion::ResetError};
 use proptest::prelude::*;
 
 /// The fastest moment of the trajectory: 1.9 rad/s.

@@ -7,9 +7,10 @@ use fixtures::faults::{
     controller, one,
 };
 use host_tests::page::Table;
-use motion_control::{
-    CurrentTick, Fault, Mode, MotionController, Reaction, StopCategory, Trajectory, WayPoint,
-};
+use motion_control::limits::{Fault, Mode, Reaction};
+use motion_control::motion::{CurrentTick, MotionController};
+use motion_control::reference::{Trajectory, WayPoint};
+use motion_control::safety::StopCategory;
 
 /// Runs of the table, which every run of this test has.
 const TABLE: u32 = 400;

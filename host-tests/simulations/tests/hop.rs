@@ -12,7 +12,7 @@ use firmware_demo::scenes::leg_hop::{GROUND, Hopping};
 use firmware_demo::sim_io::Wires;
 use firmware_demo::trajectories::hop::{Hop, arc_cosine};
 use host_tests::measured::largest;
-use motion_control::Reference;
+use motion_control::reference::Reference;
 
 fn ways() -> (Hop, Vec<State<f32, 4, 4>>) {
     let hop = Hopping::reference().unwrap();

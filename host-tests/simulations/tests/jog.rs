@@ -5,7 +5,7 @@ use dynamics_core::state::State;
 use firmware_demo::scene::Scene;
 use firmware_demo::scenes::jog::{Jog, LIMITS, RANGE, stick};
 use firmware_demo::scenes::ur5e::PickAndPlace;
-use motion_control::Reference;
+use motion_control::reference::Reference;
 
 /// The properties of a reference: whether it stays within the limits of the scene; the ticks in which the
 /// last joint is at the end of its range; the least sines of elbow and wrist, which are zero in

@@ -13,7 +13,9 @@ use dynamics_core::spatial::Force;
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
 use glam::DVec3;
-use motion_control::{ContactDetector, DetectedContact, MomentumObserver, ObserverConfig};
+use motion_control::estimate::{
+    ContactDetector, DetectedContact, MomentumObserver, ObserverConfig,
+};
 
 const TICK: f64 = 1e-3;
 /// K, rad/s.

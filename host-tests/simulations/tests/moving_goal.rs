@@ -9,9 +9,9 @@ use dynamics_core::robots::Ur5e;
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
 use host_tests::recordings;
-use motion_control::{
-    GoalChange, GoalError, JerkLimits, JointFriction, MotionLimits, MovingGoal, PathLimits, Reference,
-    TimedPath,
+use motion_control::limits::MotionLimits;
+use motion_control::reference::{
+    GoalChange, GoalError, JerkLimits, JointFriction, MovingGoal, PathLimits, Reference, TimedPath,
 };
 use serde::Deserialize;
 

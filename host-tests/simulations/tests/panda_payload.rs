@@ -3,7 +3,7 @@
 use dynamics_core::effects::Payload;
 use firmware_demo::scene::Scene;
 use firmware_demo::scenes::panda_payload::{Carry, HAND, part};
-use motion_control::Reference;
+use motion_control::reference::Reference;
 
 /// An impossible one would be left on the table, and nothing be shown.
 #[test]

@@ -11,7 +11,7 @@ use dynamics_core::scalar::Real;
 use dynamics_core::spatial::Motion;
 use glam::{DMat3, DVec3};
 use host_tests::recordings;
-use motion_control::{PoseSolver, PoseSolverError};
+use motion_control::motion::{PoseSolver, PoseSolverError};
 
 /// The iterations that 2 ms at 170 MHz, 340,000 modelled cycles, suffice for: docs/costs.md.
 const ITERATIONS: u32 = 130;

@@ -5,7 +5,7 @@ use firmware_demo::replay::Replay;
 use firmware_demo::scenes::scara_table::Serve;
 use firmware_demo::scenes::ur5e::PickAndPlace;
 use firmware_demo::sim_io::Wires;
-use motion_control::{Fault, Mode};
+use motion_control::limits::{Fault, Mode};
 
 type Scara = Replay<Serve, 3, 3, 3, 3>;
 

@@ -15,7 +15,8 @@ use firmware_demo::scenes::so101_teach::{
 use firmware_demo::sim_io::Wires;
 use firmware_demo::trajectories::SO101_START;
 use joint_drivers::Law;
-use motion_control::{Observer, ObserverConfig, Reference};
+use motion_control::estimate::{Observer, ObserverConfig};
+use motion_control::reference::Reference;
 
 type Servos = ServoPlant<So101, Effects, 6>;
 

@@ -3,7 +3,7 @@
 
 use crate::arm::{Arm, POISON};
 use host_tests::random::random_numbers;
-use motion_control::Mode;
+use motion_control::limits::Mode;
 use proptest::prelude::RngExt;
 use proptest::test_runner::TestRng;
 

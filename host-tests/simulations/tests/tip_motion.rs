@@ -11,7 +11,8 @@ use dynamics_core::state::ArmState;
 use glam::{DVec3, Vec3};
 use host_tests::measured::largest;
 use host_tests::recordings::{columns, load, row};
-use motion_control::{MotionLimits, TipGoal, TipMotion, TipMotionConfig, TipStatus};
+use motion_control::limits::MotionLimits;
+use motion_control::motion::{TipGoal, TipMotion, TipMotionConfig, TipStatus};
 
 const TICK: f32 = 1e-3;
 const ACCELERATION: f32 = 10.0;

@@ -7,7 +7,8 @@ use firmware_demo::scenes::wheel_leg_balance::{
     Balance, GRAVITY, Order, Pitch, SCHEDULE, TRACTION_LIMIT,
 };
 use host_tests::everyday_or_full;
-use motion_control::{Fault, Mode, TablePlace};
+use motion_control::law::TablePlace;
+use motion_control::limits::{Fault, Mode};
 
 /// The number of runs. The claim is that of a thousand, which `BALANCE_RUNS=1000` asks for.
 fn runs() -> u32 {

@@ -2,7 +2,7 @@
 
 use super::bytes::Bytes;
 use crate::controller::{Bench, INPUTS, Poison, TICK};
-use motion_control::{Command, Fault, Mode};
+use motion_control::limits::{Command, Fault, Mode};
 
 /// Ticks of an arm in motion, one or a few for every four bytes.
 ///

@@ -35,7 +35,7 @@ pub struct DetectedContact<R> {
 /// of each joint, one of 4.3 σ in 17.
 ///
 /// ```
-/// use motion_control::{ContactDetector, ObserverConfig};
+/// use motion_control::estimate::{ContactDetector, ObserverConfig};
 /// let config = ObserverConfig { bandwidth: 50.0, tick: 1e-3 };
 /// let mut detector: ContactDetector<f32, 1> = ContactDetector::try_new(config, [0.5])?;
 /// let mut found = None;
@@ -80,13 +80,14 @@ impl<R: Real, const V: usize, const ORDER: usize> ContactDetector<R, V, ORDER> {
     /// of their accelerations included, and 10 % of those of friction.
     ///
     /// ```
-    /// use motion_control::{ContactDetector, Fault, ObserverConfig};
+    /// use motion_control::estimate::{ContactDetector, ObserverConfig};
+    /// use motion_control::limits::Fault;
     /// let config = ObserverConfig { bandwidth: 50.0, tick: 1e-3 };
     /// let mut detector: ContactDetector<f32, 2> = ContactDetector::try_new(config, [0.5; 2])?;
     /// assert_eq!(detector.update(&[0.0; 2], &[-10.0, 2.0], &[0.3, 0.1]), Ok(None));
     /// let lost = detector.update(&[0.0; 2], &[-10.0, f32::NAN], &[0.3, 0.1]);
     /// assert_eq!(lost, Err(Fault::NotFinite { joint: 1 }));
-    /// # Ok::<(), motion_control::ConfigError>(())
+    /// # Ok::<(), motion_control::limits::ConfigError>(())
     /// ```
     ///
     /// # Errors
@@ -121,7 +122,7 @@ impl<R: Real, const V: usize, const ORDER: usize> ContactDetector<R, V, ORDER> {
     /// The torques of the drives until the next tick, N·m or N, as [`MomentumObserver::drive`].
     ///
     /// ```
-    /// use motion_control::{ContactDetector, ObserverConfig};
+    /// use motion_control::estimate::{ContactDetector, ObserverConfig};
     /// let config = ObserverConfig { bandwidth: 50.0, tick: 1e-3 };
     /// let mut detector: ContactDetector<f32, 1> = ContactDetector::try_new(config, [0.5])?;
     /// for _ in 0..200 {
@@ -145,7 +146,7 @@ impl<R: Real, const V: usize, const ORDER: usize> ContactDetector<R, V, ORDER> {
     /// error.
     ///
     /// ```
-    /// use motion_control::{ContactDetector, ObserverConfig};
+    /// use motion_control::estimate::{ContactDetector, ObserverConfig};
     /// let config = ObserverConfig { bandwidth: 50.0, tick: 1e-3 };
     /// let mut detector: ContactDetector<f32, 1> = ContactDetector::try_new(config, [0.5])?;
     /// assert_eq!(detector.threshold(), [0.5]);
@@ -167,7 +168,7 @@ impl<R: Real, const V: usize, const ORDER: usize> ContactDetector<R, V, ORDER> {
     /// Forgets what was measured, as [`MomentumObserver::restart`].
     ///
     /// ```
-    /// # use motion_control::{ContactDetector, ObserverConfig};
+    /// # use motion_control::estimate::{ContactDetector, ObserverConfig};
     /// # let config = ObserverConfig { bandwidth: 50.0, tick: 1e-3 };
     /// let mut detector: ContactDetector<f32, 1> = ContactDetector::try_new(config, [0.5])?;
     /// for _ in 0..2 {

@@ -34,7 +34,7 @@ mod tests;
 ///
 /// ```
 /// use dynamics_core::algorithms::{MomentumAndDrift, momentum_and_drift, rnea};
-/// use motion_control::{MomentumObserver, ObserverConfig};
+/// use motion_control::estimate::{MomentumObserver, ObserverConfig};
 /// use dynamics_core::{effects::Gravity, model::Robot, robots::Ur5e, state::State};
 /// let mut observer: MomentumObserver<f64, 6> =
 ///     MomentumObserver::try_new(ObserverConfig { bandwidth: 50.0, tick: 1e-3 })?;
@@ -151,7 +151,7 @@ impl<R: Real, const V: usize, const ORDER: usize> MomentumObserver<R, V, ORDER> 
     /// mean over all ticks since the last one.
     ///
     /// ```
-    /// use motion_control::{MomentumObserver, ObserverConfig};
+    /// use motion_control::estimate::{MomentumObserver, ObserverConfig};
     /// let config = ObserverConfig { bandwidth: 50.0, tick: 1e-3 };
     /// let mut observer: MomentumObserver<f64, 1> = MomentumObserver::try_new(config)?;
     /// observer.update(&[0.0], &[0.0])?;
@@ -191,11 +191,11 @@ impl<R: Real, const V: usize, const ORDER: usize> MomentumObserver<R, V, ORDER> 
     /// further out where its force has no torque about the outer joints.
     ///
     /// ```
-    /// use motion_control::{MomentumObserver, ObserverConfig};
+    /// use motion_control::estimate::{MomentumObserver, ObserverConfig};
     /// let config = ObserverConfig { bandwidth: 50.0, tick: 1e-3 };
     /// let observer: MomentumObserver<f32, 6> = MomentumObserver::try_new(config)?;
     /// assert_eq!(observer.outermost(&[2.0; 6]), None);
-    /// # Ok::<(), motion_control::ConfigError>(())
+    /// # Ok::<(), motion_control::limits::ConfigError>(())
     /// ```
     #[inline]
     pub fn outermost(&self, threshold: &[R; V]) -> Option<usize> {
@@ -206,7 +206,7 @@ impl<R: Real, const V: usize, const ORDER: usize> MomentumObserver<R, V, ORDER> 
     /// Forgets the momentum and the external torques: after a stop, or at another load.
     ///
     /// ```
-    /// # use motion_control::{MomentumObserver, ObserverConfig};
+    /// # use motion_control::estimate::{MomentumObserver, ObserverConfig};
     /// # let config = ObserverConfig { bandwidth: 50.0, tick: 1e-3 };
     /// let mut observer: MomentumObserver<f64, 1> = MomentumObserver::try_new(config)?;
     /// observer.update(&[0.0], &[0.0])?;

@@ -68,13 +68,13 @@ pub(crate) fn one_less_decay<R: Real>(x: R) -> R {
 /// accelerates. A non-finite input leaves the estimate unchanged.
 ///
 /// ```
-/// use motion_control::{Observer, ObserverConfig};
+/// use motion_control::estimate::{Observer, ObserverConfig};
 /// let mut observer = Observer::<f32, 1>::try_new(ObserverConfig { bandwidth: 200.0, tick: 1e-3 })?;
 /// for tick in 0..200 {
 ///     observer.update(&[0.5 + 2e-3 * tick as f32], &[0.0]);
 /// }
 /// assert!((observer.predict(&[0.0]).qd[0] - 2.0).abs() < 1e-3);
-/// # Ok::<(), motion_control::ConfigError>(())
+/// # Ok::<(), motion_control::limits::ConfigError>(())
 /// ```
 #[doc(alias = "velocity estimator")]
 #[doc(alias = "Luenberger")]
@@ -152,7 +152,7 @@ impl<R: Real, const V: usize> Observer<R, V> {
     /// The estimate after a tick without a valid measurement: the prediction.
     ///
     /// ```
-    /// use motion_control::{Observer, ObserverConfig};
+    /// use motion_control::estimate::{Observer, ObserverConfig};
     /// let mut observer = Observer::<f32, 1>::new(ObserverConfig { bandwidth: 200.0, tick: 0.5 });
     /// observer.reset(&[1.0]);
     /// let estimate = observer.predict(&[2.0]);
@@ -176,7 +176,7 @@ impl<R: Real, const V: usize> Observer<R, V> {
     /// The cost is that of [`Self::update`].
     ///
     /// ```
-    /// use motion_control::{Observer, ObserverConfig};
+    /// use motion_control::estimate::{Observer, ObserverConfig};
     /// let mut observer = Observer::<f32, 1>::new(ObserverConfig { bandwidth: 200.0, tick: 1e-3 });
     /// let position = |tick: i32| 0.5 + 2e-3 * tick as f32;
     /// for tick in 0..200 {
@@ -247,11 +247,12 @@ impl<R: Real, const V: usize> Observer<R, V> {
     /// the angle within a turn.
     ///
     /// The velocity is then as accurate after any number of turns as in the first. A
-    /// [`MotionController`](crate::MotionController) [`OnCircles`](crate::OnCircles) does this in
-    /// each tick.
+    /// [`MotionController`](crate::motion::MotionController)
+    /// [`OnCircles`](crate::motion::OnCircles) does this in each tick.
     ///
     /// ```
-    /// use motion_control::{Circles, Observer, ObserverConfig};
+    /// use motion_control::estimate::{Observer, ObserverConfig};
+    /// use motion_control::limits::Circles;
     /// let mut observer = Observer::<f32, 1>::new(ObserverConfig { bandwidth: 200.0, tick: 1e-3 });
     /// for measured in [3.138, 3.14, -3.141_185, -3.139_185] { // 2 mrad a tick, through π
     ///     observer.turn_to(Circles::NONE.with(0), &[measured]);

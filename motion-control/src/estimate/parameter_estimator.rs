@@ -82,7 +82,7 @@ const RATE: f64 = 1.0 / 64.0;
 ///
 /// # Example
 /// ```
-/// use motion_control::{ParameterEstimator, ParameterEstimatorConfig};
+/// use motion_control::estimate::{ParameterEstimator, ParameterEstimatorConfig};
 /// let config = ParameterEstimatorConfig { noise: [0.01_f32], prior: [1.0, 1.0], own: [2], forgetting: 1e-3, limit: 5.0 };
 /// let mut friction = ParameterEstimator::try_new(config)?;
 /// for tick in 0..200 {
@@ -137,7 +137,7 @@ impl<R: Real, const P: usize, const V: usize> ParameterEstimator<R, P, V> {
     /// an arm that has changed.
     ///
     /// ```
-    /// use motion_control::{ParameterEstimator, ParameterEstimatorConfig};
+    /// use motion_control::estimate::{ParameterEstimator, ParameterEstimatorConfig};
     /// let config = ParameterEstimatorConfig { noise: [0.01_f64], prior: [1.0], own: [0], forgetting: 0.0, limit: 5.0 };
     /// let mut one = ParameterEstimator::try_new(config)?;
     /// one.update(0, &[1.0], 0.5)?;

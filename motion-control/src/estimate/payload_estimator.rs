@@ -88,7 +88,7 @@ impl<R: Real, const V: usize> PayloadEstimatorConfig<R, V> {
 /// The reason why a [`PayloadEstimator`] rejects a tick.
 ///
 /// ```
-/// use motion_control::RejectedMeasurement;
+/// use motion_control::estimate::RejectedMeasurement;
 /// let reason = RejectedMeasurement::NotFinite { joint: 2 };
 /// assert_eq!(reason.to_string(), "joint 2: its torque or its regressor is not finite");
 /// ```
@@ -159,7 +159,7 @@ impl core::error::Error for RejectedMeasurement {}
 /// # Example
 /// ```
 /// use dynamics_core::algorithms::{regressor_columns, rnea};
-/// use motion_control::{PayloadEstimator, PayloadEstimatorConfig};
+/// use motion_control::estimate::{PayloadEstimator, PayloadEstimatorConfig};
 /// use dynamics_core::effects::{Payload, RIGID_BODY};
 /// use dynamics_core::model::{BodyInertia, Robot};
 /// use dynamics_core::{robots::Ur5e, state::State};
@@ -270,7 +270,7 @@ impl<R: Real, const V: usize> PayloadEstimator<R, V> {
     /// left out.
     ///
     /// ```
-    /// use motion_control::{PayloadEstimator, PayloadEstimatorConfig};
+    /// use motion_control::estimate::{PayloadEstimator, PayloadEstimatorConfig};
     /// let config = PayloadEstimatorConfig { noise: [1.0_f32; 2], prior: [2.0; 10], forgetting: 0.0, limit: 5.0 };
     /// let mut estimator = PayloadEstimator::try_new(config)?;
     /// let (y, residual) = ([[9.81; 10], [1.0; 10]], [30.0, 5.0]);
@@ -344,7 +344,7 @@ impl<R: Real, const V: usize> PayloadEstimator<R, V> {
     /// 1,000 flops.
     ///
     /// ```
-    /// use motion_control::{PayloadEstimator, PayloadEstimatorConfig};
+    /// use motion_control::estimate::{PayloadEstimator, PayloadEstimatorConfig};
     /// let prior = [5.0, 0.5, 0.5, 0.5, 0.05, 0.05, 0.05, 0.05, 0.05, 0.05];
     /// let config = PayloadEstimatorConfig { noise: [2.0_f64], prior, forgetting: 0.0, limit: 5.0 };
     /// let mut estimator = PayloadEstimator::try_new(config)?;

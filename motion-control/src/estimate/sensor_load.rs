@@ -27,7 +27,7 @@ const TURNED: f64 = 1e-3;
 /// The load of a force sensor and its offset: ten numbers.
 ///
 /// ```
-/// use motion_control::SensorLoad;
+/// use motion_control::estimate::SensorLoad;
 /// use dynamics_core::{glam::DVec3, spatial::Force};
 /// // A tool of 1.2 kg, its centre 80 mm before the sensor, which shows 3 N too much along x.
 /// let load = SensorLoad::<f64> { mass: 1.2, first_moment: DVec3::new(0.0, 0.0, 0.096), offset: Force::new(DVec3::ZERO, DVec3::X * 3.0) };
@@ -101,7 +101,7 @@ impl core::error::Error for SensorLoadError {}
 /// give mass and centre of a load of 1.2 kg within a per cent with the noise of a Robotiq FT 300.
 ///
 /// ```
-/// use motion_control::{SensorLoad, SensorLoadFit};
+/// use motion_control::estimate::{SensorLoad, SensorLoadFit};
 /// use dynamics_core::{glam::DVec3, spatial::Force};
 /// let load = SensorLoad::<f64> { mass: 0.7, first_moment: DVec3::new(0.01, 0.0, 0.04), offset: Force::new(DVec3::Y * 0.1, DVec3::X * 3.0) };
 /// let mut fit = SensorLoadFit::new();
@@ -110,7 +110,7 @@ impl core::error::Error for SensorLoadError {}
 /// }
 /// let found = fit.load()?;
 /// assert!((found.mass - 0.7).abs() < 1e-12 && (found.offset.lin.x - 3.0).abs() < 1e-12);
-/// # Ok::<(), motion_control::SensorLoadError>(())
+/// # Ok::<(), motion_control::estimate::SensorLoadError>(())
 /// ```
 #[doc(alias = "sensor calibration")]
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -40,7 +40,7 @@ pub struct TipWrenchConfig<R, const V: usize> {
 /// An estimator of the wrench at a body from the external torques of V joints.
 ///
 /// ```
-/// use motion_control::{TipWrench, TipWrenchConfig};
+/// use motion_control::estimate::{TipWrench, TipWrenchConfig};
 /// use dynamics_core::{Engine, algorithms::frame::LocalWorldAligned, robots::Ur5e, spatial::Force};
 /// use dynamics_core::model::{OnBody, Robot};
 /// use dynamics_core::glam::DVec3;
@@ -70,7 +70,8 @@ impl<R: Real, const V: usize> TipWrench<R, V> {
     /// [`ConfigError::OutOfRange`] names a number that is beyond its range or not finite.
     ///
     /// ```
-    /// use motion_control::{ConfigError, ConfigParameter, TipWrench, TipWrenchConfig};
+    /// use motion_control::estimate::{TipWrench, TipWrenchConfig};
+    /// use motion_control::limits::{ConfigError, ConfigParameter};
     /// let error = TipWrench::try_new(TipWrenchConfig { noise: [0.1_f32, 0.0], force: 100.0, couple: 0.0 });
     /// assert_eq!(error, Err(ConfigError::OutOfRange { parameter: ConfigParameter::TorqueNoise }));
     /// ```
@@ -88,9 +89,9 @@ impl<R: Real, const V: usize> TipWrench<R, V> {
     /// The wrench fˣ that a body's surroundings exert on it, N·m and N, in the frame and about the
     /// point of its `jacobian`.
     ///
-    /// `external` are the torques of a [`MomentumObserver`](crate::MomentumObserver). For an arm of
-    /// fewer than six joints, and at a singular posture, it is the smallest wrench that explains
-    /// them.
+    /// `external` are the torques of a [`MomentumObserver`](crate::estimate::MomentumObserver). For
+    /// an arm of fewer than six joints, and at a singular posture, it is the smallest wrench that
+    /// explains them.
     ///
     /// # Cost
     /// Constant work: 60 flops a joint, some 200 more and 6 divisions.

@@ -53,7 +53,8 @@ pub struct BreakawayConfig<R, const V: usize> {
     /// a step and the noise.
     pub resolution: R,
     /// Whether the positions are those of the tick before, as of a
-    /// [`MotionController`](crate::MotionController) by [`PreviousTick`](crate::PreviousTick).
+    /// [`MotionController`](crate::motion::MotionController) by
+    /// [`PreviousTick`](crate::motion::PreviousTick).
     pub late: bool,
     /// The least static friction of each joint, N·m or N.
     pub stiction: [R; V],
@@ -73,7 +74,7 @@ pub struct BreakawayConfig<R, const V: usize> {
     /// F, the least sliding friction of each joint, N·m or N.
     pub friction: [R; V],
     /// σ, the share of the friction that other laws compensate, such as
-    /// [`HandGuidingConfig::share`](crate::HandGuidingConfig::share).
+    /// [`HandGuidingConfig::share`](crate::law::HandGuidingConfig::share).
     pub share: R,
     /// v, the greatest speed of each joint, rad/s or m/s, beyond which the supervisor stops it.
     pub speed: [R; V],
@@ -104,8 +105,8 @@ impl<R: Real, const V: usize> BreakawayConfig<R, V> {
     }
 }
 
-/// The law of joints that stick: torques to add to those of [`HandGuiding`](crate::HandGuiding), or
-/// of a loop that holds the arm.
+/// The law of joints that stick: torques to add to those of
+/// [`HandGuiding`](crate::law::HandGuiding), or of a loop that holds the arm.
 ///
 /// - A **push** helps a joint that stood and has just been moved, in the direction of this motion.
 ///   It fades over twelve steps of the encoder, or with the time. There is none while a joint is
@@ -119,7 +120,7 @@ impl<R: Real, const V: usize> BreakawayConfig<R, V> {
 /// for as measured, by a debt if need be.
 ///
 /// ```
-/// use motion_control::{Breakaway, BreakawayConfig};
+/// use motion_control::law::{Breakaway, BreakawayConfig};
 /// let mut breakaway = Breakaway::<f32, 1>::try_new(BreakawayConfig {
 ///     tick: 2e-3, resolution: 0.38e-3, late: true,
 ///     stiction: [2.4], push: 0.6, dither: 0.0,
@@ -131,7 +132,7 @@ impl<R: Real, const V: usize> BreakawayConfig<R, V> {
 /// let pushes = [1.0, 2.0, 3.0, 4.0, 5.0, 20.0].map(|k| breakaway.torque(&[0.5 + 0.4e-3 * k])[0]);
 /// assert!(pushes[..3].iter().all(|push| *push == 0.0));
 /// assert!((pushes[3] - 1.44).abs() < 1e-6 && pushes[4] < pushes[3] && pushes[5] == 0.0);
-/// # Ok::<(), motion_control::ConfigError>(())
+/// # Ok::<(), motion_control::limits::ConfigError>(())
 /// ```
 #[doc(alias = "stiction compensation")]
 #[doc(alias = "dither")]

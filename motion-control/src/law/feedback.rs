@@ -25,7 +25,7 @@ impl<R: Real, const V: usize> Gains<R, V> {
     /// `diagonal`: that of M at a representative configuration, kg·m² or kg.
     ///
     /// ```
-    /// use motion_control::Gains;
+    /// use motion_control::law::Gains;
     /// let gains = Gains::from_inertia(&[2.0_f32], 10.0, 0.7);
     /// assert_eq!((gains.kp, gains.kd), ([200.0], [28.0]));
     /// ```
@@ -44,11 +44,13 @@ impl<R: Real, const V: usize> Gains<R, V> {
 /// 5 flops per joint, with the same instructions for all data.
 ///
 /// # Errors
-/// None; a non-finite input gives a non-finite output, which [`crate::MotionController`] rejects.
+/// None; a non-finite input gives a non-finite output, which [`crate::motion::MotionController`]
+/// rejects.
 ///
 /// ```
 /// use dynamics_core::state::State;
-/// use motion_control::{Estimate, Gains, feedback};
+/// use motion_control::estimate::Estimate;
+/// use motion_control::law::{Gains, feedback};
 /// let gains = Gains { kp: [100.0_f32], kd: [5.0] };
 /// let reference = State { q: [1.0], qd: [0.5], qdd: [0.0] };
 /// assert_eq!(feedback(&gains, &reference, &Estimate { q: [0.5], qd: [0.25] }), [51.25]);

@@ -24,7 +24,7 @@ pub enum TablePlace {
 /// A column may be that of a constant: the input at the equilibrium.
 ///
 /// ```
-/// use motion_control::{GainTable, TablePlace};
+/// use motion_control::law::{GainTable, TablePlace};
 /// // From 0.2 m on in steps of 0.1 m.
 /// const TABLE: GainTable<f32, 1, 2, 3> =
 ///     GainTable::new(0.2, 0.1, [[[10.0, 1.0]], [[14.0, 2.0]], [[20.0, 4.0]]]);
@@ -37,7 +37,7 @@ pub enum TablePlace {
 /// A table without a step, or with a gain that is not finite, does not compile as a constant:
 ///
 /// ```compile_fail,E0080
-/// use motion_control::GainTable;
+/// use motion_control::law::GainTable;
 /// const TABLE: GainTable<f32, 1, 1, 2> = GainTable::new(0.2, 0.1, [[[1.0]], [[f32::NAN]]]);
 /// ```
 #[doc(alias = "gain scheduling")]

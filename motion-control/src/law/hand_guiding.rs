@@ -49,11 +49,12 @@ pub use config::{HandGuidingConfig, LimitedSpring, SpeedBrake};
 ///
 /// Joints that are circles ([`Self::on_circles`]) are held and pushed by the short way.
 ///
-/// Directions of the tip are locked by a [`CartesianImpedance`](crate::CartesianImpedance) of these
-/// directions alone.
+/// Directions of the tip are locked by a [`CartesianImpedance`](crate::law::CartesianImpedance) of
+/// these directions alone.
 ///
 /// ```
-/// use motion_control::{Estimate, HandGuiding, HandGuidingConfig, LimitedSpring, SpeedBrake};
+/// use motion_control::estimate::Estimate;
+/// use motion_control::law::{HandGuiding, HandGuidingConfig, LimitedSpring, SpeedBrake};
 /// use dynamics_core::effects::{Coulomb, Gravity, Viscous, Width};
 /// use dynamics_core::{Engine, robots::Ur5e, state::State};
 /// let mut guiding = HandGuiding::try_new(HandGuidingConfig {
@@ -136,7 +137,8 @@ impl<R: Real, const V: usize, const CIRCLES: u128> HandGuiding<R, V, CIRCLES> {
     /// nothing is changed then.
     ///
     /// ```
-    /// # use motion_control::{Fault, HandGuiding, HandGuidingConfig, LimitedSpring, SpeedBrake};
+    /// # use motion_control::law::{HandGuiding, HandGuidingConfig, LimitedSpring, SpeedBrake};
+    /// # use motion_control::limits::Fault;
     /// # let spring = LimitedSpring { stiffness: [100.0; 2], damping: [10.0; 2], torque: [5.0; 2] };
     /// # let mut guiding = HandGuiding::<f32, 2>::try_new(HandGuidingConfig {
     /// #     error: 0.1, share: 0.8, rest_speed: [0.01; 2], compensation: [2.0; 2], lower: [-1.0; 2], upper: [1.0; 2],
@@ -161,16 +163,17 @@ impl<R: Real, const V: usize, const CIRCLES: u128> HandGuiding<R, V, CIRCLES> {
 
     /// Replaces the configuration between two ticks, such as by one of
     /// [`HandGuidingConfig::from_limits`] with the limits that the supervisor takes from
-    /// [`MotionController::set_limits`](crate::MotionController::set_limits): walls, speed limit
-    /// and damping then hold at once. Locked joints stay where they are held. Returns whether it
-    /// is another one than before, whose torque goes on from the present one by
-    /// [`HandOver::begin`](crate::HandOver::begin).
+    /// [`MotionController::set_limits`](crate::motion::MotionController::set_limits): walls, speed
+    /// limit and damping then hold at once. Locked joints stay where they are held. Returns whether
+    /// it is another one than before, whose torque goes on from the present one by
+    /// [`HandOver::begin`](crate::law::HandOver::begin).
     ///
     /// # Errors
     /// [`ConfigError`], as [`Self::try_new`] and [`Self::on_circles`]; nothing is changed then.
     ///
     /// ```
-    /// # use motion_control::{HandGuiding, HandGuidingConfig, HandOver, SafetyLimits};
+    /// # use motion_control::law::{HandGuiding, HandGuidingConfig, HandOver};
+    /// # use motion_control::limits::SafetyLimits;
     /// # let limits = SafetyLimits { torque: [60.0], rate: [60.0], speed: [3.0], lower: [-2.0], upper: [2.0] };
     /// let config = |limits| HandGuidingConfig::from_limits(limits, &[2.0_f64], 30.0);
     /// let mut guiding = HandGuiding::try_new(config(limits)?)?;
@@ -181,7 +184,7 @@ impl<R: Real, const V: usize, const CIRCLES: u128> HandGuiding<R, V, CIRCLES> {
     ///     hand_over.begin();
     /// }
     /// assert_eq!(guiding.set_config(config(slow)?), Ok(false)); // in the next tick
-    /// # Ok::<(), motion_control::ConfigError>(())
+    /// # Ok::<(), motion_control::limits::ConfigError>(())
     /// ```
     pub fn set_config(&mut self, config: HandGuidingConfig<R, V>) -> Result<bool, ConfigError> {
         let HandGuiding { config, rest_inv, .. } = HandGuiding::try_new(config)?;
@@ -207,7 +210,8 @@ impl<R: Real, const V: usize, const CIRCLES: u128> HandGuiding<R, V, CIRCLES> {
     /// By count: some 15 flops a joint, 25 more where it is faster than its limit or at a wall.
     ///
     /// ```
-    /// # use motion_control::{Estimate, HandGuiding, HandGuidingConfig, LimitedSpring, SpeedBrake};
+    /// # use motion_control::estimate::Estimate;
+    /// # use motion_control::law::{HandGuiding, HandGuidingConfig, LimitedSpring, SpeedBrake};
     /// # let spring = LimitedSpring { stiffness: [100.0], damping: [10.0], torque: [5.0] };
     /// # let guiding = HandGuiding::<f64, 1>::try_new(HandGuidingConfig {
     /// #     error: 0.25, share: 0.8, rest_speed: [0.01], compensation: [4.0], lower: [-1.0], upper: [1.0],

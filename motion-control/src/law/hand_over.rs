@@ -10,18 +10,18 @@ use dynamics_core::scalar::Real;
 /// The difference between the torques of the last law and those of the present one.
 ///
 /// Every torque of the laws passes through [`Self::torque`]; [`Self::begin`] announces that the
-/// next one is another law's, such as that of a motion after [`HandGuiding`](crate::HandGuiding).
-/// The torque then goes on from its last value, and the difference δ decreases by δ/n in each of n
-/// ticks, whatever the laws do.
+/// next one is another law's, such as that of a motion after
+/// [`HandGuiding`](crate::law::HandGuiding). The torque then goes on from its last value, and the
+/// difference δ decreases by δ/n in each of n ticks, whatever the laws do.
 ///
 /// ```
-/// use motion_control::HandOver;
+/// use motion_control::law::HandOver;
 /// let mut hand_over = HandOver::<f64, 1>::try_new(4)?;
 /// assert_eq!(hand_over.torque(&[6.0]), [6.0]); // guided
 /// hand_over.begin();
 /// let torques = [(); 6].map(|()| hand_over.torque(&[2.0])[0]); // held
 /// assert_eq!(torques, [6.0, 5.0, 4.0, 3.0, 2.0, 2.0]);
-/// # Ok::<(), motion_control::ConfigError>(())
+/// # Ok::<(), motion_control::limits::ConfigError>(())
 /// ```
 #[doc(alias = "bumpless transfer")]
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,7 +52,8 @@ impl<R: Real, const V: usize> HandOver<R, V> {
     /// The torques of the present law with what is left of the difference, N·m or N.
     ///
     /// The difference is finite whatever the torques are. A torque that is not finite is returned
-    /// as NaN or infinite, for the supervisor to reject it ([`Fault::Torque`](crate::Fault::Torque)).
+    /// as NaN or infinite, for the supervisor to reject it
+    /// ([`Fault::Torque`](crate::limits::Fault::Torque)).
     ///
     /// # Cost
     /// By count: 3 flops a joint, and one division.

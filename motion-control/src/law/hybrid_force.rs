@@ -111,7 +111,7 @@ impl<R: Real> TaskCommand<R> {
     /// Khatib (1987), (13).
     ///
     /// ```
-    /// use motion_control::{TaskCommand, TaskMotion};
+    /// use motion_control::law::{TaskCommand, TaskMotion};
     /// let motion = TaskMotion { error: 0.01_f64, error_rate: 0.0, acceleration: 0.5, omega_n: 40.0, zeta: 1.0 };
     /// assert_eq!(TaskCommand::motion(motion), TaskCommand::Motion { acceleration: 16.5 });
     /// ```
@@ -152,7 +152,7 @@ impl<R: Real> TaskCommand<R> {
 ///
 /// ```
 /// use dynamics_core::algorithms::{Damping, OperationalSpace, frame, task_jacobian};
-/// use motion_control::{TaskCommand, TaskFrame, hybrid_motion_force};
+/// use motion_control::law::{TaskCommand, TaskFrame, hybrid_motion_force};
 /// use dynamics_core::effects::{Coriolis, Gravity, RIGID_BODY};
 /// use dynamics_core::{Core, Engine, robots::Ur5e, state::State};
 ///
@@ -180,7 +180,7 @@ impl<R: Real> TaskCommand<R> {
 ///
 /// ```compile_fail,E0308
 /// use dynamics_core::algorithms::OperationalSpace;
-/// use motion_control::{TaskCommand, hybrid_motion_force};
+/// use motion_control::law::{TaskCommand, hybrid_motion_force};
 /// fn two_of_three(task: &OperationalSpace<f32, 3, 6>) -> [f32; 6] {
 ///     let still = TaskCommand::Motion { acceleration: 0.0 };
 ///     hybrid_motion_force(task, &[still, still], &[0.0; 3], &[0.0; 6])
@@ -228,7 +228,7 @@ pub fn hybrid_motion_force<R: Real, const M: usize, const V: usize>(
 /// mechanical manipulators" (1980), (20).
 ///
 /// ```
-/// use motion_control::orientation_error;
+/// use motion_control::law::orientation_error;
 /// use dynamics_core::glam::DMat3;
 /// let error = orientation_error::<f64>(&DMat3::from_rotation_x(0.1), &DMat3::from_rotation_x(0.3));
 /// assert!((error.x - 0.2_f64.sin()).abs() < 1e-15);

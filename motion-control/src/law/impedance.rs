@@ -49,7 +49,9 @@ pub struct ImpedanceConfig<R, const M: usize> {
 /// # Example
 /// ```
 /// use dynamics_core::algorithms::{Pose, frame, task_jacobian};
-/// use motion_control::{CartesianImpedance, ImpedanceConfig, TaskDeviation, TaskFrame, pose_error};
+/// use motion_control::law::{
+///     CartesianImpedance, ImpedanceConfig, TaskDeviation, TaskFrame, pose_error,
+/// };
 /// use dynamics_core::effects::{Gravity, RIGID_BODY};
 /// use dynamics_core::{Core, robots::Panda, state::State};
 /// let stiffness = [30.0_f32, 30.0, 30.0, 600.0, 600.0, 600.0]; // N·m/rad about the axes, N/m along them
@@ -87,7 +89,7 @@ pub struct CartesianImpedance<R, const M: usize> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct TaskDeviation<R, const M: usize> {
-    /// x̃ = x_d − x, m or rad: the components of [`pose_error`](crate::pose_error()).
+    /// x̃ = x_d − x, m or rad: the components of [`pose_error`](crate::law::pose_error()).
     pub position: [R; M],
     /// ẋ_d − ẋ, m/s or rad/s.
     pub velocity: [R; M],
@@ -130,7 +132,8 @@ impl<R: Real, const M: usize> ImpedanceConfig<R, M> {
     /// [`ConfigError::OutOfRange`] names a number that is not finite and positive.
     ///
     /// ```
-    /// use motion_control::{ConfigError, ConfigParameter, ImpedanceConfig};
+    /// use motion_control::law::ImpedanceConfig;
+    /// use motion_control::limits::{ConfigError, ConfigParameter};
     /// let config = ImpedanceConfig { stiffness: [600.0_f32, 0.0], zeta: 0.7, slowest: 2.0 };
     /// let error = ConfigError::OutOfRange { parameter: ConfigParameter::Stiffness };
     /// assert_eq!(config.check(), Err(error));
@@ -178,11 +181,11 @@ impl<R: Real, const M: usize> CartesianImpedance<R, M> {
     ///
     /// ```
     /// use dynamics_core::algorithms::Conditioning;
-    /// use motion_control::{CartesianImpedance, ImpedanceConfig};
+    /// use motion_control::law::{CartesianImpedance, ImpedanceConfig};
     /// let config = ImpedanceConfig { stiffness: [400.0_f64], zeta: 1.0, slowest: 2.0 };
     /// let ([[d]], how) = CartesianImpedance::try_new(config)?.damping(&[[0.25]]); // 4 kg
     /// assert!((d - 2.0 * (400.0_f64 * 4.0).sqrt()).abs() < 1e-12 && how == Conditioning::Regular);
-    /// # Ok::<(), motion_control::ConfigError>(())
+    /// # Ok::<(), motion_control::limits::ConfigError>(())
     /// ```
     #[inline(never)]
     #[must_use]
@@ -233,9 +236,9 @@ impl<R: Real, const M: usize> CartesianImpedance<R, M> {
     /// stiffnesses are equal; for a goal that moves,
     /// [`rnea_two_velocities`](dynamics_core::algorithms::rnea_two_velocities()) of the joint
     /// velocities that follow it. `posture` is τ_n = K_n (q_n − q) − D_n q̇, for example by
-    /// [`feedback`](crate::feedback()); it does not act on the task where all modes are faster than
-    /// ω_min. Some damping in it is needed near singularities also for arms without redundancy:
-    /// there the task damps not all joints.
+    /// [`feedback`](crate::law::feedback()); it does not act on the task where all modes are faster
+    /// than ω_min. Some damping in it is needed near singularities also for arms without
+    /// redundancy: there the task damps not all joints.
     ///
     /// Every number is finite in singular postures too, and nothing jumps there: the spring and the
     /// damper are bounded, and Jᵀ goes to zero along the lost direction. Velocities are damped by

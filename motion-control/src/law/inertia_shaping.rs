@@ -47,16 +47,16 @@ pub struct InertiaShapingConfig<R, const V: usize> {
 }
 
 /// The law of an arm that a hand moves with less than its inertia: torques to add to those of
-/// [`HandGuiding`](crate::HandGuiding).
+/// [`HandGuiding`](crate::law::HandGuiding).
 ///
-/// It amplifies what a [`MomentumObserver`](crate::MomentumObserver) finds. The observer lags, and
-/// an amplified lag pushes a stiff hand to and fro: without enough damping the arm oscillates in
-/// contact. With enough of it, the arm is hardly lighter: by at most 13 % at one frequency of the
-/// motion. Less damping relies on the damping of the hand.
+/// It amplifies what a [`MomentumObserver`](crate::estimate::MomentumObserver) finds. The observer
+/// lags, and an amplified lag pushes a stiff hand to and fro: without enough damping the arm
+/// oscillates in contact. With enough of it, the arm is hardly lighter: by at most 13 % at one
+/// frequency of the motion. Less damping relies on the damping of the hand.
 ///
 /// ```
 /// use dynamics_core::Core;
-/// use motion_control::{InertiaShaping, InertiaShapingConfig};
+/// use motion_control::law::{InertiaShaping, InertiaShapingConfig};
 /// use dynamics_core::effects::{Armature, RIGID_BODY};
 /// use dynamics_core::robots::Ur5e;
 /// let q = [0.0_f32, -1.57, 1.57, -1.57, -1.57, 0.0];
@@ -69,7 +69,7 @@ pub struct InertiaShapingConfig<R, const V: usize> {
 /// })?;
 /// let external = [6.0, 0.0, 0.0, 0.0, 0.0, 0.0]; // MomentumObserver::external_torque
 /// assert_eq!(shaping.torque(&external, &[0.0; 6])[0], 4.0);
-/// # Ok::<(), motion_control::ConfigError>(())
+/// # Ok::<(), motion_control::limits::ConfigError>(())
 /// ```
 #[doc(alias = "inertia reduction")]
 #[doc(alias = "apparent inertia")]

@@ -1,4 +1,16 @@
 //! The torque from a reference and an estimate.
+//!
+//! | item | purpose | memory |
+//! |---|---|---|
+//! | [`Gains`], [`feedback()`] | K_p (q_d − q) + K_d (q̇_d − q̇) | none |
+//! | [`PassivityGains`], [`passivity_based_torque()`] | the law of Slotine & Li: M q̈_r + C q̇_r + g + F − K_D s | none |
+//! | [`hybrid_motion_force`], [`TaskCommand`] | motions and forces along a task's directions | none |
+//! | [`CartesianImpedance`], [`pose_error()`] | a spring and a damper between a body and its goal, with null space | the modes of the last tick |
+//! | [`HandGuiding`] | an arm that a hand moves: friction in part, a speed limit, virtual walls, locked joints | where joints are locked |
+//! | [`Breakaway`] | joints that stick: a push and a dither out of a tank of energy | energies, the last steps |
+//! | [`HandOver`] | from one law to another without a step of the torque | the difference |
+//! | [`InertiaShaping`] | external torques, amplified: an arm that is lighter for a hand | none |
+//! | [`ZeroOrderHold`], [`FirstOrderHold`], [`Interpolator`], [`InertiaUpdate`] | the torque in ticks without a computation of the dynamics | last torques |
 
 pub(crate) mod breakaway;
 pub(crate) mod feedback;

@@ -3,8 +3,8 @@
 //! A loop computes in every `TICKS`-th tick and passes the result to `update`, which returns the
 //! torque of that tick; in the other ticks, `hold` returns it. The error grows with `TICKS` and
 //! with the speed of the arm. It is largest where the jerk of the reference jumps, as at the
-//! way-points of [`Trajectory`](crate::Trajectory), unless the dynamics are computed in such ticks.
-//! Errors and savings are in `docs/accuracy.md` in the repository.
+//! way-points of [`Trajectory`](crate::reference::Trajectory), unless the dynamics are computed in
+//! such ticks. Errors and savings are in `docs/accuracy.md` in the repository.
 
 use dynamics_core::algorithms::MassMatrix;
 use dynamics_core::scalar::Real;
@@ -12,7 +12,7 @@ use dynamics_core::scalar::Real;
 /// Keeps the torque of the last computation.
 ///
 /// ```
-/// use motion_control::ZeroOrderHold;
+/// use motion_control::law::ZeroOrderHold;
 /// let mut held = ZeroOrderHold::start();
 /// held.update([3.0_f32]);
 /// assert_eq!(held.hold(), [3.0]);
@@ -48,7 +48,7 @@ impl<R: Real, const V: usize> ZeroOrderHold<R, V> {
 /// Extrapolates the torque along the line through the last two computations.
 ///
 /// ```
-/// use motion_control::FirstOrderHold;
+/// use motion_control::law::FirstOrderHold;
 /// let mut torque = FirstOrderHold::<f32, 1, 2>::start();
 /// torque.update([3.0]);
 /// assert_eq!(torque.hold(), [3.0]); // nothing is known yet
@@ -99,7 +99,7 @@ impl<R: Real, const V: usize, const TICKS: usize> FirstOrderHold<R, V, TICKS> {
 /// For feed-forward, whose reference is known: `update` receives the torque of `TICKS` ticks later.
 ///
 /// ```
-/// use motion_control::Interpolator;
+/// use motion_control::law::Interpolator;
 /// let mut torque = Interpolator::<f32, 1, 2>::start([3.0]);
 /// assert_eq!(torque.update([4.0]), [3.0]); // that of two ticks later
 /// assert_eq!(torque.hold(), [3.5]);
@@ -158,7 +158,7 @@ fn slope<R: Real, const V: usize, const TICKS: usize>(b: &[R; V], a: &[R; V]) ->
 /// Exact where the acceleration jumps, which the others see a period late.
 ///
 /// ```
-/// use motion_control::InertiaUpdate;
+/// use motion_control::law::InertiaUpdate;
 /// use dynamics_core::{Engine, effects::RIGID_BODY, robots::Ur5e, state::State};
 /// let mut state = State { qdd: [1.0_f32; 6], ..State::at([0.3; 6]) };
 /// let mut torque = InertiaUpdate::<f32, 6, 5>::start();

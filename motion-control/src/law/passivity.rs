@@ -53,7 +53,7 @@ impl<R: Real, const V: usize> PassivityGains<R, V> {
     ///
     /// ```
     /// use dynamics_core::state::State;
-    /// use motion_control::{Estimate, PassivityGains};
+    /// use motion_control::{estimate::Estimate, law::PassivityGains};
     /// let gains = PassivityGains { lambda: [4.0_f32], kd: [5.0] };
     /// let reference = State { q: [1.0], qd: [0.5], qdd: [0.0] };
     /// let sliding = gains.sliding(&reference, &Estimate { q: [0.5], qd: [0.25] });
@@ -102,13 +102,15 @@ impl<R: Real, const V: usize> PassivityGains<R, V> {
 /// flops for each joint, the same instructions for all data.
 ///
 /// # Errors
-/// None; a non-finite input gives a non-finite output, which [`crate::MotionController`] rejects.
+/// None; a non-finite input gives a non-finite output, which [`crate::motion::MotionController`]
+/// rejects.
 ///
 /// # Source
 /// Slotine & Li (1987).
 ///
 /// ```
-/// use motion_control::{Estimate, PassivityGains, passivity_based_torque};
+/// use motion_control::estimate::Estimate;
+/// use motion_control::law::{PassivityGains, passivity_based_torque};
 /// use dynamics_core::{Core, effects::RIGID_BODY, model::Static, robots::Ur5e, state::State};
 /// let gains = PassivityGains { lambda: [10.0_f32; 6], kd: [60.0, 60.0, 30.0, 5.0, 5.0, 5.0] };
 /// let reference = State { qd: [0.1; 6], qdd: [0.5; 6], ..State::at([0.0, -1.2, 1.5, 0.3, 0.7, 0.0]) };

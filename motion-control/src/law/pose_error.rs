@@ -12,12 +12,12 @@ mod tests;
 /// origins, m, in base axes.
 ///
 /// Its power with the directions of a task gives
-/// [`TaskDeviation::position`](crate::TaskDeviation::position): see
-/// [`CartesianImpedance`](crate::CartesianImpedance). 70 flops.
+/// [`TaskDeviation::position`](crate::law::TaskDeviation::position): see
+/// [`CartesianImpedance`](crate::law::CartesianImpedance). 70 flops.
 ///
 /// ```
 /// use dynamics_core::algorithms::Pose;
-/// use motion_control::pose_error;
+/// use motion_control::law::pose_error;
 /// use dynamics_core::glam::{DMat3, DVec3};
 /// let goal = Pose::<f64> { rot: DMat3::from_rotation_x(0.2), pos: DVec3::Z };
 /// let error = pose_error(&Pose::IDENTITY, &goal);
@@ -49,7 +49,7 @@ pub fn pose_error<R: Real>(pose: &Pose<R>, wanted: &Pose<R>) -> Motion<R> {
 /// manipulators: a critical review with experiments" (1998).
 ///
 /// ```
-/// use motion_control::{orientation_error, quaternion_error};
+/// use motion_control::law::{orientation_error, quaternion_error};
 /// use dynamics_core::glam::{DMat3, DVec3};
 /// let half_a_turn = DMat3::from_rotation_x(core::f64::consts::PI);
 /// assert!((quaternion_error::<f64>(&DMat3::IDENTITY, &half_a_turn).length() - 2.0).abs() < 1e-15);

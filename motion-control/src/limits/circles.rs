@@ -18,13 +18,13 @@ mod tests;
 /// further turn would wind. Which of these a continuous joint is, is your choice: [`Circles::of`]
 /// takes all of a model, [`Circles::counted`] takes one of them out.
 ///
-/// A [`MotionController`](crate::MotionController) has the choice in its type,
-/// [`OnCircles`](crate::OnCircles), so that lines cost nothing. Joints are numbered from 0, up to
-/// 127.
+/// A [`MotionController`](crate::motion::MotionController) has the choice in its type,
+/// [`OnCircles`](crate::motion::OnCircles), so that lines cost nothing. Joints are numbered from 0,
+/// up to 127.
 ///
 /// ```
 /// use dynamics_core::{model::Robot, robots::Gen3};
-/// use motion_control::Circles;
+/// use motion_control::limits::Circles;
 /// const CIRCLES: Circles = Circles::of(&Gen3::MODEL);
 /// let has = [0, 1, 2, 3, 4, 5, 6].map(|joint| CIRCLES.has(joint));
 /// assert_eq!(has, [true, false, true, false, true, false, true]);
@@ -68,7 +68,7 @@ impl Circles {
     ///
     /// ```
     /// use dynamics_core::drivetrain::Transmission;
-    /// use motion_control::Circles;
+    /// use motion_control::limits::Circles;
     /// let joints = Circles::NONE.with(0).with(1).with(2);
     /// // The first motor turns two joints, the other behind a gear of 2.5.
     /// let gears = Transmission { matrix: [[1.0, 0.0], [-1.0, 0.0], [0.0, 0.4]], offset: [0.0; 3] };
@@ -125,7 +125,8 @@ impl Circles {
         self.0 != 0
     }
 
-    /// A bit for each joint, from the lowest: the parameter of [`OnCircles`](crate::OnCircles).
+    /// A bit for each joint, from the lowest: the parameter of
+    /// [`OnCircles`](crate::motion::OnCircles).
     #[inline(always)]
     pub const fn bits(self) -> u128 {
         self.0
@@ -141,7 +142,7 @@ impl Circles {
     /// they are.
     ///
     /// ```
-    /// use motion_control::Circles;
+    /// use motion_control::limits::Circles;
     /// let [wheel, slide] = Circles::NONE.with(0).near(&[-3.1_f32, -3.1], &[3.1, 3.1]);
     /// assert!((wheel - 3.183).abs() < 1e-3 && slide == -3.1);
     /// ```
@@ -157,12 +158,12 @@ impl Circles {
     }
 
     /// Moves each point by whole turns, so that the way to it from the one before is the short one:
-    /// the first to within half a turn of zero. [`Trajectory`](crate::Trajectory) and
-    /// [`PathSpline`](crate::PathSpline) go where the numbers of their way-points lead, turns
-    /// included; call this for way-points that name places.
+    /// the first to within half a turn of zero. [`Trajectory`](crate::reference::Trajectory) and
+    /// [`PathSpline`](crate::reference::PathSpline) go where the numbers of their way-points lead,
+    /// turns included; call this for way-points that name places.
     ///
     /// ```
-    /// use motion_control::{Circles, WayPoint};
+    /// use motion_control::{limits::Circles, reference::WayPoint};
     /// let mut points = [[3.0_f32], [-3.0], [-2.5]].map(|q| WayPoint { q, qd: [0.0], ticks: 0 });
     /// Circles::NONE.with(0).shorten(points.iter_mut().map(|point| &mut point.q));
     /// assert!((points[1].q[0] - 3.283).abs() < 1e-3 && (points[2].q[0] - 3.783).abs() < 1e-3);
@@ -231,5 +232,5 @@ impl Circles {
 /// The joints that can be circles: the bits of the set.
 const JOINTS: usize = 128;
 /// Greater half widths than this, rad, are no bounds: those of an arc are at most π, and a
-/// [`BackOff`](crate::BackOff) widens them by less than as much again.
+/// [`BackOff`](crate::motion::BackOff) widens them by less than as much again.
 const ARC: f64 = 2.0 * PI;

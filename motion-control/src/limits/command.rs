@@ -10,10 +10,10 @@ pub enum Mode {
     /// The full control law. During a ride-through it acts on the prediction of the observer.
     Full,
     /// The arm is brought to rest at its estimated position: inverse dynamics of q̈ = −λ q̇, see
-    /// [`crate::hold()`].
+    /// [`crate::motion::hold()`].
     Hold,
     /// Zero torque and the brake, until a reset
-    /// ([`MotionController::reset`](crate::MotionController::reset)).
+    /// ([`MotionController::reset`](crate::motion::MotionController::reset)).
     Stopped,
 }
 

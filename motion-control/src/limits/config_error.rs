@@ -8,7 +8,8 @@ use dynamics_core::scalar::Real;
 /// The reason why a configuration is rejected.
 ///
 /// ```
-/// use motion_control::{ConfigError, ConfigParameter, Observer, ObserverConfig};
+/// use motion_control::estimate::{Observer, ObserverConfig};
+/// use motion_control::limits::{ConfigError, ConfigParameter};
 /// let error = Observer::<f32, 6>::try_new(ObserverConfig { bandwidth: 250.0, tick: 0.0 }).unwrap_err();
 /// assert_eq!(error, ConfigError::OutOfRange { parameter: ConfigParameter::Tick });
 /// assert_eq!(error.to_string(), "the length of a tick is not a positive number");

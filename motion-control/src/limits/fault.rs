@@ -5,7 +5,7 @@ use core::fmt;
 /// The reason why a measurement or a command is rejected. Joints are numbered from 0.
 ///
 /// ```
-/// use motion_control::Fault;
+/// use motion_control::limits::Fault;
 /// assert_eq!(format!("{}", Fault::Jump { joint: 2 }), "joint 2: its position jumped");
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,24 +54,25 @@ pub enum Fault {
         /// The joint.
         joint: usize,
     },
-    /// A limit of the joint allows no motion or torque: [`crate::SafetyLimits::check`] names it.
+    /// A limit of the joint allows no motion or torque: [`crate::limits::SafetyLimits::check`]
+    /// names it.
     Limits {
         /// The joint.
         joint: usize,
     },
     /// The encoder did not change while the reference moved; see
-    /// [`FrozenEncoder`](crate::FrozenEncoder).
+    /// [`FrozenEncoder`](crate::safety::FrozenEncoder).
     Frozen {
         /// The joint.
         joint: usize,
     },
-    /// The torque was at its limit for too long; see [`Saturation`](crate::Saturation).
+    /// The torque was at its limit for too long; see [`Saturation`](crate::safety::Saturation).
     Saturated {
         /// The joint.
         joint: usize,
     },
     /// The reference moved further in a tick than the joint can; see
-    /// [`ReferenceStep`](crate::ReferenceStep).
+    /// [`ReferenceStep`](crate::safety::ReferenceStep).
     Reference {
         /// The joint.
         joint: usize,
@@ -83,7 +84,7 @@ pub enum Fault {
     },
     /// More ticks were missed than a fault may last.
     Missed,
-    /// A tick ended after its period; see [`TickCounter`](crate::TickCounter).
+    /// A tick ended after its period; see [`TickCounter`](crate::safety::TickCounter).
     Overrun,
     /// The model is invalid, for instance after a calibration.
     Model,
@@ -94,7 +95,7 @@ pub enum Fault {
     /// The brake did not accept its command.
     Brake,
     /// A stop from outside the loop: an emergency stop, a safety controller, an operator, a
-    /// contact. See [`MotionController::stop`](crate::MotionController::stop).
+    /// contact. See [`MotionController::stop`](crate::motion::MotionController::stop).
     #[doc(alias = "e-stop")]
     #[doc(alias = "emergency stop")]
     External,
@@ -105,7 +106,7 @@ pub enum Fault {
         joint: usize,
     },
     /// The winding of its motor is above its greatest temperature: see
-    /// [`ThermalStatus::Hot`](crate::ThermalStatus::Hot), or the drive says so.
+    /// [`ThermalStatus::Hot`](crate::safety::ThermalStatus::Hot), or the drive says so.
     #[doc(alias = "over-temperature")]
     Hot {
         /// The joint.
@@ -119,7 +120,7 @@ impl Fault {
     /// an imported robot.
     ///
     /// ```
-    /// use motion_control::Fault;
+    /// use motion_control::limits::Fault;
     /// let fault = Fault::Speed { joint: 1 };
     /// assert_eq!(fault.to_string(), "joint 1: it exceeds its speed limit");
     /// assert_eq!(fault.named(&["shoulder", "elbow"]).to_string(), "joint `elbow`: it exceeds its speed limit");

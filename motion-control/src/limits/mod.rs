@@ -1,5 +1,10 @@
 //! The bounds of a command: limits, faults and their reactions, the command itself, errors of
 //! configurations.
+//!
+//! | item | purpose | memory |
+//! |---|---|---|
+//! | [`Fault`], [`Reaction`] | what each fault leads to | |
+//! | [`Circles`], [`OnCircles`](crate::motion::OnCircles) | which joints are points on a circle: the short way, at any number of turns | none |
 
 pub(crate) mod circles;
 pub(crate) mod command;

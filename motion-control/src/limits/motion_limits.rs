@@ -1,7 +1,7 @@
 //! The limits of a joint's motion.
 
 /// The limits of a joint's motion that a trajectory respects; a supervisor enforces
-/// [`crate::SafetyLimits`].
+/// [`crate::limits::SafetyLimits`].
 #[doc(alias = "Speed")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]

@@ -9,13 +9,13 @@ use dynamics_core::scalar::Real;
 #[cfg(test)]
 mod tests;
 
-/// The limits of each joint that a [`MotionController`](crate::MotionController) enforces.
+/// The limits of each joint that a [`MotionController`](crate::motion::MotionController) enforces.
 ///
 /// They can be made from the [`JointLimits`] of a robot's description; the rate of the torque is
 /// then unlimited:
 ///
 /// ```
-/// use motion_control::SafetyLimits;
+/// use motion_control::limits::SafetyLimits;
 /// use dynamics_core::model::JointLimits;
 /// let joint = JointLimits { lower: -3.1_f32, upper: 3.1, velocity: 3.2, torque: 150.0 };
 /// let limits = SafetyLimits::from([joint; 6]).with_rate_share(0.5).with_position_margin(0.1);
@@ -82,15 +82,15 @@ impl<R: Real, const V: usize> SafetyLimits<R, V> {
     }
 
     /// Checks that every limit allows some motion or torque, as
-    /// [`crate::MotionController::try_new`] requires.
+    /// [`crate::motion::MotionController::try_new`] requires.
     ///
     /// Positions, speeds and rates may be unlimited (infinite), torques may not. Zero is a valid
     /// limit, such as of a joint that stays on its brake;
-    /// [`MotionControllerConfig::advice`](crate::MotionControllerConfig::advice) names a rate of
-    /// zero.
+    /// [`MotionControllerConfig::advice`](crate::motion::MotionControllerConfig::advice) names a
+    /// rate of zero.
     ///
     /// ```
-    /// use motion_control::{SafetyLimits, SafetyLimitsError, LimitKind};
+    /// use motion_control::limits::{LimitKind, SafetyLimits, SafetyLimitsError};
     /// let limits = SafetyLimits { torque: [9.0, -9.0], rate: [1.0; 2], speed: [2.0; 2], lower: [-1.0; 2], upper: [1.0; 2] };
     /// let error = limits.check().unwrap_err();
     /// assert_eq!(error, SafetyLimitsError::Negative { joint: 1, of: LimitKind::Torque, value: -9.0 });
@@ -230,7 +230,7 @@ pub enum SafetyLimitsError {
         position: f64,
     },
     /// The range of a joint that is a circle counts turns: it is more than one, or has one end. See
-    /// [`Circles::counted`](crate::Circles::counted).
+    /// [`Circles::counted`](crate::limits::Circles::counted).
     CountsTurns {
         /// The joint.
         joint: usize,

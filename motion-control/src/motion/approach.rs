@@ -31,7 +31,9 @@ pub(crate) const ACCELERATION: f64 = 5.773_502_691_896_258;
 /// turns. A joint whose turns count goes as far as the numbers say, which is how to ask for turns.
 ///
 /// ```
-/// use motion_control::{Approach, Circles, MotionLimits, Reference, SafetyLimits, Trajectory, WayPoint};
+/// use motion_control::limits::{Circles, MotionLimits, SafetyLimits};
+/// use motion_control::motion::Approach;
+/// use motion_control::reference::{Reference, Trajectory, WayPoint};
 /// let limits = [MotionLimits { velocity: 1.0, acceleration: 4.0 }];
 /// let bounds = SafetyLimits { torque: [10.0_f32], rate: [8.0], speed: [3.0], lower: [-2.0], upper: [2.0] };
 /// let point = |q, ticks| WayPoint { q: [q], qd: [0.0], ticks };
@@ -74,8 +76,8 @@ pub enum ApproachError {
         /// The joint.
         joint: usize,
     },
-    /// The arm is outside its bounds, from which [`BackOff`](crate::BackOff) leads back, or the
-    /// start of the motion is.
+    /// The arm is outside its bounds, from which [`BackOff`](crate::motion::BackOff) leads back, or
+    /// the start of the motion is.
     Position {
         /// The joint.
         joint: usize,
@@ -222,7 +224,7 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
     /// starts the arm.
     ///
     /// ```
-    /// # use motion_control::*;
+    /// # use motion_control::{limits::*, motion::*, reference::*, safety::*};
     /// # let bounds = SafetyLimits { torque: [10.0], rate: [10.0], speed: [3.0], lower: [-2.0], upper: [2.0] };
     /// # let config = MotionControllerConfig {
     /// #     supervisor: SupervisorConfig {

@@ -38,7 +38,7 @@ pub struct BackOffConfig<R> {
 /// [`MotionController::reset`] lead on.
 ///
 /// ```
-/// use motion_control::*;
+/// use motion_control::{limits::*, motion::*, reference::*, safety::*};
 /// # let bounds = SafetyLimits { torque: [10.0], rate: [10.0], speed: [3.0], lower: [-1.0], upper: [1.0] };
 /// # let config = MotionControllerConfig {
 /// #     supervisor: SupervisorConfig {

@@ -107,8 +107,9 @@ pub enum ContactPhase {
     Held,
 }
 
-/// The reaction of an arm to the contacts of a [`ContactDetector`](crate::ContactDetector): the
-/// second step of the ticks of a [`MotionController`], in place of [`ObservedTick::reference`].
+/// The reaction of an arm to the contacts of a
+/// [`ContactDetector`](crate::estimate::ContactDetector): the second step of the ticks of a
+/// [`MotionController`], in place of [`ObservedTick::reference`].
 ///
 /// N points of the reference's path are kept, at distances along it and not in time, so that an arm
 /// that has paused goes back as far as one that moves. The retraction is a cubic B-spline of them,
@@ -128,7 +129,7 @@ pub enum ContactPhase {
 /// and one root more in the tick of a contact.
 ///
 /// ```
-/// use motion_control::*;
+/// use motion_control::{estimate::*, limits::*, motion::*, reference::*, safety::*};
 /// # let bounds = SafetyLimits { torque: [10.0], rate: [10.0], speed: [3.0], lower: [-1.0], upper: [1.0] };
 /// # let config = MotionControllerConfig {
 /// #     supervisor: SupervisorConfig {
@@ -213,8 +214,8 @@ impl<R: Real, const V: usize, const N: usize> ContactReaction<R, V, N> {
     /// The second step of a tick: the reference of the motion, or that of the reaction to a
     /// contact.
     ///
-    /// `contact` is what [`ContactDetector::update`](crate::ContactDetector::update) returns for
-    /// the estimate of this tick; a fault of it starts no reaction and releases no arm.
+    /// `contact` is what [`ContactDetector::update`](crate::estimate::ContactDetector::update)
+    /// returns for the estimate of this tick; a fault of it starts no reaction and releases no arm.
     pub fn reference<'a, A: MeasurementAge, T: Reference<R, V>>(
         &mut self,
         observed: ObservedTick<'a, R, V, A>,

@@ -2,15 +2,15 @@
 //! to faults.
 //!
 //! A tick has four steps: [`MotionController::observe`] checks the measurement and updates the
-//! estimate, [`ObservedTick::reference`](crate::ObservedTick::reference) gives the reference of the
-//! joints, the caller's law computes torques, and
-//! [`ReferencedTick::command`](crate::ReferencedTick::command) limits them.
+//! estimate, [`ObservedTick::reference`](crate::motion::ObservedTick::reference) gives the
+//! reference of the joints, the caller's law computes torques, and
+//! [`ReferencedTick::command`](crate::motion::ReferencedTick::command) limits them.
 //! [`MotionController::tick`] does all four with the law as a closure.
 //!
 //! | a fault lasts | reference | estimate |
 //! |---|---|---|
 //! | up to `ride_through_ticks` | the trajectory, as if nothing had happened | predicted with the reference's acceleration |
-//! | `hold_ticks` more | [`hold`](crate::hold()): q̈ = −λ q̇ where the arm is; the trajectory's clock stands still | predicted |
+//! | `hold_ticks` more | [`hold`](crate::motion::hold()): q̈ = −λ q̇ where the arm is; the trajectory's clock stands still | predicted |
 //! | longer | the same, with zero torque on the brake, latched | as measured |
 //!
 //! After the fault a separate reference leads back onto the trajectory (`resume.rs`). The reasons,
@@ -42,7 +42,8 @@ mod sealed {
 }
 
 /// The age of the measurements of a [`MotionController`], a property of the encoders, as a type;
-/// [`OnCircles`](crate::OnCircles) of it is that of a controller with joints that are circles.
+/// [`OnCircles`](crate::motion::OnCircles) of it is that of a controller with joints that are
+/// circles.
 pub trait MeasurementAge: sealed::Sealed {
     /// The joints whose positions are points on a circle.
     #[doc(hidden)]
@@ -100,7 +101,7 @@ impl MeasurementAge for CurrentTick {
 /// The reason why a stopped arm is not restarted. Joints are numbered from 0.
 ///
 /// ```
-/// use motion_control::ResetError;
+/// use motion_control::motion::ResetError;
 /// assert_eq!(ResetError::TooFar { joint: 2 }.to_string(), "joint 2: it is too far from its reference");
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -112,10 +113,10 @@ pub enum ResetError {
     /// There was no measurement in the last tick.
     NoMeasurement,
     /// There is a contact, or there was one too recently: see
-    /// [`ContactReaction`](crate::ContactReaction).
+    /// [`ContactReaction`](crate::motion::ContactReaction).
     Contact,
-    /// The joint is outside its bounds: [`BackOff`](crate::BackOff) leads it back, or a person
-    /// moves it.
+    /// The joint is outside its bounds: [`BackOff`](crate::motion::BackOff) leads it back, or a
+    /// person moves it.
     OutOfBounds {
         /// The joint.
         joint: usize,
@@ -152,7 +153,7 @@ impl core::error::Error for ResetError {}
 /// tick.
 ///
 /// ```
-/// use motion_control::*;
+/// use motion_control::{estimate::*, limits::*, motion::*, reference::*, safety::*};
 /// use dynamics_core::state::State;
 ///
 /// let mut controller = MotionController::<f32, 1>::try_new(MotionControllerConfig {
@@ -218,11 +219,11 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
 
     /// As [`Self::try_new`], without the check: for constant configurations.
     ///
-    /// If a limit allows no motion or torque ([`SafetyLimits::check`](crate::SafetyLimits::check)),
-    /// or counts the turns of a circle ([`Circles::check`]), the arm is stopped by
-    /// [`Fault::Limits`], and a reset does not restart it. If the tick is not a positive number, no
-    /// step of the joints is plausible; a resolution that is not a positive number is treated as
-    /// zero.
+    /// If a limit allows no motion or torque
+    /// ([`SafetyLimits::check`](crate::limits::SafetyLimits::check)), or counts the turns of a
+    /// circle ([`Circles::check`]), the arm is stopped by [`Fault::Limits`], and a reset does not
+    /// restart it. If the tick is not a positive number, no step of the joints is plausible; a
+    /// resolution that is not a positive number is treated as zero.
     pub fn new(config: MotionControllerConfig<R, V>) -> Self {
         let mut supervisor = Supervisor::new(config.supervisor);
         if let Err(error) = A::CIRCLES.check(&config.supervisor.limits) {
@@ -252,8 +253,11 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
     /// trajectory.
     ///
     /// ```
-    /// use motion_control::{Mode, MotionController, MotionControllerConfig, ResetError};
-    /// # use motion_control::{SafetyLimits, SupervisorConfig, MotionLimits, Trajectory, WayPoint};
+    /// use motion_control::limits::Mode;
+    /// use motion_control::motion::{MotionController, MotionControllerConfig, ResetError};
+    /// # use motion_control::limits::{MotionLimits, SafetyLimits};
+    /// # use motion_control::reference::{Trajectory, WayPoint};
+    /// # use motion_control::safety::SupervisorConfig;
     /// # let config = MotionControllerConfig {
     /// #     supervisor: SupervisorConfig {
     /// #         limits: SafetyLimits { torque: [10.0], rate: [10.0], speed: [3.0], lower: [-1.0], upper: [1.0] },
@@ -340,7 +344,7 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
     ///
     /// The stop is latched until [`Self::reset`], with its first reason. While a stop is still
     /// required after a reset, call this function in every tick.
-    /// [`ReferencedTick::stop`](crate::ReferencedTick::stop) acts in the present tick.
+    /// [`ReferencedTick::stop`](crate::motion::ReferencedTick::stop) acts in the present tick.
     #[doc(alias = "e-stop")]
     #[doc(alias = "emergency stop")]
     #[cold]
@@ -352,8 +356,12 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
     /// [`StopCategory::ControlledOff`].
     ///
     /// ```
-    /// use motion_control::{Fault, Mode, MotionController, MotionControllerConfig, StopCategory};
-    /// # use motion_control::{SafetyLimits, SupervisorConfig, MotionLimits, Trajectory, WayPoint};
+    /// use motion_control::limits::{Fault, Mode};
+    /// use motion_control::motion::{MotionController, MotionControllerConfig};
+    /// use motion_control::safety::StopCategory;
+    /// # use motion_control::limits::{MotionLimits, SafetyLimits};
+    /// # use motion_control::reference::{Trajectory, WayPoint};
+    /// # use motion_control::safety::SupervisorConfig;
     /// # let config = MotionControllerConfig {
     /// #     supervisor: SupervisorConfig {
     /// #         limits: SafetyLimits { torque: [10.0], rate: [10.0], speed: [3.0], lower: [-1.0], upper: [1.0] },
@@ -407,9 +415,10 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
     /// every tick.
     ///
     /// ```
-    /// use motion_control::{Fault, Mode, MotionController, MotionControllerConfig};
+    /// use motion_control::limits::{Fault, Mode};
+    /// use motion_control::motion::{MotionController, MotionControllerConfig};
     /// # use dynamics_core::state::State;
-    /// # use motion_control::{SafetyLimits, SupervisorConfig};
+    /// # use motion_control::{limits::SafetyLimits, safety::SupervisorConfig};
     /// # let config = MotionControllerConfig {
     /// #     supervisor: SupervisorConfig {
     /// #         limits: SafetyLimits { torque: [10.0], rate: [8.0], speed: [3.0], lower: [-1.0], upper: [1.0] },
@@ -431,7 +440,7 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
     ///         assert_eq!((status.mode, status.fault), (mode, Some(fault)));
     ///     }
     /// }
-    /// # Ok::<(), motion_control::ConfigError>(())
+    /// # Ok::<(), motion_control::limits::ConfigError>(())
     /// ```
     #[cold]
     pub fn react(&mut self, fault: Fault) {
@@ -450,19 +459,19 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
     /// times a tick, and rises at once; an infinite one begins at twice the estimated speed. An arm
     /// that decelerates as fast has no fault, one that does not has [`Fault::Speed`]: lead the
     /// motion down at no less than this deceleration, and a hand by
-    /// [`HandGuiding::set_config`](crate::HandGuiding::set_config). A [`BackOff`](crate::BackOff)
-    /// that has begun keeps its bounds.
+    /// [`HandGuiding::set_config`](crate::law::HandGuiding::set_config). A
+    /// [`BackOff`](crate::motion::BackOff) that has begun keeps its bounds.
     ///
     /// # Errors
     /// [`ConfigError`]: limits or a deceleration that allow nothing, and a range that a joint is
-    /// outside of ([`SafetyLimitsError::Outside`](crate::SafetyLimitsError::Outside)). Nothing is
-    /// changed then.
+    /// outside of ([`SafetyLimitsError::Outside`](crate::limits::SafetyLimitsError::Outside)).
+    /// Nothing is changed then.
     ///
     /// # Cost
     /// Some 15 comparisons and flops a joint in a tick with a call, nothing in others.
     ///
     /// ```
-    /// use motion_control::*;
+    /// use motion_control::{limits::*, motion::*, safety::*};
     /// # use dynamics_core::state::State;
     /// let fast = SafetyLimits { torque: [10.0], rate: [10.0], speed: [3.0], lower: [-1.0], upper: [1.0] };
     /// # let config = MotionControllerConfig {
@@ -503,15 +512,17 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
         self.supervisor.relimit(limits, deceleration * tick, tick, qd, A::CIRCLES)
     }
 
-    /// Replaces the limits of torque by those of a thermal model, before each tick; the tick's
-    /// [`Command::torque`](crate::Command::torque) then goes to [`ThermalLimit::update`].
-    ///
-    /// [`Self::set_limits`], which would lift them for up to 32 ticks, has to get limits of
-    /// [`ThermalLimit::within`].
+    /// Lowers the limits of torque to those of a thermal model, before each tick; the tick's
+    /// [`Command::torque`](crate::limits::Command::torque) then goes to [`ThermalLimit::update`]. The
+    /// least of these limits and of those of [`Self::set_limits`] holds, in whatever order they are
+    /// given.
     ///
     /// ```
-    /// # use motion_control::{MotionController, MotionControllerConfig, Reaction, SafetyLimits, SupervisorConfig};
-    /// use motion_control::{Fault, Mode, ThermalConfig, ThermalLimit, ThermalStatus};
+    /// # use motion_control::limits::{Reaction, SafetyLimits};
+    /// # use motion_control::motion::{MotionController, MotionControllerConfig};
+    /// # use motion_control::safety::SupervisorConfig;
+    /// use motion_control::limits::{Fault, Mode};
+    /// use motion_control::safety::{ThermalConfig, ThermalLimit, ThermalStatus};
     /// # use dynamics_core::state::State;
     /// # let limits = SafetyLimits { torque: [9.0], rate: [8.0], speed: [3.0], lower: [-1.0], upper: [1.0] };
     /// # let mut controller = MotionController::<f32, 1>::try_new(MotionControllerConfig {
@@ -538,16 +549,14 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
     ///     }
     /// }
     /// assert_eq!(controller.tick(Ok(&[0.5]), &reference, law).status.fault, Some(Fault::Hot { joint: 0 }));
-    /// # Ok::<(), motion_control::ConfigError>(())
+    /// # Ok::<(), motion_control::limits::ConfigError>(())
     /// ```
     ///
     /// # Cost
-    /// A copy of a number a joint in V + 1 of 32 ticks, and a comparison.
+    /// Two comparisons a joint.
     #[inline]
     pub fn limit_torques(&mut self, thermal: &ThermalLimit<R, V>) {
-        if thermal.changed() {
-            self.supervisor.limit_torques(thermal.torque());
-        }
+        self.supervisor.limit_torques(thermal.torque());
     }
 }
 

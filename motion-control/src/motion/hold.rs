@@ -4,8 +4,8 @@ use crate::estimate::Estimate;
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 
-/// The reference of an arm in [`Mode::Hold`](crate::Mode::Hold): its estimated position, with a
-/// velocity that decays, q̈ = −λ q̇.
+/// The reference of an arm in [`Mode::Hold`](crate::limits::Mode::Hold): its estimated position,
+/// with a velocity that decays, q̈ = −λ q̇.
 ///
 /// Inverse dynamics of this reference decelerates all joints together; `decay` is λ in 1/s, about
 /// ω_n of the feedback.
@@ -19,7 +19,7 @@ use dynamics_core::state::State;
 /// 1 flop per joint, with the same instructions for all data.
 ///
 /// ```
-/// use motion_control::{Estimate, hold};
+/// use motion_control::{estimate::Estimate, motion::hold};
 /// let reference = hold(&Estimate { q: [0.5_f32], qd: [2.0] }, 25.0);
 /// assert_eq!((reference.q, reference.qd, reference.qdd), ([0.5], [2.0], [-50.0]));
 /// ```

@@ -38,7 +38,7 @@ const BITS: f64 = 16_777_216.0;
 /// A solver of inverse kinematics: the same code on host and chip.
 ///
 /// ```
-/// use motion_control::{PoseSolver, PoseSolverError};
+/// use motion_control::motion::{PoseSolver, PoseSolverError};
 /// use dynamics_core::{Engine, algorithms::frame::LocalWorldAligned, robots::Ur5e};
 /// use dynamics_core::model::{OnBody, Robot};
 /// const TIP: OnBody<{ Ur5e::MODEL.body("wrist_3") }> = OnBody;
@@ -97,6 +97,13 @@ impl<R: Real, const V: usize> PoseSolver<R, V> {
         start: &[R; V],
         mut kinematics: impl FnMut(&[R; V]) -> (Pose<R>, [Motion<R>; V]),
     ) -> Result<PoseSolution<R, V>, PoseSolverError<R, V>> {
+        let positive = |x: R| (x > R::ZERO) & x.is_finite();
+        let mut ranges = self.lower.iter().zip(&self.upper);
+        let usable =
+            positive(self.length) & (positive(self.tolerance) | (self.tolerance == R::ZERO));
+        if !(usable & ranges.all(|(lower, upper)| lower <= upper)) {
+            return Err(PoseSolverError::Solver);
+        }
         let [share, omega, stall, most, far] = NUMBERS.map(R::from_f64);
         let (per_length, tolerance) = (R::ONE / self.length, self.tolerance * self.tolerance);
         let (mut q, mut free, mut starts) = (self.within(start), [true; V], 0);
@@ -173,7 +180,10 @@ pub struct PoseSolution<R: Real, const V: usize> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum PoseSolverError<R: Real, const V: usize> {
-    /// A number of the solver, the goal, the start or the kinematics is not finite.
+    /// A range of the solver is empty, its length is not positive or its tolerance negative, or one
+    /// of them is not a number.
+    Solver,
+    /// A number of the goal, the start or the kinematics is not finite.
     NotFinite,
     /// No start has led to the pose within the iterations: it is out of reach, or nearly so. These
     /// positions are the nearest that were found.
@@ -183,6 +193,7 @@ pub enum PoseSolverError<R: Real, const V: usize> {
 impl<R: Real, const V: usize> core::fmt::Display for PoseSolverError<R, V> {
     fn fmt(&self, out: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         out.write_str(match self {
+            Self::Solver => "a range, the length or the tolerance of the solver is none",
             Self::NotFinite => "a pose or a position is not finite",
             Self::NotReached(_) => "no start has led to the pose",
         })

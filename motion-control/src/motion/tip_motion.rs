@@ -119,7 +119,9 @@ pub enum TipStatus {
 /// - The tip comes first: the posture uses what freedom is left.
 ///
 /// ```
-/// use motion_control::{MotionLimits, Reference, TipMotion, TipMotionConfig, TipStatus};
+/// use motion_control::limits::MotionLimits;
+/// use motion_control::motion::{TipMotion, TipMotionConfig, TipStatus};
+/// use motion_control::reference::Reference;
 /// use dynamics_core::{Engine, algorithms::frame::LocalWorldAligned, robots::Ur5e, spatial::Motion};
 /// use dynamics_core::{glam::Vec3, model::{OnBody, Robot}};
 /// const TIP: OnBody<{ Ur5e::MODEL.body("wrist_3") }> = OnBody;
@@ -135,7 +137,7 @@ pub enum TipStatus {
 ///     assert_eq!(tip.step(&jacobian, &up), TipStatus::Follows);
 /// }
 /// assert!((height(&tip) - before - 0.1).abs() < 2e-3); // m
-/// # Ok::<(), motion_control::ConfigError>(())
+/// # Ok::<(), motion_control::limits::ConfigError>(())
 /// ```
 #[doc(alias = "inverse kinematics")]
 #[doc(alias = "servo")]
@@ -201,7 +203,8 @@ impl<R: Real, const V: usize> TipMotion<R, V> {
     /// not finite is not taken, and the answer is false.
     ///
     /// ```
-    /// # use motion_control::{MotionLimits, TipMotion, TipMotionConfig};
+    /// # use motion_control::limits::MotionLimits;
+    /// # use motion_control::motion::{TipMotion, TipMotionConfig};
     /// use dynamics_core::state::State;
     /// # let mut tip = TipMotion::try_new(TipMotionConfig {
     /// #     tick: 1e-3_f32, lower: [-1.0], upper: [1.0],
@@ -211,7 +214,7 @@ impl<R: Real, const V: usize> TipMotion<R, V> {
     /// assert!(tip.restart(&State { q: [0.5], qd: [0.1], qdd: [0.0] }));
     /// assert!(!tip.restart(&State::at([f32::NAN])));
     /// assert_eq!(tip.state().q, [0.5]);
-    /// # Ok::<(), motion_control::ConfigError>(())
+    /// # Ok::<(), motion_control::limits::ConfigError>(())
     /// ```
     #[must_use = "a state that is not finite is not taken"]
     pub fn restart(&mut self, state: &State<R, V, V>) -> bool {
@@ -411,7 +414,7 @@ impl<R: Real, const V: usize> Reference<R, V> for TipMotion<R, V> {
 /// A pose that a tip moves to, as a twist for [`TipMotion::step`].
 ///
 /// ```
-/// use motion_control::TipGoal;
+/// use motion_control::motion::TipGoal;
 /// use dynamics_core::{algorithms::frame::Pose, glam::DVec3};
 /// let pose = Pose { pos: DVec3::X, ..Pose::<f64>::IDENTITY };
 /// let goal = TipGoal { pose, gain: 4.0, linear: 0.25, angular: 1.0 };
@@ -458,9 +461,9 @@ fn less<R: Real>() -> R {
     R::ONE - R::from_f64(2.0 * ROUNDINGS) * R::EPSILON
 }
 
-/// `gain` times the rotation [`quaternion_error`](crate::quaternion_error), 2 sin(θ/2) along its axis
-/// n, by the sum Σ a × w = 2 n sin θ over the axes of both attitudes; next to half a turn, where that
-/// vanishes, along the longest a + w.
+/// `gain` times the rotation [`quaternion_error`](crate::law::quaternion_error), 2 sin(θ/2) along
+/// its axis n, by the sum Σ a × w = 2 n sin θ over the axes of both attitudes; next to half a turn,
+/// where that vanishes, along the longest a + w.
 #[inline(always)]
 fn turn<R: Real>(attitude: &R::Mat3, wanted: &R::Mat3, gain: R) -> R::Vec3 {
     let (a, w) = (attitude.cols(), wanted.cols());

@@ -16,10 +16,10 @@ pub struct PathPoint<R, const V: usize> {
 }
 
 /// A path q(s) of V joints for 0 ≤ s ≤ 1, of which q″ is continuous: what
-/// [`TimedPath`](crate::TimedPath) gives a time.
+/// [`TimedPath`](crate::reference::TimedPath) gives a time.
 ///
 /// ```
-/// use motion_control::{GeometricPath, PathPoint};
+/// use motion_control::reference::{GeometricPath, PathPoint};
 /// /// A straight line of two joints.
 /// struct Line([f64; 2]);
 /// impl GeometricPath<f64, 2> for Line {

@@ -44,7 +44,7 @@ pub struct JerkLimits<R> {
 /// velocity and acceleration.
 ///
 /// ```
-/// use motion_control::{JerkLimits, MovingGoal, Reference};
+/// use motion_control::reference::{JerkLimits, MovingGoal, Reference};
 /// let limits = [JerkLimits { velocity: 2.0, acceleration: 10.0, jerk: 100.0 }];
 /// let mut goal = MovingGoal::try_new(&[0.0_f32], limits, 1e-3)?;
 /// // 1.5 rad at 2 rad/s, and the times of acceleration and jerk: 1.5/2 + 2/10 + 10/100 s.
@@ -92,7 +92,7 @@ const MARGIN: f64 = 1.0 / 65536.0;
 /// The reason why a goal is refused; the motion is then as before. Joints are numbered from 0.
 ///
 /// ```
-/// use motion_control::{GoalError, JerkLimits, MovingGoal};
+/// use motion_control::reference::{GoalError, JerkLimits, MovingGoal};
 /// let limits = [JerkLimits { velocity: 2.0, acceleration: 10.0, jerk: 100.0 }; 2];
 /// let mut goal = MovingGoal::try_new(&[0.0_f32; 2], limits, 1e-3)?;
 /// let error = goal.set(0, &[0.3, f32::NAN]).unwrap_err();
@@ -182,10 +182,10 @@ impl<R: Real, const V: usize> MovingGoal<R, V> {
     }
 
     /// Moves the goal at a tick: from its state there, the reference goes to rest at `goal`, rad or
-    /// m. Returns the tick of the arrival.
+    /// m. Returns the tick of the arrival. The motion to a goal that is set again goes on as it is.
     ///
     /// The tick is that of the controller:
-    /// [`MotionController::trajectory_tick`](crate::MotionController::trajectory_tick).
+    /// [`MotionController::trajectory_tick`](crate::motion::MotionController::trajectory_tick).
     ///
     /// # Cost
     /// Two to 29 evaluations of a motion for each joint, of some 150 instructions each, all in one
@@ -198,6 +198,9 @@ impl<R: Real, const V: usize> MovingGoal<R, V> {
     /// Haschke, Weitnauer & Ritter (2008); Berscheid & Kröger, "Jerk-limited real-time trajectory
     /// generation with arbitrary target states" (2021), whose durations are compared.
     pub fn set(&mut self, tick: u32, goal: &[R; V]) -> Result<u32, GoalError> {
+        if self.joints.iter().zip(goal).all(|([.., end], q)| end.q == *q) {
+            return Ok(tick.max(self.ticks()));
+        }
         let state = self.at(tick);
         self.plan(tick, &state, goal)
     }
@@ -349,8 +352,8 @@ impl<R: Real, const V: usize> Reference<R, V> for MovingGoal<R, V> {
     }
 }
 
-/// The way from where the goal was set, for a [`TimedPath`](crate::TimedPath), which limits the
-/// torques as well, up to some 2 % at its ends: for a goal that was set at rest.
+/// The way from where the goal was set, for a [`TimedPath`](crate::reference::TimedPath), which
+/// limits the torques as well, up to some 2 % at its ends: for a goal that was set at rest.
 impl<R: Real, const V: usize> GeometricPath<R, V> for MovingGoal<R, V> {
     fn point(&self, s: R) -> PathPoint<R, V> {
         let State { q, qd, qdd } = self.state(s * self.seconds);

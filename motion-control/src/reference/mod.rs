@@ -1,4 +1,14 @@
 //! The motion that the arm should follow: trajectories, paths, and their timing.
+//!
+//! | item | purpose | memory |
+//! |---|---|---|
+//! | [`Trajectory`] | quintics through way-points, checked against speed and acceleration limits | none |
+//! | [`RestToRest`] | from stop to stop with four derivatives, for compliant joints | none |
+//! | [`MovingGoal`] | a goal that may change at any tick, with limits of velocity, acceleration and jerk | the motion |
+//! | [`Reference`] | the reference of a controller: a trajectory, or a user's own motion | |
+//! | [`TaughtPath`] | way-points of an arm that is guided by hand | the way-points |
+//! | [`PathSpline`], [`GeometricPath`] | a smooth path near way-points | none |
+//! | [`TimedPath`] | the fastest motion along a path within limits of torque, speed and acceleration | none |
 
 pub(crate) mod geometric_path;
 pub(crate) mod goal;
@@ -22,7 +32,7 @@ use dynamics_core::state::State;
 /// The motion that a controller follows: a state of V joints for each tick.
 ///
 /// ```
-/// use motion_control::Reference;
+/// use motion_control::reference::Reference;
 /// use dynamics_core::state::State;
 /// /// Two joints that stand still.
 /// struct Rest([f32; 2]);

@@ -41,14 +41,14 @@ const BISECTIONS: usize = 10;
 /// As a [`GeometricPath`], s is the share of the length of the polygon through the way-points.
 ///
 /// ```
-/// use motion_control::{GeometricPath, PathSpline};
+/// use motion_control::reference::{GeometricPath, PathSpline};
 /// let points = [[0.0_f64], [1.1], [1.9], [3.1], [4.0]];
 /// let mut path = PathSpline::<f64, 1, 5>::EMPTY;
 /// path.fit(&points, &[1.0], &[0.0])?; // through the way-points
 /// assert!((path.point(1.1 / 4.0).q[0] - 1.1).abs() < 1e-12);
 /// path.fit(&points, &[1.0], &[0.2])?; // as smooth as 0.2 rad allow
 /// assert!(path.deviation()[0] <= 0.2 && path.point(0.4).curvature[0].abs() < 0.1);
-/// # Ok::<(), motion_control::PathSplineError>(())
+/// # Ok::<(), motion_control::reference::PathSplineError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PathSpline<R, const V: usize, const N: usize> {
@@ -78,9 +78,9 @@ impl<R: Real, const V: usize, const N: usize> PathSpline<R, V, N> {
     /// The smoothing λ is the greatest that the tolerance allows, the same for all joints and
     /// points, so that the sharpest corner decides: a tolerance of zero is a path through all
     /// points, with the noise of the encoders in its curvature. `spacing` (rad, m) is the usual
-    /// distance of points of each joint alone, as of [`TaughtPath`](crate::TaughtPath); lengths
-    /// along the path are counted in it. Between its points the path is off the polygon by the
-    /// sagitta of its arc.
+    /// distance of points of each joint alone, as of [`TaughtPath`](crate::reference::TaughtPath);
+    /// lengths along the path are counted in it. Between its points the path is off the polygon by
+    /// the sagitta of its arc.
     ///
     /// # Cost
     /// At most twelve factorisations of a system of N rows with five diagonals, with solutions for

@@ -41,14 +41,14 @@ pub struct Vibration<R> {
 /// vibrations the lists multiply, 3, 9, 27 with ZV and 5, 25 with ZVD.
 ///
 /// ```
-/// use motion_control::{Shaper, Vibration};
+/// use motion_control::reference::{Shaper, Vibration};
 /// let sway = Vibration { link: "boom", mode: 0, omega: 12.0_f32, damping_ratio: 0.01 };
 /// let shaper = Shaper::<f32, 3>::zv(&[sway], 1e-3)?;
 /// assert_eq!(shaper.delay(), 262); // half a period of 0.524 s, rounded up
 /// let never = Vibration { omega: 0.0, ..sway };
 /// let error = Shaper::<f32, 3>::zv(&[never], 1e-3).unwrap_err();
 /// assert_eq!(error.to_string(), "link `boom`, mode 0: the frequency is not positive");
-/// # Ok::<(), motion_control::ShaperError>(())
+/// # Ok::<(), motion_control::reference::ShaperError>(())
 /// ```
 ///
 /// # Source
@@ -85,7 +85,8 @@ impl<R: Real, const N: usize, const CIRCLES: u128> Shaper<R, N, CIRCLES> {
 impl<R: Real, const N: usize> Shaper<R, N> {
     /// The same shaper for a reference whose numbers leap by whole turns: those of the joints of
     /// [`Circles::bits`] are moved to within half a turn of the present one before they are added.
-    /// The numbers of a [`Trajectory`](crate::Trajectory) do not leap, and need this not.
+    /// The numbers of a [`Trajectory`](crate::reference::Trajectory) do not leap, and need this
+    /// not.
     #[must_use]
     pub fn on_circles<const CIRCLES: u128>(self) -> Shaper<R, N, CIRCLES> {
         Shaper { impulses: self.impulses }
@@ -174,7 +175,7 @@ fn add<R: Real, const N: usize>(
 /// A reference without the vibrations of a shaper.
 ///
 /// ```
-/// use motion_control::{Reference, Shaped, Shaper, Vibration};
+/// use motion_control::reference::{Reference, Shaped, Shaper, Vibration};
 /// use dynamics_core::state::State;
 /// /// A step at tick 1.
 /// struct Step;
@@ -190,7 +191,7 @@ fn add<R: Real, const N: usize>(
 /// let shaped = Shaped { reference: Step, shaper: Shaper::<f32, 3>::zv(&[sway], 1e-3)? };
 /// assert_eq!(shaped.at(50).q, [0.5]); // half of the step, and half of it half a period of 0.2 s later
 /// assert!((shaped.at(102).q[0] - 1.0).abs() < 1e-6);
-/// # Ok::<(), motion_control::ShaperError>(())
+/// # Ok::<(), motion_control::reference::ShaperError>(())
 /// ```
 ///
 /// # Cost

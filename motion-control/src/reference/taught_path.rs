@@ -16,12 +16,12 @@ mod tests;
 /// stated.
 ///
 /// [`Self::record`] is called in each tick while a hand moves the arm
-/// ([`HandGuiding`](crate::HandGuiding)), [`Self::end`] once after it; [`Self::spline`] then makes
-/// the path that [`TimedPath`](crate::TimedPath) gives a time. The speed and the evenness of the
-/// hand's motion leave no trace.
+/// ([`HandGuiding`](crate::law::HandGuiding)), [`Self::end`] once after it; [`Self::spline`] then
+/// makes the path that [`TimedPath`](crate::reference::TimedPath) gives a time. The speed and the
+/// evenness of the hand's motion leave no trace.
 ///
 /// ```
-/// use motion_control::{Recorded, TaughtPath};
+/// use motion_control::reference::{Recorded, TaughtPath};
 /// let mut taught = TaughtPath::<f32, 2, 8>::try_new([0.1, 0.1])?;
 /// assert_eq!(taught.record(&[0.0, 0.0]), Recorded::Stored);
 /// assert_eq!(taught.record(&[0.05, 0.0]), Recorded::Near);
@@ -30,7 +30,7 @@ mod tests;
 /// assert_eq!(taught.record(&[0.2, 0.1]), Recorded::Stored);
 /// assert_eq!(taught.end(&[0.3, 0.1]), Recorded::Stored);
 /// let path = taught.spline(&[0.0; 2])?;
-/// # use motion_control::GeometricPath;
+/// # use motion_control::reference::GeometricPath;
 /// assert_eq!(path.point(1.0).q, [0.3, 0.1]);
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```

@@ -42,11 +42,15 @@ pub use limits::{JointFriction, PathLimits};
 /// The limits hold at the M points of [`GeometricPath::grid_point`], and between them up to what
 /// the coefficients curve in a segment: the excess decreases with the square of M, and the time
 /// that is lost with M. The guide has both for paths of the UR5e. The torques jump where a limit of
-/// torque or acceleration is reached: a limit of [`SafetyLimits::rate`](crate::SafetyLimits::rate)
-/// has to admit this. The limits of torque have to leave what the feedback needs.
+/// torque or acceleration is reached: a limit of
+/// [`SafetyLimits::rate`](crate::limits::SafetyLimits::rate) has to admit this. The limits of
+/// torque have to leave what the feedback needs.
 ///
 /// ```
-/// use motion_control::{GeometricPath, JointFriction, MotionLimits, PathLimits, PathPoint, Reference, TimedPath};
+/// use motion_control::limits::MotionLimits;
+/// use motion_control::reference::{
+///     GeometricPath, JointFriction, PathLimits, PathPoint, Reference, TimedPath,
+/// };
 /// # struct Line;
 /// # impl GeometricPath<f64, 1> for Line {
 /// #     fn point(&self, s: f64) -> PathPoint<f64, 1> {
@@ -63,7 +67,7 @@ pub use limits::{JointFriction, PathLimits};
 /// assert_eq!(motion.ticks(), 800);
 /// assert!((motion.at(400).qd[0] - 2.0).abs() < 1e-3);
 /// assert_eq!((motion.at(u32::MAX).q, motion.at(u32::MAX).qd), ([0.8], [0.0]));
-/// # Ok::<(), motion_control::TimedPathError>(())
+/// # Ok::<(), motion_control::reference::TimedPathError>(())
 /// ```
 #[doc(alias = "TOPP")]
 #[doc(alias = "TOPP-RA")]
@@ -111,7 +115,10 @@ impl<'a, R: Real, P, const M: usize> TimedPath<'a, R, P, M> {
     /// [`TimedPathError`] names the joint and the point of the grid.
     ///
     /// ```
-    /// use motion_control::{JointFriction, MotionLimits, PathLimits, PathSpline, Reference, TimedPath};
+    /// use motion_control::limits::MotionLimits;
+    /// use motion_control::reference::{
+    ///     JointFriction, PathLimits, PathSpline, Reference, TimedPath,
+    /// };
     /// use dynamics_core::effects::{Armature, RIGID_BODY};
     /// use dynamics_core::{Core, robots::Ur5e};
     /// let points = [[0.0_f64, -1.6, 1.6, -1.6, -1.6, 0.0], [0.5, -1.2, 1.2, -1.2, -1.2, 0.0], [1.0, -1.0, 1.4, -1.6, -1.6, 0.0]];

@@ -48,7 +48,8 @@ impl<R: Real, const V: usize, const W: usize> Trajectory<R, V, W> {
     /// [`TrajectoryError`] names the way-point, the joint, and what was needed and allowed.
     ///
     /// ```
-    /// use motion_control::{MotionLimits, Trajectory, TrajectoryError, WayPoint};
+    /// use motion_control::limits::MotionLimits;
+    /// use motion_control::reference::{Trajectory, TrajectoryError, WayPoint};
     /// let points = [
     ///     WayPoint { q: [0.0_f32], qd: [0.0], ticks: 0 },
     ///     WayPoint { q: [1.0], qd: [0.0], ticks: 1000 },
@@ -77,7 +78,8 @@ impl<R: Real, const V: usize, const W: usize> Trajectory<R, V, W> {
     /// As [`Self::new`]; the trajectory is then as before.
     ///
     /// ```
-    /// use motion_control::{MotionLimits, Trajectory, TrajectoryError, WayPoint};
+    /// use motion_control::limits::MotionLimits;
+    /// use motion_control::reference::{Trajectory, TrajectoryError, WayPoint};
     /// let point = |q: f32, ticks| WayPoint { q: [q], qd: [0.0], ticks };
     /// let limits = [MotionLimits { velocity: 2.0, acceleration: 10.0 }];
     /// let mut trajectory = Trajectory::REST;
@@ -107,7 +109,8 @@ impl<R: Real, const V: usize, const W: usize> Trajectory<R, V, W> {
     /// all ticks.
     ///
     /// ```
-    /// use motion_control::{MotionLimits, Trajectory, WayPoint};
+    /// use motion_control::limits::MotionLimits;
+    /// use motion_control::reference::{Trajectory, WayPoint};
     /// let points = [
     ///     WayPoint { q: [0.0_f32], qd: [0.0], ticks: 0 },
     ///     WayPoint { q: [1.0], qd: [0.0], ticks: 1000 },
@@ -116,7 +119,7 @@ impl<R: Real, const V: usize, const W: usize> Trajectory<R, V, W> {
     /// let trajectory = Trajectory::new(&points, 1e-3, &quick)?;
     /// assert_eq!((trajectory.at(500).q, trajectory.at(500).qd), ([0.5], [1.875]));
     /// assert_eq!((trajectory.at(u32::MAX).q, trajectory.at(u32::MAX).qd), ([1.0], [0.0]));
-    /// # Ok::<(), motion_control::TrajectoryError>(())
+    /// # Ok::<(), motion_control::reference::TrajectoryError>(())
     /// ```
     #[inline(always)]
     pub fn at(&self, tick: u32) -> State<R, V, V> {

@@ -2,8 +2,8 @@
 //! loop composes.
 //!
 //! Each is optional and has its own memory. A detector's fault is the measurement of the tick
-//! ([`FrozenEncoder`]), or goes to [`MotionController::report`](crate::MotionController::report) or
-//! `stop_by`.
+//! ([`FrozenEncoder`]), or goes to
+//! [`MotionController::report`](crate::motion::MotionController::report) or `stop_by`.
 
 use crate::limits::{Circles, Fault};
 use dynamics_core::scalar::Real;
@@ -26,7 +26,7 @@ pub use detect::{Detect, Detectors};
 /// comparisons of its joint at the earliest, up to 2 V − 1 ticks later.
 ///
 /// ```
-/// use motion_control::{Fault, FrozenEncoder};
+/// use motion_control::{limits::Fault, safety::FrozenEncoder};
 /// let mut frozen = FrozenEncoder::new([0.01_f32], 3);
 /// for tick in 0..5 {
 ///     let fault = frozen.check(&[0.2], &[0.2 + 0.006 * tick as f32]).err();
@@ -88,7 +88,7 @@ impl<R: Real, const V: usize> FrozenEncoder<R, V> {
 impl<R: Real, const V: usize, const CIRCLES: u128> FrozenEncoder<R, V, CIRCLES> {
     /// Compares the measured position of a joint with the one when it was compared before;
     /// `reference` is the reference of the joints that acted in between,
-    /// [`MotionController::reference`](crate::MotionController::reference).
+    /// [`MotionController::reference`](crate::motion::MotionController::reference).
     ///
     /// # Errors
     /// [`Fault::Frozen`] names the joint, in each tick until its position changes.
@@ -156,11 +156,11 @@ impl<R: Real> Encoder<R> {
 /// Detects torques that stay at their limits.
 ///
 /// A held arm is decelerated with q̈ = −λ q̇: choose
-/// [`decay_rate`](crate::MotionControllerConfig::decay_rate) such that this torque is below the
-/// limits at the speeds of the motion, or a hold becomes a stop.
+/// [`decay_rate`](crate::motion::MotionControllerConfig::decay_rate) such that this torque is below
+/// the limits at the speeds of the motion, or a hold becomes a stop.
 ///
 /// ```
-/// use motion_control::{Fault, Saturation};
+/// use motion_control::{limits::Fault, safety::Saturation};
 /// let mut saturation = Saturation::new([10.0_f32], 2);
 /// let faults = [10.0, 10.0, 10.0, -9.0].map(|torque| saturation.check(&[torque]).err());
 /// assert_eq!(faults, [None, None, Some(Fault::Saturated { joint: 0 }), None]);
@@ -220,7 +220,7 @@ impl<R: Real, const V: usize> Saturation<R, V> {
 /// Detects steps of the reference, and references that are not finite.
 ///
 /// ```
-/// use motion_control::{Fault, ReferenceStep};
+/// use motion_control::{limits::Fault, safety::ReferenceStep};
 /// use dynamics_core::state::State;
 /// let mut steps = ReferenceStep::new([0.004_f32]); // 4 rad/s in ticks of 1 ms
 /// let faults = [0.0, 0.003, 0.3, 0.3].map(|q| steps.check(&State::at([q])).err());
@@ -245,7 +245,7 @@ impl<R: Real, const V: usize> ReferenceStep<R, V> {
     ///
     /// ```
     /// use dynamics_core::state::State;
-    /// use motion_control::{Circles, ReferenceStep};
+    /// use motion_control::{limits::Circles, safety::ReferenceStep};
     /// let mut steps = ReferenceStep::new([0.004_f32]).on_circles::<{ Circles::NONE.with(0).bits() }>();
     /// assert!([3.14, -3.142, 3.14].iter().all(|&q| steps.check(&State::at([q])).is_ok()));
     /// ```

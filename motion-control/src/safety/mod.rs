@@ -1,4 +1,10 @@
 //! The gate that every command passes, and what detects faults.
+//!
+//! | item | purpose | memory |
+//! |---|---|---|
+//! | [`FrozenEncoder`], [`ReferenceStep`], [`Saturation`] | faults that take several ticks to show | the last ticks |
+//! | [`ThermalLimit`] | torques that no winding overheats by, and how long one can be held | temperatures |
+//! | [`TickCounter`], [`Watchdog`] | missed ticks, overruns, and what feeds a watchdog | a count |
 
 pub(crate) mod detectors;
 pub(crate) mod stop_category;

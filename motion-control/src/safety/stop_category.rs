@@ -8,9 +8,10 @@ use dynamics_core::scalar::Real;
 /// The ways to stop an arm: the stop categories of IEC 60204-1 (2016), 9.2.2, and the lowering of
 /// an arm without brakes.
 ///
-/// A fault that outlasts the ride-through and a [`stop_by`](crate::MotionController::stop_by)
-/// choose among them; [`stop`](crate::MotionController::stop) is at once, for faults that leave no
-/// torque to decelerate with, such as a failed drive.
+/// A fault that outlasts the ride-through and a
+/// [`stop_by`](crate::motion::MotionController::stop_by) choose among them;
+/// [`stop`](crate::motion::MotionController::stop) is at once, for faults that leave no torque to
+/// decelerate with, such as a failed drive.
 ///
 /// | category | first | then | power |
 /// |---|---|---|---|
@@ -23,9 +24,11 @@ use dynamics_core::scalar::Real;
 /// The controlled part is not safety-rated: keep a safe torque off in hardware.
 ///
 /// ```
-/// use motion_control::{Fault, Mode, MotionController, MotionControllerConfig, StopCategory};
+/// use motion_control::limits::{Fault, Mode};
+/// use motion_control::motion::{MotionController, MotionControllerConfig};
+/// use motion_control::safety::StopCategory;
 /// # use dynamics_core::state::State;
-/// # use motion_control::{SafetyLimits, SupervisorConfig};
+/// # use motion_control::{limits::SafetyLimits, safety::SupervisorConfig};
 /// # let config = MotionControllerConfig {
 /// #     supervisor: SupervisorConfig {
 /// #         limits: SafetyLimits { torque: [10.0], rate: [8.0], speed: [3.0], lower: [-1.0], upper: [1.0] },
@@ -42,7 +45,7 @@ use dynamics_core::scalar::Real;
 ///     assert_eq!((command.status.mode, command.status.fault), (mode, Some(Fault::External)));
 ///     assert_eq!(command.brake, mode == Mode::Stopped);
 /// }
-/// # Ok::<(), motion_control::ConfigError>(())
+/// # Ok::<(), motion_control::limits::ConfigError>(())
 /// ```
 #[doc(alias = "IEC 60204-1")]
 #[doc(alias = "stop category")]

@@ -9,9 +9,9 @@
 //!    └──────────────────────────────────────────────────────────────┘ reset()
 //! ```
 //!
-//! [`StopCategory`](crate::StopCategory) chooses what `Hold` and `Stopped` are for an arm. Ticks
-//! with a fault are counted until `reentry_ticks` consecutive ticks had none. The state from tick
-//! to tick (last good positions, last torques, counters) is updated only by accepted values.
+//! [`StopCategory`](crate::safety::StopCategory) chooses what `Hold` and `Stopped` are for an arm.
+//! Ticks with a fault are counted until `reentry_ticks` consecutive ticks had none. The state from
+//! tick to tick (last good positions, last torques, counters) is updated only by accepted values.
 //!
 //! | state | mode | leads to |
 //! |---|---|---|
@@ -54,11 +54,11 @@ const FAR_ANGLE: f64 = 1e8;
 /// next tick wraps it to zero, so that this tick does not count as a good one.
 const NOT_COUNTED: u32 = u32::MAX;
 
-/// The parameters of the safety gate of a [`MotionController`](crate::MotionController): those of
-/// the arm and of the loop.
+/// The parameters of the safety gate of a [`MotionController`](crate::motion::MotionController):
+/// those of the arm and of the loop.
 ///
 /// ```
-/// use motion_control::{SafetyLimits, SupervisorConfig};
+/// use motion_control::{limits::SafetyLimits, safety::SupervisorConfig};
 /// let config = SupervisorConfig {
 ///     limits: SafetyLimits { torque: [10.0_f32], rate: [8.0], speed: [3.0], lower: [-1.0], upper: [1.0] },
 ///     tick: 1e-3,
@@ -153,8 +153,11 @@ impl State {
 /// [`Self::gate`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Supervisor<R, const V: usize> {
-    /// Greatest torque, its greatest change in a tick, and greatest speed.
+    /// Greatest torque, the least of the limits and of what the motors bear; its greatest change in a
+    /// tick, and greatest speed.
     torque_limit: [R; V],
+    limits_torque: [R; V],
+    bearable_torque: [R; V],
     rate_limit: [R; V],
     speed_limit: [R; V],
     /// Middle and half width of the range of positions.
@@ -214,6 +217,8 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         let resolution = allowed(config.resolution);
         Self {
             torque_limit: limits.torque.map(finite),
+            limits_torque: limits.torque.map(finite),
+            bearable_torque: [R::from_f64(FAR); V],
             rate_limit: limits.rate.map(allowed),
             speed_limit: limits.speed,
             middle,
@@ -367,7 +372,7 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         }
         if !off.is_finite() {
             self.reject_torque(tau);
-            torque = self.torque;
+            torque = self.repeated();
         }
         let limited = off != R::ZERO;
         if matches!(self.state, State::Full) {
@@ -378,6 +383,17 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
             self.torque = torque;
         }
         self.command_otherwise(qd, limited)
+    }
+
+    /// The last torque again, towards a limit that has fallen since.
+    #[cold]
+    fn repeated(&self) -> [R; V] {
+        let mut torque = self.torque;
+        let limits = self.torque_limit.iter().zip(&self.rate_limit);
+        for (tau, (&most, &rate)) in torque.iter_mut().zip(limits) {
+            *tau = tau.clamped(-most, most).clamped(*tau - rate, *tau + rate);
+        }
+        torque
     }
 
     /// The command of an arm that is held or stopped: a function of its own, so that the usual tick
@@ -624,7 +640,7 @@ fn step<R: Real>(speed: R, tick: R) -> R {
     R::from_f64(JUMP) * speed * tick
 }
 
-/// The range of accepted positions, which a [`crate::BackOff`] replaces within its ticks.
+/// The range of accepted positions, which a [`crate::motion::BackOff`] replaces within its ticks.
 impl<R: Real, const V: usize> Supervisor<R, V> {
     /// The least and the greatest position of each joint.
     pub(crate) fn bounds(&self) -> [[R; 2]; V] {
@@ -652,9 +668,19 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         (self.middle, self.half) = (before.middle, before.half);
     }
 
-    #[inline(always)]
+    /// Replaces the torques that the motors bear.
     pub(crate) fn limit_torques(&mut self, most: &[R; V]) {
-        self.torque_limit = *most;
+        self.bearable_torque = *most;
+        self.join_torque_limits();
+    }
+
+    /// Makes each limit of torque the least one. A NaN allows nothing.
+    pub(super) fn join_torque_limits(&mut self) {
+        let both = self.limits_torque.iter().zip(&self.bearable_torque);
+        for (limit, (&a, &b)) in self.torque_limit.iter_mut().zip(both) {
+            let least = R::either(a < b, a, b);
+            *limit = R::either(least > R::ZERO, least, R::ZERO);
+        }
     }
 
     /// The greatest torque of each joint.

@@ -90,7 +90,7 @@ impl<R: Real, const V: usize> ThermalConfig<R, V> {
     /// [`ConfigError::OutOfRange`] names the number and the joint.
     pub fn check(&self) -> Result<(), ConfigError> {
         ConfigParameter::Tick.positive(self.tick)?;
-        (0..V).try_for_each(|i| self.joint(i).1)
+        (0..V).try_for_each(|i| self.joint(i, block_ticks::<V>()).1)
     }
 
     /// The share of the greatest rise of a joint's winding that a temperature is, °C.
@@ -98,13 +98,14 @@ impl<R: Real, const V: usize> ThermalConfig<R, V> {
         (celsius - self.ambient) / (entry(&self.hottest, i) - self.ambient)
     }
 
-    /// The coefficients of (1) and (2), of a joint as hot as it may be, and whether they are valid.
-    fn joint(&self, i: usize) -> (Joint<R>, Result<(), ConfigError>) {
+    /// The coefficients of (1) and (2) for blocks of so many ticks, of a joint as hot as it may be,
+    /// and whether they are valid.
+    fn joint(&self, i: usize, ticks: u32) -> (Joint<R>, Result<(), ConfigError>) {
         let of = |values| entry::<R>(values, i);
         let (continuous, peak, rho) = (of(&self.continuous), of(&self.peak), of(&self.share));
         let [half, eighth, fade] = [0.5, 0.125, FADE].map(R::from_f64);
         let span = of(&self.hottest) - self.ambient;
-        let ticks = ticks::<R, V>();
+        let ticks = crate::real::<R>(ticks);
         let block = self.tick * ticks;
         let [a, epsilon] = [&self.winding_time, &self.housing_time].map(|time| block / of(time));
         let reserve = R::from_f64(RESERVE) * R::EPSILON;
@@ -136,8 +137,12 @@ impl<R: Real, const V: usize> ThermalConfig<R, V> {
 }
 
 /// The ticks of a block.
+const fn block_ticks<const V: usize>() -> u32 {
+    if V > BLOCK { V as u32 } else { BLOCK as u32 }
+}
+
 fn ticks<R: Real, const V: usize>() -> R {
-    crate::real(if V > BLOCK { V as u32 } else { BLOCK as u32 })
+    crate::real(block_ticks::<V>())
 }
 
 /// The temperatures of the motors, as shares of the greatest rise over the ambient, to be saved
@@ -166,7 +171,8 @@ pub enum ThermalStatus {
     },
     /// The winding is above its greatest temperature: the drive measured more than the model
     /// says, or its torque was not that of the gate. Stop the arm before the limit falls to zero:
-    /// [`react`](crate::MotionController::react) to [`Fault::Hot`](crate::Fault::Hot).
+    /// [`react`](crate::motion::MotionController::react) to
+    /// [`Fault::Hot`](crate::limits::Fault::Hot).
     Hot {
         /// The joint.
         joint: usize,
@@ -176,11 +182,11 @@ pub enum ThermalStatus {
 /// A limit of torque by a thermal model of each motor: its peak while it is cold, less the hotter
 /// it is, and the continuous torque when the winding is as hot as it may be.
 ///
-/// In each tick [`MotionController::limit_torques`](crate::MotionController::limit_torques) gives
-/// the limits to the gate, which every torque passes, that of a held arm too, and
+/// In each tick [`MotionController::limit_torques`](crate::motion::MotionController::limit_torques)
+/// gives the limits to the gate, which every torque passes, that of a held arm too, and
 /// [`Self::update`] gets the torques that went to the drives. A winding then does not exceed its
-/// greatest temperature; the source has the proof. The torque that may last is less than τ_c by
-/// 64 ticks in T_w: 0.5 % at 1 ms and 12 s.
+/// greatest temperature; the source has the proof. The torque that may last is less than τ_c by 64
+/// ticks in T_w: 0.5 % at 1 ms and 12 s.
 ///
 /// There is no step of torque: in a tick a limit changes by no more than the rate of the gate,
 /// which [`Self::try_new`] checks, and by 4 % of a peak of 3 τ_c at 1 ms, 12 s and ρ = 0.4.
@@ -189,7 +195,8 @@ pub enum ThermalStatus {
 /// otherwise, this is what is known after a restart.
 ///
 /// ```
-/// use motion_control::{SafetyLimits, ThermalConfig, ThermalLimit, ThermalState, ThermalStatus};
+/// use motion_control::limits::SafetyLimits;
+/// use motion_control::safety::{ThermalConfig, ThermalLimit, ThermalState, ThermalStatus};
 /// let limits = SafetyLimits { torque: [9.0], rate: [4.0], speed: [8.0], lower: [-1.0], upper: [1.0] };
 /// let motor = ThermalConfig {
 ///     tick: 1e-3, continuous: [3.0_f32], peak: [9.0], winding_time: [12.0], housing_time: [600.0],
@@ -207,7 +214,7 @@ pub enum ThermalStatus {
 /// }
 /// assert!(thermal.torque()[0] < 5.0 && thermal.celsius(0) < 120.0);
 /// assert_eq!(thermal.status(), ThermalStatus::Limited { joint: 0 });
-/// # Ok::<(), motion_control::ConfigError>(())
+/// # Ok::<(), motion_control::limits::ConfigError>(())
 /// ```
 #[doc(alias = "I2t")]
 #[doc(alias = "overload protection")]
@@ -220,6 +227,8 @@ pub struct ThermalLimit<R, const V: usize> {
     limit: [R; V],
     /// The tick within the block, which is the joint that ends its own in it.
     at: usize,
+    /// Whether the joints are in their first blocks, which are shorter.
+    first: bool,
 }
 
 impl<R: Real, const V: usize> ThermalLimit<R, V> {
@@ -234,7 +243,7 @@ impl<R: Real, const V: usize> ThermalLimit<R, V> {
         limits: &SafetyLimits<R, V>,
     ) -> Result<Self, ConfigError> {
         config.check()?;
-        let joints: [_; V] = core::array::from_fn(|i| config.joint(i).0);
+        let joints: [_; V] = core::array::from_fn(|i| config.joint(i, block_ticks::<V>()).0);
         let gate = limits.rate.iter().zip(&limits.torque);
         for (i, (joint, (rate, torque))) in joints.iter().zip(gate).enumerate() {
             let heat = joint.heat * ticks::<R, V>() * joint.peak * joint.peak;
@@ -242,20 +251,32 @@ impl<R: Real, const V: usize> ThermalLimit<R, V> {
             ConfigParameter::ThermalTorque { joint: i }.require(holds)?;
         }
         let zero = [R::ZERO; V];
-        Ok(Self { config, joints, energy: zero, limit: zero, at: 0 }.begun())
+        Ok(Self { config, joints, energy: zero, limit: zero, at: 0, first: true }.begun())
     }
 
-    /// The limits of these temperatures. Ticks that the first block of a joint has not count as
-    /// ticks at its limit.
+    /// The limits of these temperatures, before the first tick.
     fn begun(mut self) -> Self {
         self.limit = self.joints.map(|joint| joint.limit());
-        let mut left = ticks::<R, V>();
-        for (energy, &limit) in self.energy.iter_mut().zip(&self.limit) {
-            left -= R::ONE;
-            *energy = left * limit * limit;
-        }
-        self.at = 0;
+        (self.energy, self.at, self.first) = ([R::ZERO; V], 0, true);
         self
+    }
+
+    /// Ends the first block of a joint, which has fewer ticks, with their decay. The proof above holds
+    /// for it with the limit of whole blocks: for fewer ticks κ/a is greater, and c₁ less.
+    #[cold]
+    #[inline(never)]
+    fn end_first_block(&mut self, at: usize) {
+        self.first = self.at > 0;
+        let joint = self.joints.get_mut(at).zip(self.energy.get_mut(at));
+        let Some(((joint, energy), limit)) = joint.zip(self.limit.get_mut(at)) else {
+            return;
+        };
+        let (shorter, _) = self.config.joint(at, at as u32 + 1);
+        let Joint { heat, most, kappa, d, sigma, .. } = shorter;
+        let mut end = Joint { heat, most, kappa, d, sigma, ..*joint };
+        end.step(*energy);
+        (joint.winding, joint.housing) = (end.winding, end.housing);
+        (*energy, *limit) = (R::ZERO, joint.limit());
     }
 
     /// The same limit with temperatures that were saved `off` seconds before (0 if nobody knows),
@@ -284,8 +305,8 @@ impl<R: Real, const V: usize> ThermalLimit<R, V> {
     }
 
     /// Takes the torques that the drives have in this tick,
-    /// [`Command::torque`](crate::Command::torque), N·m or N: once in each tick, and again for
-    /// each one that was missed. A torque that is not finite counts as four times the peak.
+    /// [`Command::torque`](crate::limits::Command::torque), N·m or N: once in each tick, and again
+    /// for each one that was missed. A torque that is not finite counts as four times the peak.
     ///
     /// # Cost
     /// By count: 2 flops a joint, and 25 flops in V of max(32, V) ticks; no division.
@@ -296,6 +317,9 @@ impl<R: Real, const V: usize> ThermalLimit<R, V> {
         }
         let at = self.at;
         self.at = if at + 1 >= V.max(BLOCK) { 0 } else { at + 1 };
+        if self.first {
+            return self.end_first_block(at);
+        }
         let joint = self.joints.get_mut(at).zip(self.energy.get_mut(at));
         if let (Some((joint, energy)), Some(limit)) = (joint, self.limit.get_mut(at)) {
             joint.step(*energy);
@@ -320,27 +344,10 @@ impl<R: Real, const V: usize> ThermalLimit<R, V> {
         }
     }
 
-    /// Whether limits may have changed in the last tick.
-    #[inline(always)]
-    pub(crate) fn changed(&self) -> bool {
-        self.at <= V
-    }
-
     /// The limit of each torque in the next tick, N·m or N: at least 0, at most the peak.
     #[inline(always)]
     pub fn torque(&self) -> &[R; V] {
         &self.limit
-    }
-
-    /// These limits of a gate with torques that are within the thermal ones, for
-    /// [`MotionController::set_limits`](crate::MotionController::set_limits).
-    #[must_use]
-    pub fn within(&self, limits: &SafetyLimits<R, V>) -> SafetyLimits<R, V> {
-        let mut within = *limits;
-        for (torque, &most) in within.torque.iter_mut().zip(&self.limit) {
-            *torque = R::either(*torque < most, *torque, most);
-        }
-        within
     }
 
     /// The temperature of a joint's winding by the model, °C.

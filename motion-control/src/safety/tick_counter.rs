@@ -7,12 +7,14 @@ use crate::limits::{Fault, Status};
 /// around.
 ///
 /// A tick has a begin and an end, which the types enforce. The begin gives the number of missed
-/// ticks, for [`MotionController::missed`](crate::MotionController::missed); the end needs the
-/// status of the tick's command and gives a [`CompletedTick`], which alone feeds a [`Watchdog`], or
-/// [`Fault::Overrun`], for [`MotionController::report`](crate::MotionController::report).
+/// ticks, for [`MotionController::missed`](crate::motion::MotionController::missed); the end needs
+/// the status of the tick's command and gives a [`CompletedTick`], which alone feeds a
+/// [`Watchdog`], or [`Fault::Overrun`], for
+/// [`MotionController::report`](crate::motion::MotionController::report).
 ///
 /// ```
-/// use motion_control::{CompletedTick, Fault, Mode, Status, TickCounter, Watchdog};
+/// use motion_control::limits::{Fault, Mode, Status};
+/// use motion_control::safety::{CompletedTick, TickCounter, Watchdog};
 ///
 /// struct Reload(u32);
 /// impl Watchdog for Reload {
@@ -51,7 +53,7 @@ pub struct CountedTick {
 /// one.
 ///
 /// ```compile_fail,E0423
-/// let tick = motion_control::CompletedTick(());
+/// let tick = motion_control::safety::CompletedTick(());
 /// ```
 #[derive(Debug, PartialEq, Eq)]
 pub struct CompletedTick(());
@@ -62,7 +64,7 @@ pub struct CompletedTick(());
 /// it.
 ///
 /// ```compile_fail,E0382
-/// # use motion_control::{CompletedTick, Watchdog};
+/// # use motion_control::safety::{CompletedTick, Watchdog};
 /// fn twice(watchdog: &mut impl Watchdog, tick: CompletedTick) {
 ///     watchdog.feed(tick);
 ///     watchdog.feed(tick);

@@ -91,5 +91,5 @@ const HEADER: &str = "//! Written by `identification::FourierMotion::rust_source
 
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
-use motion_control::Reference;
+use motion_control::reference::Reference;
 ";

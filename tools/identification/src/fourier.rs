@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
-use motion_control::Reference;
+use motion_control::reference::Reference;
 
 /// A periodic motion of V joints: a finite Fourier series of each, rad or m.
 ///
@@ -108,7 +108,7 @@ impl<const V: usize> FourierMotion<V> {
     /// s, at rest at the end.
     ///
     /// ```
-    /// use motion_control::Reference;
+    /// use motion_control::reference::Reference;
     /// use identification::FourierMotion;
     /// let swing = FourierMotion { period: 2.0, centre: [0.5], sines: vec![[0.0]], cosines: vec![[-0.2]] };
     /// let reference = swing.reference(1e-3, 3);

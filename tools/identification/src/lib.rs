@@ -12,7 +12,7 @@
 //! | parameters of each body that are possible | [`PhysicalSet`] |
 //! | the parameters of a robot's file, from a record of `cargo xtask watch` | module `files`, with the feature of this name; from arrays, with the feature `arrays` |
 //!
-//! The recursive estimator for the tick is `motion_control::ParameterEstimator`.
+//! The recursive estimator for the tick is `motion_control::estimate::ParameterEstimator`.
 //!
 //! # Why the motion is periodic
 //! Encoders measure positions only, and differences of their steps are useless as accelerations. A

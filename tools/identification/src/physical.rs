@@ -17,8 +17,8 @@ use crate::columns::{OF_JOINT, padded};
 use crate::{BaseModel, IdentificationError, Identified};
 
 /// The share of the nominal pseudo-inertia and friction that remains in all directions: more than
-/// that of [`PhysicalParameters`](motion_control::PhysicalParameters), so that rounding to f32
-/// leaves a set possible.
+/// that of [`PhysicalParameters`](motion_control::estimate::PhysicalParameters), so that rounding
+/// to f32 leaves a set possible.
 const MARGIN: f64 = 0.06;
 /// No base parameter counts as known better than to this share of its nominal deviation: without
 /// noise, in a simulation, rounding would decide.

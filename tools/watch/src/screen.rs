@@ -1,7 +1,7 @@
 //! The view as a screen of a terminal.
 
 use machine_link::{Axis, Joint, PHASES};
-use motion_control::Mode;
+use motion_control::limits::Mode;
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::style::{Color, Style, Stylize};

@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 
 use machine_link::{Counts, PHASES};
-use motion_control::{Fault, Mode};
+use motion_control::limits::{Fault, Mode};
 
 use crate::{Machine, Message, Tick};
 

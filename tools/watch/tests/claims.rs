@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use dynamics_core::model::JointLimits;
 use machine_link::{Axis, Joint, encode};
-use motion_control::{Fault, Mode};
+use motion_control::limits::{Fault, Mode};
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 use telemetry_watch::record::Recorder;

@@ -4,9 +4,8 @@
 use dynamics_core::algorithms::frame::{AnyFrame, Pose};
 use dynamics_core::glam::{DMat3, DVec3};
 use dynamics_core::spatial::Motion;
-use motion_control::{
-    MotionLimits, PoseSolver, PoseSolverError, TipMotion, TipMotionConfig, TipStatus,
-};
+use motion_control::limits::MotionLimits;
+use motion_control::motion::{PoseSolver, PoseSolverError, TipMotion, TipMotionConfig, TipStatus};
 use numpy::{IntoPyArray, PyArrayMethods};
 use pyo3::prelude::*;
 use robot_dynamics_kernels::job::{Input, Job, Output};

@@ -21,7 +21,7 @@ pub struct MomentumAndDrift<R: Real, const V: usize> {
 /// The generalised momentum p = M q̇ and its drift β = Cᵀ q̇ − g − F, in joint coordinates, N·m·s
 /// and N·m.
 ///
-/// Both arguments of `motion_control::MomentumObserver::update`, of the whole scene:
+/// Both arguments of `motion_control::estimate::MomentumObserver::update`, of the whole scene:
 ///
 /// ```text
 /// ṗ = τ + β + τ_ext      β = Cᵀ q̇ − g(q) − F(q, q̇)

@@ -200,7 +200,7 @@ where
 /// The entries of a [`regressor_row`] at these bodies, and zeros.
 ///
 /// For an estimator of few parameters: those of its
-/// `motion_control::SelectedParameters::bodies`.
+/// `motion_control::estimate::SelectedParameters::bodies`.
 ///
 /// # Shape
 /// B × 10.

@@ -4,7 +4,7 @@
 
 use dynamics_core::effects::{Armature, Coriolis, Gravity, Inertia};
 use dynamics_core::{Engine, robots::Ur5e};
-use motion_control::*;
+use motion_control::{law::*, limits::*, motion::*, reference::*, safety::*};
 
 pub mod rod;
 
@@ -84,7 +84,7 @@ impl Arm {
 
 /// Stands for encoders and drives.
 pub mod board {
-    use motion_control::{Command, Fault};
+    use motion_control::limits::{Command, Fault};
 
     /// The joints' positions, rad.
     pub fn positions() -> Result<[f32; 6], Fault> {

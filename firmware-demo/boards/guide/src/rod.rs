@@ -5,7 +5,7 @@ use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model, Robot};
 use dynamics_core::{Engine, state::State};
 use joint_drivers::Law;
-use motion_control::*;
+use motion_control::{law::*, limits::*, motion::*, reference::*, safety::*};
 
 /// 2 kg and 1 m.
 pub struct Rod;

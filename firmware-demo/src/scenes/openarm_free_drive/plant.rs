@@ -115,7 +115,8 @@ pub struct Plant {
     pub account: Account,
 }
 
-/// The work of the torques that [`Breakaway`](motion_control::Breakaway) added, by true positions.
+/// The work of the torques that [`Breakaway`](motion_control::law::Breakaway) added, by true
+/// positions.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Account {
     acts: Q,

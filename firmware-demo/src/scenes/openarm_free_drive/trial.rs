@@ -8,7 +8,9 @@ use dynamics_core::state::State;
 use glam::Vec3;
 use joint_drivers::can::ClassicFrame;
 use joint_drivers::{ControlLoop, NoBrake, Phase, Probe, Telemetry};
-use motion_control::{Breakaway, Gains, Mode, MotionController, Status};
+use motion_control::law::{Breakaway, Gains};
+use motion_control::limits::{Mode, Status};
+use motion_control::motion::MotionController;
 
 use super::plant::{Plant, Q, Random, Replies};
 use super::{

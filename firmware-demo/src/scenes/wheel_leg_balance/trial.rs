@@ -4,7 +4,7 @@ use dynamics_core::effects::Gravity;
 use dynamics_core::model::JointLimits;
 use glam::Vec3;
 use joint_drivers::Telemetry;
-use motion_control::{Command, Mode, Status};
+use motion_control::limits::{Command, Mode, Status};
 
 use super::plant::Plant;
 use super::{Balance, LIMITS, Order, SCHEDULE, TICK};

@@ -5,7 +5,7 @@ use dynamics_core::flexible::{FlexibleLink, ModeProblem, Modes, Shape, step};
 use dynamics_core::model::{ArmModel, BASE};
 use dynamics_core::state::State;
 use host_tests::hard::Row;
-use motion_control::{Shaper, ShaperProblem, Vibration};
+use motion_control::reference::{Shaper, ShaperProblem, Vibration};
 
 use super::{body, one};
 use crate::UPPER;

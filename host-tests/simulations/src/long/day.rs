@@ -4,7 +4,9 @@ use super::name;
 use dynamics_core::scalar::Real;
 use host_tests::controller::TICK;
 use host_tests::hard::Row;
-use motion_control::{MotionLimits, Observer, ObserverConfig, Trajectory, WayPoint};
+use motion_control::estimate::{Observer, ObserverConfig};
+use motion_control::limits::MotionLimits;
+use motion_control::reference::{Trajectory, WayPoint};
 
 const DAY: u32 = 86_400_000;
 

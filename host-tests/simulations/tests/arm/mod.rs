@@ -18,7 +18,7 @@ use firmware_demo::scenes::ur5e::{Effects, PickAndPlace};
 use firmware_demo::sim_io::{MAX_DUTY, SimDrive, SimEncoder, Wires};
 use host_tests::measured::largest;
 use joint_drivers::{Law, Telemetry};
-use motion_control::Trajectory;
+use motion_control::reference::Trajectory;
 
 /// The full model, which a test may make fail: on this thread, no number for a joint.
 pub struct FullModel;

@@ -1,6 +1,6 @@
 //! The effect of bad frames on the arm.
 
-use motion_control::{Fault, Mode};
+use motion_control::limits::{Fault, Mode};
 
 use host_tests::measured::largest;
 

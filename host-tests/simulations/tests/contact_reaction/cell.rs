@@ -9,12 +9,15 @@ use dynamics_core::sim::semi_implicit;
 use dynamics_core::spatial::Force;
 use dynamics_core::state::State;
 use glam::DVec3;
-use motion_control::{
-    Command, ContactDetector, ContactPhase, ContactReaction, ContactReactionConfig,
-    ContactResponse, DetectedContact, Estimate, FrozenEncoder, Gains, MotionController,
-    MotionControllerConfig, MotionLimits, ObserverConfig, SafetyLimits, SupervisorConfig,
-    Trajectory, WayPoint, feedback,
+use motion_control::estimate::{ContactDetector, DetectedContact, Estimate, ObserverConfig};
+use motion_control::law::{Gains, feedback};
+use motion_control::limits::{Command, MotionLimits, SafetyLimits};
+use motion_control::motion::{
+    ContactPhase, ContactReaction, ContactReactionConfig, ContactResponse, MotionController,
+    MotionControllerConfig,
 };
+use motion_control::reference::{Trajectory, WayPoint};
+use motion_control::safety::{FrozenEncoder, SupervisorConfig};
 
 use crate::contact_reaction::plant::{
     Friction, Q, ROTORS, SPEED, Setup, TIP, Wall, arm, friction, tip,

@@ -8,7 +8,7 @@ mod reactions;
 use self::cell::{Cell, MARGIN};
 use self::plant::{MOTIONS, Off, SPEED, STIFFNESSES, Setup};
 use host_tests::page::Table;
-use motion_control::{ContactResponse, MotionLimits};
+use motion_control::{limits::MotionLimits, motion::ContactResponse};
 
 const SLOW: MotionLimits<f64> = MotionLimits { velocity: 0.5, acceleration: 4.0 };
 const RETRACT: ContactResponse<f64> = ContactResponse::Retract {

@@ -2,7 +2,7 @@
 
 use dynamics_core::effects::{Armature, Coulomb, Viscous, Width};
 use dynamics_core::model::ArmModel;
-use motion_control::ContactResponse;
+use motion_control::motion::ContactResponse;
 use simulation_tests::plant;
 
 pub use simulation_tests::plant::{TIP, tip};

@@ -1,7 +1,7 @@
 //! An arm that a hand moves.
 
 use glam::DVec3;
-use motion_control::{ContactPhase, ContactResponse};
+use motion_control::motion::{ContactPhase, ContactResponse};
 
 use crate::contact_reaction::cell::Cell;
 use crate::contact_reaction::plant::{Off, Setup};

@@ -9,9 +9,10 @@ use dynamics_core::robots::Ur5e;
 use dynamics_core::sim::linearly_implicit;
 use dynamics_core::state::State;
 use glam::DVec3;
-use motion_control::{
-    CartesianImpedance, Estimate, HandGuiding, HandGuidingConfig, LimitedSpring, Observer,
-    ObserverConfig, SpeedBrake, TaskDeviation, TaskFrame,
+use motion_control::estimate::{Estimate, Observer, ObserverConfig};
+use motion_control::law::{
+    CartesianImpedance, HandGuiding, HandGuidingConfig, LimitedSpring, SpeedBrake, TaskDeviation,
+    TaskFrame,
 };
 
 use crate::hand_guiding::plant::{

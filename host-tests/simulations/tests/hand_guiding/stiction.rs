@@ -2,10 +2,9 @@
 //! joint stands.
 
 use dynamics_core::effects::{Effect, JointState, Lugre, Width};
-use motion_control::{
-    Breakaway, BreakawayConfig, Estimate, HandGuiding, HandGuidingConfig, Observer, ObserverConfig,
-    SafetyLimits,
-};
+use motion_control::estimate::{Estimate, Observer, ObserverConfig};
+use motion_control::law::{Breakaway, BreakawayConfig, HandGuiding, HandGuidingConfig};
+use motion_control::limits::SafetyLimits;
 
 const TICK: f64 = 2e-3;
 const PARTS: u32 = 40; // the plant's steps in a tick

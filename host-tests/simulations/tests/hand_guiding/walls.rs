@@ -1,7 +1,7 @@
 //! Walls and locked joints against a hand.
 
 use glam::DVec3;
-use motion_control::{CartesianImpedance, ImpedanceConfig};
+use motion_control::law::{CartesianImpedance, ImpedanceConfig};
 
 use crate::hand_guiding::cell::{Cell, Setup};
 use crate::hand_guiding::plant::Hand;

@@ -2,7 +2,7 @@
 
 use crate::common::*;
 use glam::{DMat3, DQuat, DVec3};
-use motion_control::quaternion_error;
+use motion_control::law::quaternion_error;
 
 #[test]
 fn the_shortest_rotation_is_found_from_every_attitude() {

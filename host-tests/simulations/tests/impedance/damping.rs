@@ -6,7 +6,7 @@ use dynamics_core::algorithms::Conditioning;
 use dynamics_core::model::Robot;
 use dynamics_core::robots::{Panda, Ur5e};
 use glam::{DMat3, DQuat, DVec3};
-use motion_control::{CartesianImpedance, ImpedanceConfig};
+use motion_control::law::{CartesianImpedance, ImpedanceConfig};
 
 fn times(m: &[[f64; 6]; 6], x: [f64; 6]) -> [f64; 6] {
     m.map(|row| row.iter().zip(x).map(|(m, x)| m * x).sum())

@@ -9,9 +9,10 @@ use dynamics_core::model::ArmModel;
 use dynamics_core::sim::semi_implicit;
 use dynamics_core::state::State;
 use glam::DVec3;
-use motion_control::{
-    CartesianImpedance, Fault, ImpedanceConfig, TaskDeviation, TaskFrame, pose_error,
+use motion_control::law::{
+    CartesianImpedance, ImpedanceConfig, TaskDeviation, TaskFrame, pose_error,
 };
+use motion_control::limits::Fault;
 
 pub const STIFFNESS: [f64; 6] = [40.0, 40.0, 40.0, 400.0, 400.0, 400.0];
 pub const CONFIG: ImpedanceConfig<f64, 6> =

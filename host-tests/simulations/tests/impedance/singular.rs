@@ -5,7 +5,7 @@ use dynamics_core::algorithms::Conditioning;
 use dynamics_core::model::Robot;
 use dynamics_core::robots::Ur5e;
 use glam::{DMat3, DVec3};
-use motion_control::{CartesianImpedance, ImpedanceConfig};
+use motion_control::law::{CartesianImpedance, ImpedanceConfig};
 
 /// The largest step of a torque between neighbours in a sweep through the stretched elbow, N·m.
 fn largest_step(impedance: CartesianImpedance<f64, 6>, steps: i32) -> f64 {

@@ -7,7 +7,7 @@ use dynamics_core::effects::{Coriolis, Gravity, Inertia};
 use dynamics_core::model::{ArmModel, Robot};
 use dynamics_core::robots::{Panda, Ur5e};
 use glam::DVec3;
-use motion_control::{CartesianImpedance, ImpedanceConfig};
+use motion_control::law::{CartesianImpedance, ImpedanceConfig};
 
 /// The displacement by a force after it has settled, and that of the spring; m and rad.
 fn displaced<const N: usize>(mut sprung: Sprung<N>, worst: &mut Worst) {

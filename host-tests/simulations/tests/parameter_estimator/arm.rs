@@ -15,7 +15,7 @@ use dynamics_core::sim::runge_kutta;
 use dynamics_core::spatial::SpatialInertia;
 use dynamics_core::state::State;
 use firmware_demo::scenes::so101_teach as so101;
-use motion_control::{Estimate, Excitation, Observer, ObserverConfig};
+use motion_control::estimate::{Estimate, Excitation, Observer, ObserverConfig};
 
 use crate::common::Rng;
 

@@ -1,7 +1,7 @@
 //! The torques that the estimate gives elsewhere, and the selection of its parameters.
 
 use dynamics_core::state::State;
-use motion_control::{ParameterEstimator, ParameterEstimatorConfig, SelectedParameters};
+use motion_control::estimate::{ParameterEstimator, ParameterEstimatorConfig, SelectedParameters};
 
 use crate::common::Rng;
 use crate::parameter_estimator::arm::*;

@@ -9,7 +9,7 @@ use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 use firmware_demo::scene::Scene;
 use firmware_demo::scenes::so101_teach::TaughtPath;
-use motion_control::{
+use motion_control::estimate::{
     Excitation, ParameterEstimator, ParameterEstimatorConfig, RejectedRow, SelectedParameters,
 };
 

@@ -2,7 +2,7 @@
 
 use dynamics_core::model::BodyInertia;
 use dynamics_core::spatial::SpatialInertia;
-use motion_control::PhysicalParameters;
+use motion_control::estimate::PhysicalParameters;
 
 use crate::common::Rng;
 use crate::parameter_estimator::arm::*;

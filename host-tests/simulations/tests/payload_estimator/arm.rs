@@ -10,7 +10,7 @@ use dynamics_core::model::{BodyInertia, Robot};
 use dynamics_core::robots::Ur5e;
 use dynamics_core::sim::runge_kutta;
 use dynamics_core::state::State;
-use motion_control::{Observer, ObserverConfig};
+use motion_control::estimate::{Observer, ObserverConfig};
 
 use crate::common::Rng;
 

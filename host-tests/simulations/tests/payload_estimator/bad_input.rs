@@ -3,7 +3,7 @@
 use core::ops::Range;
 
 use dynamics_core::model::BodyInertia;
-use motion_control::{PayloadEstimator, RejectedMeasurement};
+use motion_control::estimate::{PayloadEstimator, RejectedMeasurement};
 
 use crate::payload_estimator::arm::{GOOD, LOAD, Run, Tick, measure};
 use crate::payload_estimator::{errors, estimator, limited, offer};

@@ -13,7 +13,7 @@ use dynamics_core::robots::Ur5e;
 use dynamics_core::scalar::Real;
 use dynamics_core::spatial::SpatialInertia;
 use dynamics_core::state::State;
-use motion_control::{PayloadEstimator, PayloadEstimatorConfig, RejectedMeasurement};
+use motion_control::estimate::{PayloadEstimator, PayloadEstimatorConfig, RejectedMeasurement};
 
 /// Limit of the innovations of a tick.
 const LIMIT: f64 = 5.0;

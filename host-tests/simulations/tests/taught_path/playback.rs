@@ -5,11 +5,14 @@ use dynamics_core::robots::Ur5e;
 use dynamics_core::sim::linearly_implicit;
 use dynamics_core::state::State;
 use host_tests::measured::within;
-use motion_control::{
-    Gains, GeometricPath, JointFriction, Mode, MotionController, MotionControllerConfig,
-    PathLimits, PathSpline, Recorded, Reference, SafetyLimits, SupervisorConfig, TaughtPath,
-    TimedPath, feedback,
+use motion_control::law::{Gains, feedback};
+use motion_control::limits::{Mode, SafetyLimits};
+use motion_control::motion::{MotionController, MotionControllerConfig};
+use motion_control::reference::{
+    GeometricPath, JointFriction, PathLimits, PathSpline, Recorded, Reference, TaughtPath,
+    TimedPath,
 };
+use motion_control::safety::SupervisorConfig;
 
 use crate::hand_guiding::cell::TICK;
 use crate::hand_guiding::plant::{Inertias, Q, SLIDING, arm, modelled, real};

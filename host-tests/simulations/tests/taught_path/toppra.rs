@@ -4,9 +4,8 @@ use dynamics_core::effects::Armature;
 use dynamics_core::state::State;
 use host_tests::measured::within;
 use host_tests::recordings;
-use motion_control::{
-    GeometricPath, JointFriction, MotionLimits, PathLimits, PathSpline, TimedPath,
-};
+use motion_control::limits::MotionLimits;
+use motion_control::reference::{GeometricPath, JointFriction, PathLimits, PathSpline, TimedPath};
 use serde::Deserialize;
 
 use crate::hand_guiding::plant::{Q, ROTORS};

@@ -4,7 +4,7 @@ use dynamics_core::Core;
 use dynamics_core::effects::{Armature, Coriolis, Gravity, Inertia};
 use dynamics_core::robots::Ur5e;
 use dynamics_core::state::State;
-use motion_control::{PathLimits, Reference};
+use motion_control::reference::{PathLimits, Reference};
 
 use crate::hand_guiding::plant::{Q, ROTORS};
 

@@ -13,7 +13,7 @@ use costs::row::Row;
 use dynamics_core::state::State;
 use firmware_demo::scenes::openarm_free_drive::{Free, FreeDrive};
 use joint_drivers::Law;
-use motion_control::{Estimate, Gains};
+use motion_control::{estimate::Estimate, law::Gains};
 use on_bus::{Arm, Q, replies, tick};
 
 /// The law alone.

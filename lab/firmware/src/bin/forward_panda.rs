@@ -12,7 +12,7 @@ use dynamics_core::Engine;
 use dynamics_core::algorithms::frame::{LocalWorldAligned, Pose};
 use dynamics_core::model::OnBody;
 use dynamics_core::spatial::Motion;
-use motion_control::{PoseSolution, PoseSolver};
+use motion_control::motion::{PoseSolution, PoseSolver};
 use robots::Panda;
 
 const TIP: usize = 6;

@@ -12,7 +12,8 @@ use firmware_demo::scene::TICK;
 use firmware_demo::trajectories::PICK_AND_PLACE;
 use fixtures::effect_presets::{self, RIGID, Visitor};
 use fixtures::trajectories::PANDA_PICK_AND_PLACE;
-use motion_control::{MotionLimits, Trajectory, WayPoint};
+use motion_control::limits::MotionLimits;
+use motion_control::reference::{Trajectory, WayPoint};
 
 /// Greatest acceleration of each joint, rad/s², as in the scene `ur5e`.
 const ACCELERATION: f32 = 12.0;

@@ -19,7 +19,7 @@ fn near(got: &[f64; 2], expected: [f64; 2]) {
 fn a_useless_configuration_is_refused() {
     for tick in [0.0, f64::NAN] {
         let config = ObserverConfig { tick, ..CONFIG };
-        let parameter = crate::ConfigParameter::Tick;
+        let parameter = crate::limits::ConfigParameter::Tick;
         let refused = MomentumObserver::<f64, 2>::try_new(config);
         assert_eq!(refused, Err(ConfigError::OutOfRange { parameter }));
     }

@@ -67,7 +67,7 @@ impl<R: Real, const P: usize, const V: usize> ParameterEstimatorConfig<R, P, V> 
 /// The reason why a [`ParameterEstimator`](super::ParameterEstimator) rejects a row.
 ///
 /// ```
-/// use motion_control::RejectedRow;
+/// use motion_control::estimate::RejectedRow;
 /// let reason = RejectedRow::Frozen { joint: 2 };
 /// assert_eq!(reason.to_string(), "frozen: the torques of joint 2 contradict the estimate");
 /// ```

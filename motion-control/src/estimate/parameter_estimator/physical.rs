@@ -25,7 +25,7 @@ const STEPS: usize = 10;
 /// A body or a joint whose nominal parameters none can have.
 ///
 /// ```
-/// use motion_control::{ImpossibleParameters, PhysicalParameters};
+/// use motion_control::estimate::{ImpossibleParameters, PhysicalParameters};
 /// let point = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
 /// let error = PhysicalParameters::<f64, 1, 10>::try_new(point).expect_err("a point mass has no extent");
 /// assert_eq!(error, ImpossibleParameters::Body { body: 0 });
@@ -72,7 +72,7 @@ impl core::error::Error for ImpossibleParameters {}
 ///
 /// ```
 /// use dynamics_core::algorithms::inertial_parameters;
-/// use motion_control::PhysicalParameters;
+/// use motion_control::estimate::PhysicalParameters;
 /// use dynamics_core::{model::Robot, robots::Ur5e};
 /// let mut nominal = [0.1_f64; 66]; // and one friction a joint
 /// let bodies = inertial_parameters(&Ur5e::MODEL, &());
@@ -82,7 +82,7 @@ impl core::error::Error for ImpossibleParameters {}
 /// without_mass[0] = -1.0;
 /// let share = stored.follow(&without_mass);
 /// assert!(share < 1.0 && stored.parameters()[0] > 0.0);
-/// # Ok::<(), motion_control::ImpossibleParameters>(())
+/// # Ok::<(), motion_control::estimate::ImpossibleParameters>(())
 /// ```
 #[doc(alias = "pseudo-inertia")]
 #[derive(Clone, Copy, Debug, PartialEq)]

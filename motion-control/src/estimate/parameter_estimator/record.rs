@@ -71,7 +71,7 @@ impl<const B: usize, const N: usize> PhysicalParameters<f32, B, N> {
     /// is lost, one of them has a whole record.
     ///
     /// ```
-    /// use motion_control::{PhysicalParameters, RecordError};
+    /// use motion_control::estimate::{PhysicalParameters, RecordError};
     /// let nominal = [2.0_f32, 0.0, 0.0, 0.1, 0.1, 0.0, 0.1, 0.0, 0.0, 0.02, 0.3]; // a body and a friction
     /// let mut learned: PhysicalParameters<f32, 1, 11> = PhysicalParameters::try_new(nominal)?;
     /// let mut found = nominal;
@@ -158,7 +158,7 @@ fn crc(words: impl Iterator<Item = u32>) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::{RecordError, crc};
-    use crate::PhysicalParameters;
+    use crate::estimate::PhysicalParameters;
 
     type Arm = PhysicalParameters<f32, 1, 11>;
     const NOMINAL: [f32; 11] = [2.0, 0.0, 0.0, 0.1, 0.1, 0.0, 0.1, 0.0, 0.0, 0.02, 0.3];

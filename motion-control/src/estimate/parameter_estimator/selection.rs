@@ -17,7 +17,7 @@ const RANK: f64 = 1e-13;
 /// of each joint. On the host.
 ///
 /// ```
-/// use motion_control::{SelectedParameters, Excitation};
+/// use motion_control::estimate::{Excitation, SelectedParameters};
 /// let mut motion: Excitation<3> = Excitation::new();
 /// for t in 0..10 {
 ///     let t = f64::from(t);
@@ -210,7 +210,7 @@ impl<R: Real, const P: usize, const N: usize> SelectedParameters<R, P, N> {
     /// [`ParameterEstimatorConfig::own`](super::ParameterEstimatorConfig::own).
     ///
     /// ```
-    /// use motion_control::SelectedParameters;
+    /// use motion_control::estimate::SelectedParameters;
     /// // The mass of the first of two bodies, Coulomb friction of the first of two joints, both frictions of the second.
     /// let base = SelectedParameters::<f32, 4, 24> { columns: [0, 21, 22, 23], prior: [1.0; 4], spread: [[0.0; 4]; 24] };
     /// assert_eq!((base.own(2, 2), base.bodies()), ([1, 2], [true, false]));

@@ -48,7 +48,7 @@ pub struct SpeedBrake<R, const V: usize> {
 /// [`Self::from_limits`] has all of them from the limits of a robot:
 ///
 /// ```
-/// use motion_control::{HandGuiding, HandGuidingConfig};
+/// use motion_control::law::{HandGuiding, HandGuidingConfig};
 /// use dynamics_core::{model::Robot, robots::Ur5e};
 /// let limits = Ur5e::MODEL.to_f32().links.map(|link| link.limits);
 /// let inertia = [4.5, 4.5, 2.0, 0.3, 0.3, 0.26]; // the largest diagonal of M, rotors included
@@ -57,7 +57,7 @@ pub struct SpeedBrake<R, const V: usize> {
 /// assert_eq!(guiding.locked(), [false; 6]);
 /// assert!((config.upper[2] - (limits[2].upper - 0.05)).abs() < 1e-6);
 /// assert_eq!(config.brake.speed[0], 0.5 * limits[0].velocity);
-/// # Ok::<(), motion_control::ConfigError>(())
+/// # Ok::<(), motion_control::limits::ConfigError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -95,7 +95,7 @@ impl<R: Real, const V: usize> HandGuidingConfig<R, V> {
     /// [`Gains::from_inertia`]) and the bandwidth of the observer of this law, rad/s.
     ///
     /// [`JointLimits`]: dynamics_core::model::JointLimits
-    /// [`Gains::from_inertia`]: crate::Gains::from_inertia
+    /// [`Gains::from_inertia`]: crate::law::Gains::from_inertia
     ///
     /// | number | value |
     /// |---|---|
@@ -173,7 +173,8 @@ impl<R: Real, const V: usize> HandGuidingConfig<R, V> {
     /// [`ConfigError::OutOfRange`] names the number.
     ///
     /// ```
-    /// use motion_control::{ConfigError, ConfigParameter, HandGuidingConfig, LimitedSpring, SpeedBrake};
+    /// use motion_control::law::{HandGuidingConfig, LimitedSpring, SpeedBrake};
+    /// use motion_control::limits::{ConfigError, ConfigParameter};
     /// let spring = LimitedSpring { stiffness: [100.0_f32], damping: [10.0], torque: [5.0] };
     /// let config = HandGuidingConfig {
     ///     error: 0.1, share: 1.0, rest_speed: [0.01], compensation: [4.0], damping: [0.5],

@@ -21,14 +21,15 @@ mod tests;
 /// [`Circles::bits`].
 ///
 /// A [`MotionController`] of this type takes the short way on circles: in the feedback, in
-/// [`MotionController::reset`], [`MotionController::approach`] and [`BackOff`](crate::BackOff), and
-/// it accepts any number of turns. Measure the angle within a turn, then velocities are as accurate
-/// after ten thousand turns as after none. Without a circle it is the machine code of the age
-/// alone.
+/// [`MotionController::reset`], [`MotionController::approach`] and
+/// [`BackOff`](crate::motion::BackOff), and it accepts any number of turns. Measure the angle
+/// within a turn, then velocities are as accurate after ten thousand turns as after none. Without a
+/// circle it is the machine code of the age alone.
 ///
 /// ```
 /// use dynamics_core::{model::Robot, robots::Gen3};
-/// use motion_control::{Circles, CurrentTick, MotionController, OnCircles};
+/// use motion_control::limits::Circles;
+/// use motion_control::motion::{CurrentTick, MotionController, OnCircles};
 /// const CIRCLES: u128 = Circles::of(&Gen3::MODEL).bits();
 /// type Controller = MotionController<f32, 7, OnCircles<CIRCLES, CurrentTick>>;
 /// ```

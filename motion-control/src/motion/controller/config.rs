@@ -72,7 +72,9 @@ impl<R: Real, const V: usize> MotionControllerConfig<R, V> {
     ///
     /// ```
     /// use dynamics_core::advice::Advice;
-    /// use motion_control::{MotionControllerConfig, SafetyLimits, SupervisorConfig};
+    /// use motion_control::limits::SafetyLimits;
+    /// use motion_control::motion::MotionControllerConfig;
+    /// use motion_control::safety::SupervisorConfig;
     /// let limits = SafetyLimits { torque: [10.0], rate: [5.0], speed: [3.0], lower: [-1.0], upper: [1.0] };
     /// let good = MotionControllerConfig {
     ///     supervisor: SupervisorConfig {
@@ -130,7 +132,9 @@ impl<R: Real, const V: usize> MotionControllerConfig<R, V> {
     /// known.
     ///
     /// ```
-    /// # use motion_control::{MotionControllerConfig, SafetyLimits, SupervisorConfig};
+    /// # use motion_control::limits::SafetyLimits;
+    /// # use motion_control::motion::MotionControllerConfig;
+    /// # use motion_control::safety::SupervisorConfig;
     /// # let limits = SafetyLimits { torque: [10.0], rate: [5.0], speed: [3.0], lower: [-1.0], upper: [1.0] };
     /// # let config = MotionControllerConfig {
     /// #     supervisor: SupervisorConfig {

@@ -1,6 +1,6 @@
 use super::*;
 use crate::tests::{Motion, controlled, safety_limits};
-use crate::*;
+use crate::{estimate::*, law::*, limits::*, motion::*, reference::*, safety::*};
 
 mod clock;
 mod hand_over;

@@ -19,7 +19,9 @@ pub struct ObservedTick<'a, R, const V: usize, A = PreviousTick> {
 /// A tick of a [`MotionController`] that needs the torques of the law; [`Self::command`] ends it.
 ///
 /// ```
-/// use motion_control::{Command, Fault, MotionController, Reference};
+/// use motion_control::limits::{Command, Fault};
+/// use motion_control::motion::MotionController;
+/// use motion_control::reference::Reference;
 /// fn tick(
 ///     controller: &mut MotionController<f32, 6>,
 ///     trajectory: &impl Reference<f32, 6>,
@@ -38,7 +40,7 @@ pub struct ObservedTick<'a, R, const V: usize, A = PreviousTick> {
 /// A tick has one command:
 ///
 /// ```compile_fail,E0382
-/// # use motion_control::{MotionController, Reference};
+/// # use motion_control::{motion::MotionController, reference::Reference};
 /// # fn tick(controller: &mut MotionController<f32, 6>, trajectory: &impl Reference<f32, 6>) {
 /// let tick = controller.observe(Ok(&[0.0; 6])).reference(trajectory);
 /// tick.command(&[0.0; 6]);
@@ -49,7 +51,7 @@ pub struct ObservedTick<'a, R, const V: usize, A = PreviousTick> {
 /// and one reference:
 ///
 /// ```compile_fail,E0382
-/// # use motion_control::{MotionController, Reference};
+/// # use motion_control::{motion::MotionController, reference::Reference};
 /// # fn tick(controller: &mut MotionController<f32, 6>, trajectory: &impl Reference<f32, 6>) {
 /// let tick = controller.observe(Ok(&[0.0; 6]));
 /// let referenced = tick.reference(trajectory);
@@ -60,7 +62,7 @@ pub struct ObservedTick<'a, R, const V: usize, A = PreviousTick> {
 /// which comes before the command:
 ///
 /// ```compile_fail,E0599
-/// # use motion_control::MotionController;
+/// # use motion_control::motion::MotionController;
 /// # fn tick(controller: &mut MotionController<f32, 6>) {
 /// controller.observe(Ok(&[0.0; 6])).command(&[0.0; 6]);
 /// # }
@@ -69,7 +71,7 @@ pub struct ObservedTick<'a, R, const V: usize, A = PreviousTick> {
 /// and no other tick begins before it has ended:
 ///
 /// ```compile_fail,E0499
-/// # use motion_control::{MotionController, Reference};
+/// # use motion_control::{motion::MotionController, reference::Reference};
 /// # fn tick(controller: &mut MotionController<f32, 6>, trajectory: &impl Reference<f32, 6>) {
 /// let tick = controller.observe(Ok(&[0.0; 6])).reference(trajectory);
 /// let other = controller.observe(Ok(&[0.0; 6]));
@@ -116,13 +118,13 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
     /// ticks since the last good ones. Before the first accepted position there is no position to
     /// hold: a fault stops the arm at once.
     ///
-    /// A joint that is a circle ([`OnCircles`](crate::OnCircles)) may be measured in any turn,
-    /// within ±π most accurately; the estimate is within half a turn of the middle of the range, or
-    /// of zero.
+    /// A joint that is a circle ([`OnCircles`](crate::motion::OnCircles)) may be measured in any
+    /// turn, within ±π most accurately; the estimate is within half a turn of the middle of the
+    /// range, or of zero.
     ///
     /// ```compile_fail
     /// # #![deny(unused_must_use)]
-    /// # use motion_control::{MotionController, Reference};
+    /// # use motion_control::{motion::MotionController, reference::Reference};
     /// fn tick(controller: &mut MotionController<f32, 1>, trajectory: &impl Reference<f32, 1>) {
     ///     controller.observe(Ok(&[0.0])).reference(trajectory); // and the command?
     /// }

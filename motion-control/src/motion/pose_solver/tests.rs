@@ -52,7 +52,17 @@ fn numbers_that_are_not_finite_are_an_error() {
         SOLVER.solve(&turned(0.5), &[f64::NAN], tip).map(|found| found.q[0] > 0.4),
         Ok(true)
     );
-    let broken = PoseSolver { length: 0.0, ..SOLVER };
-    assert_eq!(broken.solve(&turned(0.5), &[0.0], tip), not_finite);
     assert_eq!(SOLVER.solve(&turned(0.5), &[0.0], |_| tip(&[f64::NAN])), not_finite);
+}
+
+#[test]
+fn a_solver_with_impossible_numbers_finds_nothing() {
+    let (nan, infinity) = (f64::NAN, f64::INFINITY);
+    let lengths = [0.0, -0.3, nan, infinity].map(|length| PoseSolver { length, ..SOLVER });
+    let errors = [-1.0, nan, infinity].map(|tolerance| PoseSolver { tolerance, ..SOLVER });
+    let ranges = [2.1, nan].map(|lower| PoseSolver { lower: [lower], ..SOLVER });
+    for solver in lengths.iter().chain(&errors).chain(&ranges) {
+        let refused = solver.solve(&turned(0.5), &[0.0], tip);
+        assert_eq!(refused, Err(PoseSolverError::Solver), "{solver:?}");
+    }
 }

@@ -97,7 +97,7 @@ impl<R: Real, const V: usize> MovingGoal<R, V> {
     ///
     /// ```
     /// use dynamics_core::{Engine, effects::RIGID_BODY, robots::Ur5e};
-    /// use motion_control::{JerkLimits, MovingGoal, Reference};
+    /// use motion_control::reference::{JerkLimits, MovingGoal, Reference};
     /// let limits = [JerkLimits { velocity: 3.0, acceleration: 20.0, jerk: 400.0 }; 6];
     /// let start = [0.0_f32, -1.57, 1.57, -1.57, -1.57, 0.0];
     /// let mut goal = MovingGoal::try_new(&start, limits, 1e-3)?;
@@ -136,7 +136,7 @@ impl<R: Real, const V: usize> MovingGoal<R, V> {
     /// which call no inverse dynamics.
     ///
     /// ```
-    /// use motion_control::{JerkLimits, MovingGoal, Reference};
+    /// use motion_control::reference::{JerkLimits, MovingGoal, Reference};
     /// let limits = [JerkLimits { velocity: 2.0, acceleration: 20.0, jerk: 400.0 }];
     /// let mut goal = MovingGoal::try_new(&[0.0_f32], limits, 1e-3)?;
     /// let mut change = goal.begin_within(100, &[1.5], &[10.0])?;

@@ -98,6 +98,25 @@ fn rest_to_rest_takes_the_time_of_the_closed_forms() {
     }
 }
 
+/// Goals that are set again in every tick, the same one and one that trembles by less than 0.1 mm.
+#[test]
+fn a_goal_that_is_set_in_every_tick_is_reached() {
+    for tremble in [0.0, 1e-4, 1e-8] {
+        let mut goal = MovingGoal::try_new(&[0.0, 1.0], [LIMITS; 2], 1e-3).unwrap();
+        let arrival = goal.set(0, &[1.0, 0.3]).unwrap();
+        let mut late = 0;
+        for tick in 1..2 * arrival {
+            let to = [1.0, 0.3].map(|q| q + tremble * f64::from(tick % 2));
+            goal.set(tick, &to).unwrap();
+            let now = goal.at(tick);
+            let away = (now.q[0] - 1.0).abs();
+            late = if away > 1e-9 + 3.0 * tremble { tick } else { late };
+        }
+        assert!(late < arrival, "{tremble} {arrival} {late}");
+        assert!(tremble > 0.0 || goal.at(arrival) == State::at([1.0, 0.3]));
+    }
+}
+
 #[test]
 fn a_change_that_misses_its_tick_or_its_motion_changes_nothing() {
     let mut goal = MovingGoal::try_new(&[0.0, 1.0], [LIMITS; 2], 1e-3).unwrap();

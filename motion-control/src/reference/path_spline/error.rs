@@ -5,7 +5,7 @@ use core::fmt;
 /// The reason why way-points make no path. Points and joints are numbered from 0.
 ///
 /// ```
-/// use motion_control::{PathSpline, PathSplineError};
+/// use motion_control::reference::{PathSpline, PathSplineError};
 /// let mut path = PathSpline::<f32, 1, 4>::EMPTY;
 /// let error = path.fit(&[[0.0], [0.1], [0.1]], &[0.1], &[0.0]).unwrap_err();
 /// assert_eq!(error, PathSplineError::Coincident { point: 2 });

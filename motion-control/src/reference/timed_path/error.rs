@@ -8,7 +8,7 @@ use crate::limits::LimitKind;
 /// 0.
 ///
 /// ```
-/// use motion_control::TimedPathError;
+/// use motion_control::reference::TimedPathError;
 /// let error = TimedPathError::Torque { point: 12, joint: 1, needed: 161.2, allowed: 150.0 };
 /// assert_eq!(
 ///     error.to_string(),

@@ -7,7 +7,8 @@ use dynamics_core::scalar::Real;
 /// The limits of V joints in a motion along a path.
 ///
 /// ```
-/// use motion_control::{JointFriction, MotionLimits, PathLimits, TimedPathError};
+/// use motion_control::limits::MotionLimits;
+/// use motion_control::reference::{JointFriction, PathLimits, TimedPathError};
 /// let limits = PathLimits {
 ///     torque: [150.0, 28.0],
 ///     motion: [MotionLimits { velocity: 3.0, acceleration: 20.0 }; 2],
@@ -70,7 +71,7 @@ impl<R: Real, const V: usize> PathLimits<R, V> {
     /// The same limits with this share of the torques, which leaves the rest to the feedback.
     ///
     /// ```
-    /// use motion_control::{PathLimits, SafetyLimits};
+    /// use motion_control::{limits::SafetyLimits, reference::PathLimits};
     /// let safety = SafetyLimits { torque: [10.0], rate: [10.0], speed: [3.0], lower: [-1.0], upper: [1.0] };
     /// let limits = PathLimits::from(safety.with_speed_share(0.5)).with_torque_share(0.8);
     /// assert_eq!((limits.torque, limits.motion[0].velocity), ([8.0], 1.5));

@@ -6,7 +6,7 @@ use core::fmt;
 /// has the number of the point that ends it.
 ///
 /// ```
-/// use motion_control::TrajectoryError;
+/// use motion_control::reference::TrajectoryError;
 /// let error = TrajectoryError::Velocity { point: 2, joint: 3, needed: 3.5, allowed: 3.0 };
 /// assert_eq!(
 ///     format!("{error}"),

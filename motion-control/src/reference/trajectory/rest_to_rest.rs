@@ -41,7 +41,8 @@ impl<R: Real, const V: usize, const W: usize> RestToRest<R, V, W> {
     /// zero.
     ///
     /// ```
-    /// use motion_control::{RestToRest, MotionLimits, TrajectoryError, WayPoint};
+    /// use motion_control::limits::MotionLimits;
+    /// use motion_control::reference::{RestToRest, TrajectoryError, WayPoint};
     /// let stop = |q, ticks| WayPoint { q: [q], qd: [0.0_f32], ticks };
     /// let points = [stop(0.0, 0), stop(1.0, 1000)];
     /// let slow = [MotionLimits { velocity: 2.0, acceleration: 20.0 }];
@@ -64,8 +65,9 @@ impl<R: Real, const V: usize, const W: usize> RestToRest<R, V, W> {
     /// Cost: about 40 flops for the segment and 9 per joint, no division.
     ///
     /// ```
-    /// use motion_control::{RestToRest, MotionLimits, WayPoint};
-    /// # use motion_control::TrajectoryError;
+    /// use motion_control::limits::MotionLimits;
+    /// use motion_control::reference::{RestToRest, WayPoint};
+    /// # use motion_control::reference::TrajectoryError;
     /// let stop = |q, ticks| WayPoint { q: [q], qd: [0.0_f32], ticks };
     /// let quick = [MotionLimits { velocity: 3.0, acceleration: 20.0 }];
     /// let smooth = RestToRest::new(&[stop(0.0, 0), stop(1.0, 1000)], 1e-3, &quick)?;

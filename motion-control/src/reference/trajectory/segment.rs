@@ -9,7 +9,7 @@ use dynamics_core::state::{State, all_finite};
 /// A configuration and the velocity at which to pass it, at zero acceleration.
 ///
 /// ```
-/// use motion_control::WayPoint;
+/// use motion_control::reference::WayPoint;
 /// let stop = WayPoint { q: [0.3_f32, 1.2], qd: [0.0; 2], ticks: 800 };
 /// # let _ = stop;
 /// ```

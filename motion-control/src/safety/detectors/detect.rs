@@ -12,19 +12,21 @@ pub trait Detect<R, const V: usize> {
     ///
     /// # Errors
     /// The fault of the measurement: for
-    /// [`MotionController::observe`](crate::MotionController::observe).
+    /// [`MotionController::observe`](crate::motion::MotionController::observe).
     fn measured(&mut self, q: &[R; V], reference: &[R; V]) -> Result<(), Fault>;
 
     /// Checks the reference of a tick.
     ///
     /// # Errors
-    /// The fault of the reference: for [`ReferencedTick::stop_by`](crate::ReferencedTick::stop_by).
+    /// The fault of the reference: for
+    /// [`ReferencedTick::stop_by`](crate::motion::ReferencedTick::stop_by).
     fn referenced(&mut self, reference: &State<R, V, V>, mode: Mode) -> Result<(), Fault>;
 
     /// Checks the command of a tick.
     ///
     /// # Errors
-    /// The fault of the torques: for [`MotionController::react`](crate::MotionController::react).
+    /// The fault of the torques: for
+    /// [`MotionController::react`](crate::motion::MotionController::react).
     fn commanded(&mut self, command: &Command<R, V>) -> Result<(), Fault>;
 
     /// Ticks were missed, or another motion begins.
@@ -66,7 +68,8 @@ impl<R, D: Detect<R, V>, const V: usize> Detect<R, V> for &mut D {
 /// All detectors of this module.
 ///
 /// ```
-/// use motion_control::{Detect, Detectors, Fault, FrozenEncoder, Mode, ReferenceStep, Saturation};
+/// use motion_control::limits::{Fault, Mode};
+/// use motion_control::safety::{Detect, Detectors, FrozenEncoder, ReferenceStep, Saturation};
 /// use dynamics_core::state::State;
 /// let mut detectors = Detectors {
 ///     frozen: FrozenEncoder::new([0.004_f32], 3),
@@ -89,8 +92,8 @@ pub struct Detectors<R, const V: usize, const CIRCLES: u128 = 0> {
 }
 
 impl<R: Real, const V: usize> Detectors<R, V> {
-    /// The same detectors for joints of which those of [`Circles::bits`](crate::Circles::bits) are
-    /// circles, as those of the controller.
+    /// The same detectors for joints of which those of
+    /// [`Circles::bits`](crate::limits::Circles::bits) are circles, as those of the controller.
     #[must_use]
     pub fn on_circles<const CIRCLES: u128>(self) -> Detectors<R, V, CIRCLES> {
         Detectors {

@@ -31,7 +31,8 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
             return Err(SafetyLimitsError::Outside { joint, position }.into());
         }
         (self.middle, self.half) = (middle, half);
-        (self.torque_limit, self.rate_limit) = (limits.torque, limits.rate);
+        (self.limits_torque, self.rate_limit) = (limits.torque, limits.rate);
+        self.join_torque_limits();
         let mut there = true;
         let joints = self.speed_limit.iter_mut().zip(&mut self.plausible_step);
         for ((bound, plausible), (&goal, &qd)) in joints.zip(limits.speed.iter().zip(qd)) {

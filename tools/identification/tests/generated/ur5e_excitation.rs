@@ -2,7 +2,7 @@
 
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
-use motion_control::Reference;
+use motion_control::reference::Reference;
 
 /// An excitation of 6 joints: period 5 s, 6 periods.
 #[derive(Clone, Copy, Debug)]

@@ -2,7 +2,7 @@
 
 use dynamics_core::state::State;
 use identification::{FourierMotion, Search};
-use motion_control::Reference;
+use motion_control::reference::Reference;
 use nalgebra::DMatrix;
 
 use crate::generated::Ur5eExcitation;

@@ -1,7 +1,7 @@
 //! Sets of parameters that bodies can have.
 
 use identification::PhysicalSet;
-use motion_control::PhysicalParameters;
+use motion_control::estimate::PhysicalParameters;
 use nalgebra::{DMatrix, DVector};
 
 use crate::coverage::identified;

@@ -9,7 +9,7 @@ use dynamics_core::robots::Ur5e;
 use dynamics_core::spatial::SpatialInertia;
 use dynamics_core::state::State;
 use identification::{BaseModel, ExcitationLimits, FourierMotion, Search};
-use motion_control::{Reference, Trajectory};
+use motion_control::reference::{Reference, Trajectory};
 
 use crate::generated;
 

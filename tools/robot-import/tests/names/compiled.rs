@@ -70,10 +70,10 @@ type Externs = [(&'static str, PathBuf); 4];
 
 /// Compiles against libraries that were built with each other alone.
 const PROBE: &str = "use ::joint_drivers::{Law, NoBrake};
-pub fn limits(limits: ::dynamics_core::model::JointLimits<f32>) -> ::motion_control::MotionLimits<f32> { limits.into() }
+pub fn limits(limits: ::dynamics_core::model::JointLimits<f32>) -> ::motion_control::limits::MotionLimits<f32> { limits.into() }
 pub fn torque<L: Law<1>>(state: &::dynamics_core::state::State<f32, 1, 1>) -> [f32; 1] { L::feedforward(state, &()) }
-pub fn gains<L: Law<1>>(gains: ::motion_control::Gains<f32, 1>, state: &::dynamics_core::state::State<f32, 1, 1>,
-    estimate: &::motion_control::Estimate<f32, 1>) -> [f32; 1] { L::torque(&gains, state, estimate, &()) }
+pub fn gains<L: Law<1>>(gains: ::motion_control::law::Gains<f32, 1>, state: &::dynamics_core::state::State<f32, 1, 1>,
+    estimate: &::motion_control::estimate::Estimate<f32, 1>) -> [f32; 1] { L::torque(&gains, state, estimate, &()) }
 pub fn brake() -> impl ::embedded_hal::digital::OutputPin { NoBrake }
 ";
 

@@ -6,7 +6,7 @@ use arm::excitation::Excitation;
 use arm::scene::{JOINTS, N, home, limits, motion};
 use arm::simulation::{Plant, Wires};
 use joint_drivers::ControlLoop;
-use motion_control::{Mode, Reference};
+use motion_control::{limits::Mode, reference::Reference};
 
 #[test]
 fn it_stays_at_its_reference() {
@@ -17,7 +17,8 @@ fn it_stays_at_its_reference() {
     let encoders = wires.encoders(&motion, &home).unwrap_or_else(|error| panic!("{error}"));
     let drives = wires.drives(&full_scale);
     let controller = controller(&motion).unwrap_or_else(|error| panic!("{error}"));
-    let mut control = ControlLoop::on_circles(encoders, drives, wires.brake(), gains(), controller, ());
+    let mut control =
+        ControlLoop::on_circles(encoders, drives, wires.brake(), gains(), controller, ());
     let mut plant = Plant::new(home, full_scale);
     let mut most = [0.0_f32; N];
     for tick in 0..10_000 {

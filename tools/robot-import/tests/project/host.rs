@@ -6,7 +6,7 @@ use core::convert::Infallible;
 use embedded_hal::digital::{self, OutputPin};
 use embedded_hal::pwm::{self, SetDutyCycle};
 use embedded_hal::spi::{self, Operation, SpiDevice};
-use motion_control::{Fault, Mode};
+use motion_control::limits::{Fault, Mode};
 use on_host::board::{Devices, Law, Motion, N, detectors, gains, on_brake, plan};
 
 /// An encoder whose frames are zero, a drive, a brake.

@@ -9,7 +9,7 @@ use crate::kit::error::{Result, check, refuse_if};
 const DYNAMICS: &str = "Core Engine effects::Gravity effects::Inertia effects::RIGID_BODY model::Pruned robots::A1Leg \
                         robots::Panda robots::Ur5e state::State state::IncrementalTrig trig::Minimax trig::Table";
 /// The names of the controller's items in generated code.
-const CONTROL: &str = "FirstOrderHold ZeroOrderHold Interpolator InertiaUpdate";
+const CONTROL: &str = "law::FirstOrderHold law::ZeroOrderHold law::Interpolator law::InertiaUpdate";
 
 /// The simulation of the UR5e, which the tests compile and run.
 const SIMULATION: &str = include_str!("../../../../host-tests/tests/generated/ur5e_rk4.rs");

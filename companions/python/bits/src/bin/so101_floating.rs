@@ -15,9 +15,8 @@ use firmware_demo::scenes::so101_teach::{
     BACK_EMF, COMPENSATION, COULOMB, Compensation, RESOLUTION, STALL, SUPPLY, TaughtPath, VISCOUS,
     with_back_emf,
 };
-use motion_control::{
-    Estimate, HandGuiding, HandGuidingConfig, LimitedSpring, Observer, ObserverConfig, SpeedBrake,
-};
+use motion_control::estimate::{Estimate, Observer, ObserverConfig};
+use motion_control::law::{HandGuiding, HandGuidingConfig, LimitedSpring, SpeedBrake};
 use serde_json::{Value, json};
 
 /// The ticks of the plug-in, s.

@@ -9,7 +9,7 @@ mod program {
     use guide_firmware::rod::{CONFIG, Rod, gains, path};
     use joint_drivers::h_bridge::{FullScale, SignMagnitude};
     use joint_drivers::{ControlLoop, Direction, JointMapping, JointRange, as5600::As5600};
-    use motion_control::{Mode, MotionController};
+    use motion_control::{limits::Mode, motion::MotionController};
     use panic_halt as _;
     use stm32f4xx_hal::{i2c::I2c, nb, pac, prelude::*, rcc::Config};
 

@@ -6,7 +6,7 @@ use dynamics_core::effects::{RIGID_BODY, Width};
 use dynamics_core::model::Robot;
 use dynamics_core::robots::So101;
 use dynamics_core::state::State;
-use motion_control::{
+use motion_control::estimate::{
     ParameterEstimator, ParameterEstimatorConfig, PayloadEstimator, PayloadEstimatorConfig,
     SelectedParameters,
 };

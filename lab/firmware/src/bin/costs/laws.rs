@@ -8,7 +8,7 @@ use dynamics_core::robots::Ur5e;
 use dynamics_core::state::{ArmState, State};
 use dynamics_core::trig::sin_cos;
 use dynamics_core::{Core, Engine};
-use motion_control::*;
+use motion_control::{estimate::*, law::*, limits::*, reference::*};
 
 use super::row::Row;
 use super::{Ask, STATES};

@@ -8,7 +8,8 @@ use dynamics_core::model::Robot;
 use dynamics_core::spatial::{Force, Motion};
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
-use motion_control::{Fault, MomentumObserver, ObserverConfig, TipWrench, TipWrenchConfig};
+use motion_control::estimate::{MomentumObserver, ObserverConfig, TipWrench, TipWrenchConfig};
+use motion_control::limits::Fault;
 
 use super::row::Row;
 use super::{Ask, STATES, inverse};

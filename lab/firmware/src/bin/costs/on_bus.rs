@@ -8,7 +8,7 @@ use firmware_demo::scenes::openarm_free_drive::{
 };
 use joint_drivers::can::ClassicFrame;
 use joint_drivers::{ControlLoop, NoBrake};
-use motion_control::{Gains, MotionController};
+use motion_control::{law::Gains, motion::MotionController};
 
 /// The positions of the arm, rad.
 pub const Q: [f32; 7] = [0.5, 0.6, 0.2, 1.0, 0.1, -0.2, 0.3];

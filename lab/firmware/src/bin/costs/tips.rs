@@ -5,7 +5,8 @@ use dynamics_core::algorithms::frame::LocalWorldAligned;
 use dynamics_core::model::OnBody;
 use dynamics_core::robots::Ur5e;
 use dynamics_core::spatial::Motion;
-use motion_control::{ConfigError, MotionLimits, TipGoal, TipMotion, TipMotionConfig, TipStatus};
+use motion_control::limits::{ConfigError, MotionLimits};
+use motion_control::motion::{TipGoal, TipMotion, TipMotionConfig, TipStatus};
 
 use super::row::Row;
 use super::{Ask, STATES};

@@ -25,10 +25,11 @@ use firmware_demo::sim_io::{SimDrive, Wires};
 use firmware_demo::{marker::measured, target};
 use joint_drivers::Direction;
 use joint_drivers::h_bridge::{FullScale, LockedAntiphase};
-use motion_control::{
-    Command, Estimate, Fault, Gains, Mode, MotionController, MotionControllerConfig, SafetyLimits,
-    SupervisorConfig, feedback,
-};
+use motion_control::estimate::Estimate;
+use motion_control::law::{Gains, feedback};
+use motion_control::limits::{Command, Fault, Mode, SafetyLimits};
+use motion_control::motion::{MotionController, MotionControllerConfig};
+use motion_control::safety::SupervisorConfig;
 
 const N: usize = 6;
 const STATES: usize = 10_000;

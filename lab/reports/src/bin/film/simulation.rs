@@ -10,7 +10,7 @@ use firmware_demo::scenes::ur5e::{EFFECTS, PickAndPlace};
 use firmware_demo::sim_io::Wires;
 use glam::DVec3;
 use joint_drivers::Law;
-use motion_control::{Reference, Trajectory};
+use motion_control::reference::{Reference, Trajectory};
 
 /// The parts of the film: whether the feed-forward is on.
 pub const PARTS: [bool; 3] = [true, false, true];

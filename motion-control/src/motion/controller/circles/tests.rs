@@ -2,7 +2,7 @@ use core::f32::consts::{PI, TAU};
 
 use super::*;
 use crate::tests::{controlled, full_command, motion_limits, safety_limits, stop};
-use crate::*;
+use crate::{estimate::*, law::*, limits::*, motion::*, reference::*, safety::*};
 use dynamics_core::state::manifold::nearest_turn;
 
 mod detectors;

@@ -2,7 +2,7 @@ use crate::tests::{controlled, safety_limits};
 use std::string::{String, ToString};
 use std::vec::Vec;
 
-use crate::MotionControllerConfig;
+use crate::motion::MotionControllerConfig;
 use dynamics_core::advice::Advice;
 use dynamics_core::scalar::Real;
 

@@ -105,7 +105,7 @@ fn an_arm_at_the_slowest_speed_is_at_rest() {
 #[test]
 fn every_joint_of_a_sinking_arm_moves_plausibly() {
     let damping = [1.0; 2];
-    let stop = crate::StopCategory::DampedLowering { damping };
+    let stop = crate::safety::StopCategory::DampedLowering { damping };
     // The category also counts for an arm that is stopped already.
     let sinking = Supervisor::new(OFFSET).on_brake().with_stop(stop);
     assert!(sinking.lowers(&[0.0; 2], &[STEP, -STEP]));
@@ -131,4 +131,22 @@ fn the_greatest_number_of_reentry_ticks_can_be_counted() {
         assert_eq!(command.status.mode, Mode::Full);
     }
     assert_eq!(supervisor.authority(), 1.0);
+}
+
+#[test]
+fn a_torque_that_is_none_repeats_none_above_the_limit_of_its_tick() {
+    let mut supervisor = at([0.0, 0.7]);
+    let tick = |supervisor: &mut Supervisor<f32, 2>, tau: [f32; 2]| {
+        supervisor.accept_measurement(Ok(&[0.0, 0.7]));
+        supervisor.gate(&tau, &[0.0; 2]).torque
+    };
+    let most = LIMITS.torque;
+    let last = (0..1000).map(|_| tick(&mut supervisor, most)).last();
+    assert_eq!(last, Some(most));
+    let less = most.map(|torque| torque - 0.5 * LIMITS.rate[0]);
+    supervisor.limit_torques(&less);
+    assert_eq!(tick(&mut supervisor, [f32::NAN; 2]), less);
+    // A limit that is no number allows no torque.
+    supervisor.limit_torques(&[f32::NAN, 0.0]);
+    assert_eq!(supervisor.torque_limit(), &[0.0; 2]);
 }

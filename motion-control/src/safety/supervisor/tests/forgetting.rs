@@ -1,7 +1,7 @@
 //! A reset leaves nothing of what was before it.
 
 use super::*;
-use crate::StopCategory;
+use crate::safety::StopCategory;
 
 fn good_ticks(supervisor: &mut Supervisor<f32, 2>, ticks: u32) {
     for _ in 0..ticks {

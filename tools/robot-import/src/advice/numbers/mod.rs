@@ -4,7 +4,7 @@
 //! and runs, and its torques are wrong by a factor of thousands. [`Advise::advice`] on a robot and
 //! [`Advise::advice_on`] a scene compare the numbers with those of machines, and name the number,
 //! the reason and what to do. They are for a test or another program on the host; that on a
-//! controller's configuration is `motion_control::MotionControllerConfig::advice`.
+//! controller's configuration is `motion_control::motion::MotionControllerConfig::advice`.
 //!
 //! ```
 //! use dynamics_core::model::{ArmModel, BASE, Body, Joint, JointLimits, Model};

@@ -10,7 +10,7 @@ use joint_drivers::h_bridge::DriveError;
 use joint_drivers::{
     EncoderMapping, EncoderType, JointDrive, JointEncoder, LostTurn, MultiTurnEncoder,
 };
-use motion_control::{CurrentTick, Fault};
+use motion_control::{limits::Fault, motion::CurrentTick};
 
 /// Bits of an encoder's angle.
 pub const BITS: u32 = 14;
@@ -84,12 +84,7 @@ impl<Pwm: SetDutyCycle> Drive<Pwm> {
     pub fn new(pwm: Pwm, full_scale: f32) -> Self {
         let zero = f32::from(pwm.max_duty_cycle()) * 0.5;
         let slope = zero / full_scale;
-        Self {
-            pwm,
-            slope,
-            zero,
-            rest: 0.0,
-        }
+        Self { pwm, slope, zero, rest: 0.0 }
     }
 }
 

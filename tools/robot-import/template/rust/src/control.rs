@@ -9,10 +9,13 @@ use dynamics_core::state::State;
 use joint_drivers::can::CanError;
 use joint_drivers::h_bridge::DriveError;
 use joint_drivers::{Direction, EncoderMapping, JointError, JointMapping, Law, MappingError};
-use motion_control::{
-    ConfigError, Detectors, Estimate, FrozenEncoder, Gains, MeasurementAge, MotionController,
-    MotionControllerConfig, OnCircles, ReferenceStep, Saturation, SupervisorConfig,
-    TrajectoryError, feedback,
+use motion_control::estimate::Estimate;
+use motion_control::law::{Gains, feedback};
+use motion_control::limits::ConfigError;
+use motion_control::motion::{MeasurementAge, MotionController, MotionControllerConfig, OnCircles};
+use motion_control::reference::TrajectoryError;
+use motion_control::safety::{
+    Detectors, FrozenEncoder, ReferenceStep, Saturation, SupervisorConfig,
 };
 
 use crate::board::RESOLUTION;

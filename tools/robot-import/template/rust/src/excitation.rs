@@ -9,7 +9,7 @@ use core::f32::consts::TAU;
 
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
-use motion_control::Reference;
+use motion_control::reference::Reference;
 
 use crate::scene::{self, Motion, N, TICK};
 
@@ -34,10 +34,7 @@ pub struct Excitation {
 impl Excitation {
     /// Within the limits of the scene, which may depend on its `motion`.
     pub fn new(motion: &Motion) -> Self {
-        let mut found = Self {
-            amplitudes: random(),
-            centre: [0.0; N],
-        };
+        let mut found = Self { amplitudes: random(), centre: [0.0; N] };
         found.start_at_rest();
         let factors = found.within_ranges();
         found.scale(&factors);
@@ -62,11 +59,7 @@ impl Excitation {
         for kind in 0..2 {
             for joint in 0..N {
                 let weight = |h: usize| {
-                    if kind == 0 {
-                        (h + 1) as f32
-                    } else {
-                        ((h + 1) * (h + 1)) as f32
-                    }
+                    if kind == 0 { (h + 1) as f32 } else { ((h + 1) * (h + 1)) as f32 }
                 };
                 let (mut sum, mut squares) = (0.0, 0.0);
                 for (h, amplitudes) in self.amplitudes.iter().enumerate() {
@@ -132,11 +125,7 @@ impl Reference<f32, N> for Excitation {
                 state.qd[joint] += w * (a[joint] * c - b[joint] * s);
                 state.qdd[joint] -= w * w * swing;
             }
-            (s, c, w) = (
-                s * cosine + c * sine,
-                c * cosine - s * sine,
-                w + STEP / TICK,
-            );
+            (s, c, w) = (s * cosine + c * sine, c * cosine - s * sine, w + STEP / TICK);
         }
         state
     }

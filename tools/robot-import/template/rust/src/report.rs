@@ -7,7 +7,7 @@ use dynamics_core::algorithms::NotPositiveDefinite;
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 use joint_drivers::{ControlLoop, Law, Telemetry};
-use motion_control::{Fault, Mode, SafetyLimits};
+use motion_control::limits::{Fault, Mode, SafetyLimits};
 
 use crate::control::{FeedForward, SetupError, controller, detectors, gains};
 use crate::marker::measured;
@@ -53,10 +53,7 @@ impl fmt::Display for RunError {
             Self::Setup(error) => error.fmt(out),
             Self::Plant(error) => {
                 let name = JOINTS.get(error.joint).unwrap_or(&"?");
-                write!(
-                    out,
-                    "joint `{name}` moves no inertia: add an Armature in scene.rs"
-                )
+                write!(out, "joint `{name}` moves no inertia: add an Armature in scene.rs")
             }
         }
     }
@@ -99,10 +96,8 @@ pub fn run<L: Law<N>>(clock: impl Fn() -> u32) -> Result<Outcome, RunError> {
     let mut last = [0.0; N];
     for tick in 0..outcome.ticks {
         let reference = motion.at(tick).q;
-        for (error, (is, wanted)) in outcome
-            .error
-            .iter_mut()
-            .zip(plant.state.q.iter().zip(reference))
+        for (error, (is, wanted)) in
+            outcome.error.iter_mut().zip(plant.state.q.iter().zip(reference))
         {
             *error += (is - wanted) * (is - wanted);
         }
@@ -173,11 +168,7 @@ impl Outcome {
         if self.faulted == 0 {
             return Ok(());
         }
-        write!(
-            out,
-            "error: {} of {ticks} ticks on hold or stopped",
-            self.faulted
-        )?;
+        write!(out, "error: {} of {ticks} ticks on hold or stopped", self.faulted)?;
         if let Some((tick, fault)) = self.fault {
             write!(out, ", first in tick {tick}: {}", fault.named(&JOINTS))?;
         }
@@ -188,11 +179,7 @@ impl Outcome {
 /// A state with other numbers for every joint.
 pub fn probe() -> State<f32, N, N> {
     let of = |first: f32, step: f32| core::array::from_fn(|joint| first + step * joint as f32);
-    State {
-        q: of(0.1, 0.07),
-        qd: of(0.3, -0.05),
-        qdd: of(-0.2, 0.11),
-    }
+    State { q: of(0.1, 0.07), qd: of(0.3, -0.05), qdd: of(-0.2, 0.11) }
 }
 
 /// A clock of 24 bits.
@@ -233,16 +220,10 @@ pub fn print(out: &mut impl Write, clock: Clock<impl Fn() -> u32>) -> Result<boo
     let (limits, needed) = limits.unwrap_or(([0.0; N], [0.0; N]));
     for (joint, name) in JOINTS.iter().enumerate() {
         let (error, torque) = (1e3 * outcome.error[joint], outcome.largest[joint]);
-        writeln!(
-            out,
-            "  {name}: {error:.3}, {torque:.3}, {:.3}",
-            limits[joint]
-        )?;
+        writeln!(out, "  {name}: {error:.3}, {torque:.3}, {:.3}", limits[joint])?;
     }
-    for (joint, name) in JOINTS
-        .iter()
-        .enumerate()
-        .filter(|&(joint, _)| needed[joint] > limits[joint])
+    for (joint, name) in
+        JOINTS.iter().enumerate().filter(|&(joint, _)| needed[joint] > limits[joint])
     {
         let (needed, limit) = (needed[joint], limits[joint]);
         writeln!(
@@ -274,18 +255,12 @@ fn cost(
     clock: Clock<impl Fn() -> u32>,
 ) -> Result<bool, fmt::Error> {
     let Some([numerator, denominator]) = clock.instructions else {
-        writeln!(
-            out,
-            "tick: {} ticks; no counter of instructions here",
-            outcome.ticks
-        )?;
+        writeln!(out, "tick: {} ticks; no counter of instructions here", outcome.ticks)?;
         return Ok(true);
     };
     let before = (clock.now)();
     let overhead = (clock.now)().wrapping_sub(before) & COUNTS;
-    let [least, most] = outcome
-        .cost
-        .map(|cost| u64::from(cost.saturating_sub(overhead)));
+    let [least, most] = outcome.cost.map(|cost| u64::from(cost.saturating_sub(overhead)));
     let [first, last] =
         [least, most].map(|counts| (counts * numerator + denominator / 2) / denominator);
     let share = 100.0 * most as f32 / (TICK * 1e6 * denominator as f32);

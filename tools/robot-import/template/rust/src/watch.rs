@@ -9,7 +9,7 @@ use dynamics_core::model::{JointKind, model};
 use dynamics_core::state::State;
 use joint_drivers::ControlLoop;
 use machine_link::{Axis, Machine, Message, Sample, capacity, encode};
-use motion_control::Reference;
+use motion_control::reference::Reference;
 
 use crate::control::{FeedForward, SetupError, controller, gains};
 use crate::excitation::Excitation;
@@ -35,9 +35,7 @@ impl Options {
         let mut options = Self::default();
         for word in words {
             options.excite |= word == "excite";
-            let ticks = word
-                .strip_prefix("ticks=")
-                .and_then(|ticks| ticks.parse().ok());
+            let ticks = word.strip_prefix("ticks=").and_then(|ticks| ticks.parse().ok());
             options.ticks = ticks.unwrap_or(options.ticks);
         }
         options
@@ -113,24 +111,15 @@ fn along(
 /// The constants of the robot.
 fn machine(motion: &Motion) -> Machine<N> {
     let (mut limits, torque) = (scene::described_limits(), scene::limits(motion).torque);
-    let mut machine = Machine {
-        tick_us: (TICK * 1e6 + 0.5) as u32,
-        ..Machine::default()
-    };
+    let mut machine = Machine { tick_us: (TICK * 1e6 + 0.5) as u32, ..Machine::default() };
     let robot = model::<f32, Arm, N, N, N>();
     // A longer name is cut short.
-    let _ = robot
-        .name
-        .chars()
-        .try_for_each(|letter| machine.name.push(letter));
+    let _ = robot.name.chars().try_for_each(|letter| machine.name.push(letter));
     for ((limits, torque), link) in limits.iter_mut().zip(torque).zip(&robot.links) {
         limits.torque = torque;
         let prismatic = link.joint.kind == JointKind::Prismatic;
         // There is room for as many as there are.
-        let _ = machine.joints.push(Axis {
-            limits: *limits,
-            prismatic,
-        });
+        let _ = machine.joints.push(Axis { limits: *limits, prismatic });
     }
     machine
 }

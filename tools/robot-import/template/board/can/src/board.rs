@@ -10,7 +10,7 @@ use joint_drivers::can::CanError;
 use joint_drivers::mit::Scale;
 use joint_drivers::mit::damiao::{DM4310, Damiao};
 use joint_drivers::{CanJoints, ControlLoop, Direction, EncoderMapping, JointError};
-use motion_control::{Detect, Gains, PreviousTick};
+use motion_control::{law::Gains, motion::PreviousTick, safety::Detect};
 
 use crate::control::{Measured, controller, encoder_mappings};
 use crate::scene;

@@ -8,7 +8,7 @@ use embedded_hal::{digital::OutputPin, pwm::SetDutyCycle, spi::SpiDevice};
 use joint_drivers::as5047p::As5047p;
 use joint_drivers::h_bridge::{FullScale, LockedAntiphase};
 use joint_drivers::{ControlLoop, Direction, EncoderType};
-use motion_control::{Detect, Gains};
+use motion_control::{law::Gains, safety::Detect};
 
 use crate::control::{Measured, controller, encoder_mappings};
 use crate::scene;
@@ -92,12 +92,5 @@ pub fn on_brake<Spi: SpiDevice, Pwm: SetDutyCycle, Brake: OutputPin, D: Detect<f
         let joint = joint.next().unwrap_or_default();
         Drive::new(pwm, scales[joint], DRIVES[joint])
     });
-    Ok(ControlLoop::on_circles(
-        encoders,
-        drives,
-        devices.brake,
-        gains,
-        controller,
-        detectors,
-    ))
+    Ok(ControlLoop::on_circles(encoders, drives, devices.brake, gains, controller, detectors))
 }

@@ -4,7 +4,8 @@
 use defmt::{error, info, warn};
 use defmt_rtt as _;
 use joint_drivers::Telemetry;
-use motion_control::{Fault, Mode, ResetError};
+use motion_control::limits::{Fault, Mode};
+use motion_control::motion::ResetError;
 
 use crate::board::{N, SetupError};
 
@@ -21,12 +22,7 @@ pub struct Log {
 
 impl Log {
     pub const fn new() -> Self {
-        Self {
-            mode: None,
-            fault: None,
-            refused: None,
-            ticks: 0,
-        }
+        Self { mode: None, fault: None, refused: None, ticks: 0 }
     }
 
     /// Logs the changes since the tick before.

@@ -23,7 +23,7 @@ use embassy_sync::signal::Signal;
 use embassy_time::Duration;
 use embedded_hal::digital::OutputPin;
 use embedded_hal_bus::spi::AtomicDevice;
-use motion_control::{self as control, CompletedTick, Mode};
+use motion_control::{self as control, limits::Mode, safety::CompletedTick};
 
 use crate::board::{self, Devices, Law, Motion};
 use crate::devices::{Button, Channel, Line};
@@ -87,16 +87,7 @@ fn main() -> ! {
 /// Builds the control loop where it stays, and runs it.
 #[embassy_executor::task]
 async fn follow(chip: Peripherals) {
-    let Connected {
-        bus,
-        selects,
-        drives,
-        brake,
-        button,
-        light,
-        period,
-        watchdog,
-    } = connect(chip);
+    let Connected { bus, selects, drives, brake, button, light, period, watchdog } = connect(chip);
     let encoders = selects.map(|select| {
         let Ok(encoder) = AtomicDevice::new(&bus, select, Spin);
         encoder
@@ -104,11 +95,7 @@ async fn follow(chip: Peripherals) {
     let mut motion = Motion::REST;
     let planned = board::plan(&mut motion).map_err(|error| impossible(&error));
     let (gains, detectors) = (board::gains(), board::detectors(&motion));
-    let devices = Devices {
-        encoders,
-        drives,
-        brake,
-    };
+    let devices = Devices { encoders, drives, brake };
     let control = board::on_brake(devices, gains, detectors, &motion);
     let control = control.map_err(|error| impossible(&error));
     let (Ok(()), Ok(control)) = (planned, control) else {

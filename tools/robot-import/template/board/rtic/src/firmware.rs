@@ -6,7 +6,7 @@
 
 #[rtic::app(device = crate::chip::pac, peripherals = true)]
 mod app {
-    use motion_control::{Gains, Mode, Watchdog};
+    use motion_control::{law::Gains, limits::Mode, safety::Watchdog};
 
     use crate::board::{self, Law, Motion, N};
     use crate::chip::{Period, Starved};
@@ -68,14 +68,8 @@ mod app {
         path: Motion = Motion::REST,
     ])]
     fn init(cx: init::Context) -> (Shared, Local) {
-        let Connected {
-            devices,
-            button,
-            light,
-            timer,
-            watchdog,
-            mut rcc,
-        } = connect(cx.device, cx.local.kept);
+        let Connected { devices, button, light, timer, watchdog, mut rcc } =
+            connect(cx.device, cx.local.kept);
         let motion = cx.local.path;
         let planned = board::plan(motion).map_err(|error| impossible(&error));
         let detectors = place_detectors(cx.local.memory, motion);

@@ -4,7 +4,7 @@
 
 use core::convert::Infallible;
 
-use motion_control::{CompletedTick, Watchdog};
+use motion_control::safety::{CompletedTick, Watchdog};
 use stm32f4xx_hal::hal::pwm::{ErrorType, SetDutyCycle};
 use stm32f4xx_hal::pac::{IWDG, TIM2};
 use stm32f4xx_hal::prelude::*;

@@ -2,7 +2,7 @@
 //!
 //! The HAL's timer tells a period that has ended only by clearing its flag: here are its registers.
 
-use motion_control::{CompletedTick, Watchdog};
+use motion_control::safety::{CompletedTick, Watchdog};
 use stm32g4xx_hal::independent_watchdog::IndependentWatchdog;
 use stm32g4xx_hal::pac::{IWDG, TIM2};
 use stm32g4xx_hal::rcc::{BusTimerClock, Enable, Rcc, RccBus, Reset};

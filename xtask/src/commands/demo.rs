@@ -59,7 +59,10 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
     let one = [args.scene];
     let scenes = if args.all { Scene::all() } else { &one };
-    output::note(&promise(scenes));
+    output::note(
+        "builds the firmware and a cycle meter, and runs them in QEMU: some two minutes the first \
+         time, seconds a scene later",
+    );
     let tools = setup::for_demo(options)?;
     let built = Built::new(&workspace, &tools, scenes)?;
     let measured = built.measure(&workspace, &tools)?;
@@ -90,18 +93,6 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
         }
     }
     Ok(ExitCode::SUCCESS)
-}
-
-/// Says at once what is about to happen, and how long it takes.
-fn promise(scenes: &[Scene]) -> String {
-    let what = match scenes {
-        [one] => format!("the firmware of scene {}", one.name()),
-        all => format!("the firmware of {} scenes", all.len()),
-    };
-    format!(
-        "builds {what} and a cycle meter, and runs them in QEMU: some two minutes the first time, \
-         seconds a scene later"
-    )
 }
 
 /// The table and the picture of the default scene.

@@ -29,24 +29,18 @@ fn update_command(privilege: Privilege) -> Command {
 
 /// The commands that install Debian packages as this user, to be shown.
 pub fn lines(packages: &[&str]) -> Vec<String> {
-    if packages.is_empty() {
-        return Vec::new();
-    }
     let privilege = Privilege::this();
     let commands = [update_command(privilege), install_command(privilege, packages)];
-    let lines = commands.iter().map(shell::display);
     // Without root and sudo the reader has to become root in a way of their own.
-    let is_lost = privilege == Privilege::None;
-    let hint = is_lost.then(|| "# as root: there is no sudo here".to_owned());
-    hint.into_iter().chain(lines).collect()
+    let hint =
+        (privilege == Privilege::None).then(|| "# as root: there is no sudo here".to_owned());
+    let lines = hint.into_iter().chain(commands.iter().map(shell::display));
+    lines.filter(|_| !packages.is_empty()).collect()
 }
 
 /// Why the packages cannot be installed here, as far as it is known before it is tried.
 pub fn refusal(packages: &[&str]) -> Option<String> {
-    if packages.is_empty() {
-        return None;
-    }
-    if Privilege::this() == Privilege::None {
+    if !packages.is_empty() && Privilege::this() == Privilege::None {
         return Some("there is neither root nor sudo".to_owned());
     }
     // It changes nothing, and needs no root.

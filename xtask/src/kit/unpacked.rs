@@ -21,14 +21,9 @@ pub fn program_of(package: &str) -> Option<&'static str> {
     EMULATORS.iter().find(|row| row.0 == package).map(|row| row.1)
 }
 
-/// The folder of a package.
-fn folder(target: &Path, package: &str) -> PathBuf {
-    target.join("unpacked").join(package)
-}
-
 /// The folders with the programs that are there.
 fn folders(target: &Path) -> impl Iterator<Item = PathBuf> + use<> {
-    let all = EMULATORS.map(|(package, _)| folder(target, package).join("bin"));
+    let all = EMULATORS.map(|(package, _)| target.join("unpacked").join(package).join("bin"));
     all.into_iter().filter(|bin| bin.is_dir())
 }
 
@@ -66,15 +61,14 @@ pub fn line(packages: &[&str], refusal: Option<&str>) -> Option<String> {
 /// The packages cannot be fetched, or the program does not start.
 pub fn unpack(package: &str) -> Result<()> {
     let program = program_of(package).unwrap_or(package);
-    let target = Workspace::find()?.target;
-    let place = folder(&target, package);
-    let part = place.with_extension("part");
-    fs::create_dir_all(target.join("unpacked")).map_err(Error::file("create", &place))?;
+    let all = Workspace::find()?.target.join("unpacked");
+    let (place, part) = (all.join(package), all.join(format!("{package}.part")));
+    fs::create_dir_all(&all).map_err(Error::file("create", &all))?;
     // Held to the end: two processes would unpack into the same folder.
-    let lock = target.join("unpacked/lock");
-    let lock = File::create(&lock).and_then(|file| file.lock().map(|()| file));
-    let _alone = lock.map_err(Error::file("lock", &place))?;
-    if Qemu::first(program).is_ok() {
+    let lock = File::create(all.join("lock")).and_then(|file| file.lock().map(|()| file));
+    let _alone = lock.map_err(Error::file("lock", &all))?;
+    let started = Path::new("bin").join(program);
+    if Qemu::first(program).is_ok() || Qemu::at(place.join(&started)).is_ok() {
         return Ok(());
     }
     for old in [&place, &part].into_iter().filter(|old| old.exists()) {
@@ -92,7 +86,7 @@ pub fn unpack(package: &str) -> Result<()> {
         }
     }
     fs::remove_dir_all(&apt).map_err(Error::file("remove", &apt))?;
-    let started = part.join("bin").join(program);
+    let started = part.join(started);
     fs::create_dir_all(part.join("bin")).map_err(Error::file("create", &started))?;
     workspace::write(&started, starter(&root, program))?;
     #[cfg(unix)]
@@ -112,12 +106,8 @@ fn fetch(package: &str, apt: &Path, spinner: &Spinner) -> Result<()> {
         let folder = apt.join(folder);
         fs::create_dir_all(&folder).map_err(Error::file("create", &folder))?;
     }
-    let option = |name: &str, folder: &str| {
-        let mut option = OsString::from(format!("-o{name}="));
-        option.push(apt.join(folder));
-        option
-    };
-    let ours = [option("Dir::State", "state"), option("Dir::Cache", "cache")];
+    let ours = ["State", "Cache"]
+        .map(|name| format!("-oDir::{name}={}", apt.join(name.to_lowercase()).display()));
     let mut complaints = Vec::new();
     let mut run = |words: &str| {
         let mut command = Command::new("apt-get");
@@ -157,8 +147,8 @@ fn starter(root: &Path, program: &str) -> String {
     let mut libraries = BTreeSet::new();
     let mut folders = vec![root.to_owned()];
     while let Some(folder) = folders.pop() {
-        for path in fs::read_dir(&folder).into_iter().flatten().flatten().map(|entry| entry.path())
-        {
+        for entry in fs::read_dir(&folder).into_iter().flatten().flatten() {
+            let path = entry.path();
             if path.is_dir() && !path.is_symlink() {
                 folders.push(path);
             } else if is_library(&path) {

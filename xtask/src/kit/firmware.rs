@@ -1,6 +1,7 @@
 //! Builds what runs in QEMU, and the plugin that watches it.
 
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 use crate::kit::error::{Error, Result};
 use crate::kit::shell;
@@ -69,13 +70,22 @@ pub fn build_all(workspace: &Workspace, toolchain: Toolchain) -> Result<()> {
     Ok(())
 }
 
-/// Builds the cycle meter and returns the shared library.
+/// Set by the first call.
+static METER: OnceLock<PathBuf> = OnceLock::new();
+
+/// Builds the cycle meter and returns the shared library. It is a part of this program, and so is
+/// built already, if cargo is asked for both; it is asked once, since it may have to wait for other
+/// builds.
 pub fn build_meter(workspace: &Workspace) -> Result<PathBuf> {
+    if let Some(meter) = METER.get() {
+        return Ok(meter.clone());
+    }
     let mut command = workspace.cargo("build");
-    shell::capture(command.args(["--release", "--package", "cycle-meter"]))?;
+    shell::capture(command.args(["--package", "xtask", "--package", "cycle-meter"]))?;
     use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
-    let library = format!("release/{DLL_PREFIX}cycle_meter{DLL_SUFFIX}");
-    existing(workspace.target.join(library))
+    let library = format!("debug/{DLL_PREFIX}cycle_meter{DLL_SUFFIX}");
+    let meter = existing(workspace.target.join(library))?;
+    Ok(METER.get_or_init(|| meter).clone())
 }
 
 fn existing(path: PathBuf) -> Result<PathBuf> {

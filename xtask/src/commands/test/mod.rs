@@ -48,7 +48,6 @@ struct Context {
     /// claim.
     full: bool,
     tools: Tools,
-    meter: OnceLock<PathBuf>,
     measured: OnceLock<Vec<Measured>>,
 }
 
@@ -73,15 +72,14 @@ const STEPS: &[Step] = &[
     // From here on programs for the host are built too: earlier they would wait for the other
     // lane's.
     ("faults", Target, Named, "100 arms under injected faults keep their limits in QEMU, with the host's torques", functions::faults),
-    ("telemetry", Target, Full, "a tick costs the same with a listener, without one, and with a full queue", |c| watch::check(&c.workspace, &c.tools, c.meter()?)),
+    ("telemetry", Target, Full, "a tick costs the same with a listener, without one, and with a full queue", |c| watch::check(&c.workspace, &c.tools, &c.meter()?)),
     ("absent-effects", Target, Everyday, "an effect that a scene does not name costs it nothing", absent::absent_effects_cost_nothing),
     ("projects", Host, Full, "new projects in Rust and in C build, run in QEMU and compute the host's torques", others::projects),
 ];
 
 impl Context {
-    /// The cycle meter, built once.
-    fn meter(&self) -> Result<&PathBuf> {
-        once(&self.meter, || firmware::build_meter(&self.workspace))
+    fn meter(&self) -> Result<PathBuf> {
+        firmware::build_meter(&self.workspace)
     }
 
     fn bench(&self) -> Bench<'_> {
@@ -125,7 +123,8 @@ impl Context {
     fn metered(&self, name: &str, logs: bool) -> Result<(Vec<String>, Vec<Sample>)> {
         let elf = self.built(name)?;
         let regions = self.workspace.output(&format!("{name}.regions"))?;
-        let meter = Some((self.meter()?.as_path(), regions.as_path()));
+        let meter = self.meter()?;
+        let meter = Some((meter.as_path(), regions.as_path()));
         let mut run = Run::logging(name, &elf, meter);
         run.logs = logs;
         Ok((self.tools.qemu.lines(&run)?, meter::read(&regions)?))
@@ -207,13 +206,14 @@ pub fn run(options: Options, args: &Args) -> Result<ExitCode> {
         tools: setup::for_test(options)?,
         options: options.without_questions(),
         full: args.full,
-        meter: OnceLock::new(),
         measured: OnceLock::new(),
     };
     let wanted = |(name, _, scope, _, _): &Step<Task>| match args.steps.as_slice() {
         [] => *scope == Everyday || args.full && *scope == Full,
         names => names.iter().any(|wanted| wanted == name),
     };
+    // Later it would wait for the host's tests, which the other lane builds.
+    context.meter()?;
     let run = |lane| {
         let steps = steps().filter(|step| step.1 == lane).filter(wanted);
         let outcomes = steps.map(|step| passes(step, &context));

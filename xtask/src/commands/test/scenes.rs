@@ -56,7 +56,7 @@ fn twice(context: &Context) -> Result<&'static str> {
     let mut scenes = context.measured()?.iter().zip(context.scenes());
     let found = scenes.find(|(_, scene)| scene.name() == TWICE);
     let (first, scene) = found.ok_or_else(|| check!("`{TWICE}` is not measured"))?;
-    let again = demo::measure(workspace, tools, *scene, &first.elf, meter)?;
+    let again = demo::measure(workspace, tools, *scene, &first.elf, &meter)?;
     let ((log, costs), (log_again, costs_again)) = (&first.raw, &again.raw);
     refuse_if!(log != log_again, "two runs logged different bytes");
     refuse_if!(costs != costs_again, "two runs cost differently");

@@ -130,8 +130,8 @@ fn floor() -> String {
     format!("<path class=\"faint-line\" d=\"{lines}\"/>\n")
 }
 
-/// An arm along the skeletons of the samples, again and again; where nothing is to move, that of
-/// one sample.
+/// An arm along the skeletons of the samples, again and again; where nothing moves, or is to move,
+/// that of one sample.
 fn arm(
     class: &str,
     samples: &[Tick],
@@ -150,8 +150,8 @@ fn arm(
         let still = at(&samples[still]);
         writeln!(
             shapes,
-            "<{line} moves\" stroke-width=\"{width}\">{moves}</polyline><{line} still\" \
-             stroke-width=\"{width}\" points=\"{still}\"/>"
+            "<{line} moves\" stroke-width=\"{width}\" points=\"{still}\">{moves}</polyline>\
+             <{line} still\" stroke-width=\"{width}\" points=\"{still}\"/>"
         )
         .expect("a string");
     }
@@ -175,7 +175,10 @@ fn words(motion: &Motion) -> String {
             .replace("<animate", "<animate calcMode=\"discrete\"");
         let (class, state) = [("wanted", "off"), ("arm", "on")][usize::from(is_on)];
         let (style, name) = (format!("{class} bold moves 20 end"), "feed-forward");
-        shapes += &text(&style, [620.0, 32.0], &format!("{name} {state}{animation}"));
+        let text = text(&style, [620.0, 32.0], &format!("{name} {state}{animation}"));
+        // The sample that is shown where nothing moves is without.
+        let opacity = format!("<text opacity=\"{}\"", u8::from(!is_on));
+        shapes += &text.replace("<text", &opacity);
     }
     shapes + &text("wanted bold still 20 end", [620.0, 32.0], "feed-forward off")
 }
@@ -216,15 +219,13 @@ fn plot(errors: &[f64], still: usize, labels: &[String; PARTS.len()]) -> String 
         let all = curve.iter().chain(&curve[curve.len() - 1..]);
         all.map(|at| format!("{:.1}", of(at))).collect::<Vec<_>>()
     });
-    let at = curve[still];
+    let place = format!("cx=\"{:.1}\" cy=\"{:.1}\"", curve[still].x, curve[still].y);
     shapes
         + &format!(
-            "<circle class=\"arm moves\" r=\"5\">{}{}</circle><circle class=\"arm still\" r=\"5\" \
-             cx=\"{:.1}\" cy=\"{:.1}\"/>\n",
+            "<circle class=\"arm moves\" r=\"5\" {place}>{}{}</circle><circle class=\"arm still\" \
+             r=\"5\" {place}/>\n",
             animate("cx", SECONDS, &x),
-            animate("cy", SECONDS, &y),
-            at.x,
-            at.y
+            animate("cy", SECONDS, &y)
         )
 }
 

@@ -73,15 +73,14 @@ pub fn build_all(workspace: &Workspace, toolchain: Toolchain) -> Result<()> {
 /// Set by the first call.
 static METER: OnceLock<PathBuf> = OnceLock::new();
 
-/// Builds the cycle meter and returns the shared library. It is a part of this program, and so is
-/// built already, if cargo is asked for both; it is asked once, since it may have to wait for other
-/// builds.
+/// Builds the cycle meter and returns the shared library: in the folder of this program, whose
+/// dependencies are there. Cargo is asked once, since it may have to wait for other builds.
 pub fn build_meter(workspace: &Workspace) -> Result<PathBuf> {
     if let Some(meter) = METER.get() {
         return Ok(meter.clone());
     }
     let mut command = workspace.cargo("build");
-    shell::capture(command.args(["--package", "xtask", "--package", "cycle-meter"]))?;
+    shell::capture(command.args(["--package", "cycle-meter"]))?;
     use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
     let library = format!("debug/{DLL_PREFIX}cycle_meter{DLL_SUFFIX}");
     let meter = existing(workspace.target.join(library))?;

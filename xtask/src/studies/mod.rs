@@ -1,4 +1,4 @@
-//! The studies: each measures something and keeps a page in docs/.
+//! The studies: each measures something, holds its bounds, and writes a page for a release.
 //!
 //! A study is a file of this folder and its row in [`STUDIES`].
 

@@ -8,12 +8,13 @@
     reason = "xtask links some algorithms of some robots at a time"
 )]
 
-#[path = "../../../../../lab/firmware/src/bin/costs/mod.rs"]
-mod costs;
+#[path = "../../../../../lab/firmware/src/bin/costs/row.rs"]
+mod row;
 
 use core::hint::black_box;
 
 use cortex_m_rt::entry;
+use cortex_m_semihosting::debug;
 use dynamics_core::algorithms::frame::Local;
 use dynamics_core::algorithms::{NotPositiveDefinite, OsimInverse};
 use dynamics_core::effects::{Coriolis, Effect, Gravity, Inertia, RIGID_BODY};
@@ -24,10 +25,10 @@ use dynamics_core::spatial::Force;
 use dynamics_core::state::{JointTrig, State, StateWithTrig};
 use dynamics_core::{Core, Engine, MassMatrix};
 use firmware_demo::scene::larger;
+use firmware_demo::target;
 use heapless::Vec;
 
-use costs::done;
-use costs::row::{Row, numbers};
+use row::{Row, numbers};
 
 /// A function of CasADi's C: its arguments are cosines, sines, and two vectors that an algorithm
 /// may not need.
@@ -71,7 +72,8 @@ struct Ask<const Q: usize, const V: usize> {
 #[entry]
 fn main() -> ! {
     run();
-    done()
+    defmt::println!("done");
+    target::leave(debug::EXIT_SUCCESS)
 }
 
 /// Some states within the joints' usual ranges, from a fixed seed.

@@ -3,9 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use xtask::kit::error::{Result, check};
+use xtask::kit::qemu::Qemu;
 use xtask::kit::setup::{self, Options};
 use xtask::kit::workspace::Workspace;
-use xtask::kit::{shell, system, toolchain};
+use xtask::kit::{system, toolchain};
 
 #[derive(Debug)]
 pub struct Core {
@@ -74,7 +75,7 @@ pub fn set_up(options: Options, cores: &[&Core], targets: &[&'static str]) -> Re
     all.dedup();
     all.retain(|target| !toolchain::native_has(target));
     let emulators = cores.iter().map(|core| core.qemu());
-    let missing = emulators.filter(|(program, _)| shell::which(program).is_none());
+    let missing = emulators.filter(|(program, _)| Qemu::first(program).is_err());
     let packages: Vec<&str> = missing.map(|(_, package)| package).collect();
     setup::for_cores(options, &all, &packages)
 }

@@ -17,6 +17,7 @@ const TURNS: f64 = 8.0 * PI;
 const SPEED: f64 = 60.0;
 /// The speed of one joint over the next one, beside [`SPEED`]: degrees/s make 57.
 const FASTER: f64 = 20.0;
+
 /// A joint that an [`Advice`] is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]

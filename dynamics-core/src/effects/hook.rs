@@ -150,11 +150,6 @@ impl<E, R: Real> Field<E, R> {
         Self { add: Some(add), is_some: true, axes: [true; 3], gravities: 1 }
     }
 
-    /// A field that acts beside gravity.
-    pub const fn beside_gravity(add: fn(&E, &mut R::Vec3)) -> Self {
-        Self { gravities: 0, ..Self::gravity(add) }
-    }
-
     /// The same field, of which only these base components may differ from zero; others are
     /// ignored.
     #[must_use]

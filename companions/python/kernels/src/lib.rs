@@ -27,6 +27,7 @@ use lanes::{Blocks, LANES, Lanes};
 use linkages::Linkages;
 use loops::AnyLoops;
 use model::{Counts, Cut, Fast, General, Models};
+use scene::Terms;
 use spec::{BodyRef, Spec};
 
 /// A call, of which the algorithm and the rows are known elsewhere.

@@ -187,8 +187,8 @@ where
         Twist::along(joint, T::LENGTH_INV, Folded::runtime_if(moves, self.state.qd[I]))
     }
 
-    /// v(0) of joint K's body less its parent's, of which the components are known zeros that no
-    /// offset and no rotation of the parent give.
+    /// v(0) of joint K's body less its parent's. A component is a known zero where neither an offset
+    /// nor a rotation of the parent gives one.
     #[cfg_attr(optimised, inline(always))]
     fn step<const K: usize>(&self) -> Vec3<R> {
         let [x, y, z] = self.kept[K].step;

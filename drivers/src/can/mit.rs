@@ -425,7 +425,9 @@ impl<P: Protocol> Drive<P> {
     fn shaft_at(&self, joint: f32) -> Option<f32> {
         let last = self.last?;
         let moved = joint - last.joint;
-        let moved = if self.turns.mapping.is_circle() { within_turn(moved) } else { moved };
+        let is_endless =
+            self.turns.mapping.is_circle() || self.turns.mapping.turns_of_circle().is_some();
+        let moved = if is_endless { within_turn(moved) } else { moved };
         Some(last.shaft + moved * self.turns.mapping.mapping().shaft_per_joint())
     }
 }

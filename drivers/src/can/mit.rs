@@ -354,9 +354,10 @@ impl<P: Protocol> Drive<P> {
         if count == 0 || count == u16::MAX {
             return Err(CanError::Range);
         }
-        let [joint, shaft] = self.turns.follow(self.axes.position.value(count))?;
-        self.last = Some(Place { joint, shaft });
-        Ok(joint)
+        let followed = self.turns.follow(self.axes.position.value(count));
+        // Without a turn there is no count of a position to be commanded.
+        self.last = followed.ok().map(|[joint, shaft]| Place { joint, shaft });
+        followed.map(|[joint, _]| joint)
     }
 
     /// The counts of a torque with zero gains.

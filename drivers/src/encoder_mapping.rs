@@ -37,6 +37,11 @@ pub enum JointRange {
     /// of the encoder from its zero, exact after any number of turns. One turn of the encoder is
     /// one of the joint, or a whole number of them.
     Continuous,
+    /// Anywhere on a circle, with several turns of the encoder for one of the joint: the first
+    /// reading is within half a turn of the encoder from this position, turns are counted from
+    /// there, and the position is within half a turn of the joint from its zero, exact after any
+    /// number of turns. The turns of the encoder in one of the joint are a whole number.
+    ContinuousNear(f32),
 }
 
 impl JointRange {
@@ -56,6 +61,12 @@ impl JointRange {
                 0.5 * lower + 0.5 * upper
             }
             Self::Near(position) => position,
+            Self::ContinuousNear(position) => {
+                if !(ratio <= 0.5 * MOST_TURNS && ratio as u32 as f32 == ratio) {
+                    return Err(MappingError::Circle);
+                }
+                position
+            }
             Self::Continuous => {
                 // The turns of the joint in one of the encoder.
                 let turns = 1.0 / ratio;
@@ -187,7 +198,15 @@ impl EncoderMapping {
 
     /// Whether every reading says by itself where the joint is, so that a gap does not matter.
     pub(crate) const fn is_absolute(&self) -> bool {
-        !matches!(self.range, JointRange::Near(_))
+        !matches!(self.range, JointRange::Near(_) | JointRange::ContinuousNear(_))
+    }
+
+    /// The turns of the encoder after which its joint is where it was, if they are counted.
+    pub(crate) const fn turns_of_circle(&self) -> Option<f32> {
+        match self.range {
+            JointRange::ContinuousNear(_) => Some(self.mapping.ratio()),
+            _ => None,
+        }
     }
 
     pub(crate) const fn is_circle(&self) -> bool {
@@ -247,7 +266,15 @@ impl EncoderMapping {
             let near = self.near * self.mapping.shaft_per_joint() + self.mapping.zero();
             floor(near * (1.0 / TAU) - turns + 0.5) as f32
         });
-        let position = self.mapping.position((turns + off) * TAU)?;
+        let mut off = off;
+        let mut position = self.mapping.position((turns + off) * TAU)?;
+        if let Some(circle) = self.turns_of_circle()
+            && position.abs() > PI
+        {
+            let circles = floor(position * (1.0 / TAU) + 0.5) as f32;
+            off -= circles * circle.copysign(self.mapping.shaft_per_joint());
+            position = self.mapping.position((turns + off) * TAU)?;
+        }
         if !self.is_absolute() {
             *whole = Some(off);
         }

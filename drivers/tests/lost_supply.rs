@@ -387,3 +387,25 @@ fn errors_are_cleared_and_zeros_set_through_the_joints() {
     let joints = CanJoints::new(Outbox::<FdFrame, 1>::new(), [cubemars]);
     assert!(matches!(joints.clear_errors(0).unwrap_err().error, CanError::Unknown(_)));
 }
+
+#[test]
+fn a_drive_without_an_end_is_as_exact_after_a_hundred_thousand_turns() {
+    for (range, ratio) in [(JointRange::Continuous, 1.0), (JointRange::ContinuousNear(0.0), 3.0)] {
+        let mapping = JointMapping::new(0.7, joint_drivers::Direction::Reverse, ratio).unwrap();
+        let mapping = mapping.with_range(range, 0.1).unwrap();
+        let mut drive = Damiao::new(1, 0x11, damiao::DM4310, 10.0, mapping).unwrap();
+        let mut worst = 0.0_f64;
+        let turns = 1e5 * f64::from(ratio);
+        let mut shaft = 0.7_f64;
+        while shaft < turns * TAU {
+            shaft += 3.0;
+            let position = drive.report(&(DAMIAO.reply)(shaft)).unwrap().position.unwrap();
+            let truth = -(shaft - f64::from(0.7_f32)) / f64::from(ratio);
+            let off = (f64::from(position) - truth) / TAU;
+            worst = worst.max((off - off.round()).abs() * TAU);
+            assert!(position.abs() < 3.15, "{position}");
+        }
+        // Half a count, and those beside the ends of the scale.
+        assert!(worst < 2.1 * DAMIAO.step / f64::from(ratio), "{ratio}: {worst}");
+    }
+}

@@ -365,6 +365,50 @@ fn steps_after_ten_thousand_turns_are_those_of_the_first() {
 }
 
 #[test]
+fn a_geared_joint_without_an_end_is_as_exact_after_a_hundred_thousand_turns() {
+    let endless = |ratio| {
+        let mapping = JointMapping::new(0.7, Direction::Reverse, ratio).unwrap();
+        mapping.with_range(JointRange::ContinuousNear(0.3), 0.1).unwrap()
+    };
+    for ratio in [1.0_f32, 2.0, 7.0] {
+        let mut encoder = MultiTurnEncoder::<14>::new(endless(ratio));
+        let joint =
+            |counts: i64| -(counts as f64 * TAU / 16_384.0 - f64::from(0.7_f32)) / f64::from(ratio);
+        let mut at = 900_i64;
+        let mut read = |encoder: &mut MultiTurnEncoder<14>, to: i64| {
+            while at != to {
+                at += (to - at).clamp(-8000, 8000);
+                encoder.update(at.rem_euclid(16_384) as u16).unwrap();
+            }
+            encoder.position()
+        };
+        let counts = [0, 40, 80, 120].map(|step| 1000 + step);
+        let first = counts.map(|counts| read(&mut encoder, counts));
+        let turns = (1e5 * ratio) as i64 * 16_384;
+        for direction in [1, -1] {
+            let later = counts.map(|counts| read(&mut encoder, counts + direction * turns));
+            assert_eq!(later, first, "{ratio}");
+        }
+        for (counts, position) in counts.into_iter().zip(first) {
+            let off = (f64::from(position) - joint(counts)) / TAU;
+            assert!((off - off.round()).abs() < 1e-6 && position.abs() < 3.1416, "{position}");
+        }
+        // Half a turn of the encoder in a gap is still the end of what is known.
+        encoder.missed(1000);
+        assert!(encoder.update(0).is_err() && encoder.update(0).is_err());
+        encoder.place_near(1.0).unwrap();
+        encoder.update(0).unwrap();
+    }
+    // Not a whole number; no turns of a circle are counted by its edges.
+    let ninth = JointMapping::new(0.7, Direction::Reverse, 7.5).unwrap();
+    let refused = ninth.with_range(JointRange::ContinuousNear(0.0), 1e-3);
+    assert_eq!(refused, Err(MappingError::Circle));
+    let timer = (|| 0_u16, || None);
+    let made = IncrementalEncoder::new(timer, Resolution::new(2000).unwrap(), endless(2.0));
+    assert_eq!(made.map(|_| ()), Err(MappingError::Circle));
+}
+
+#[test]
 fn a_range_that_an_encoder_does_not_resolve_is_refused() {
     let of = |ratio, range, step| {
         let mapping = JointMapping::new(1.0, Direction::Forward, ratio).unwrap();

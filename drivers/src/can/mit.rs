@@ -354,9 +354,10 @@ impl<P: Protocol> Drive<P> {
         if count == 0 || count == u16::MAX {
             return Err(CanError::Range);
         }
-        let [joint, shaft] = self.turns.follow(self.axes.position.value(count))?;
-        self.last = Some(Place { joint, shaft });
-        Ok(joint)
+        let followed = self.turns.follow(self.axes.position.value(count));
+        // Without a turn there is no count of a position to be commanded.
+        self.last = followed.ok().map(|[joint, shaft]| Place { joint, shaft });
+        followed.map(|[joint, _]| joint)
     }
 
     /// The counts of a torque with zero gains.
@@ -425,7 +426,9 @@ impl<P: Protocol> Drive<P> {
     fn shaft_at(&self, joint: f32) -> Option<f32> {
         let last = self.last?;
         let moved = joint - last.joint;
-        let moved = if self.turns.mapping.is_circle() { within_turn(moved) } else { moved };
+        let is_endless =
+            self.turns.mapping.is_circle() || self.turns.mapping.turns_of_circle().is_some();
+        let moved = if is_endless { within_turn(moved) } else { moved };
         Some(last.shaft + moved * self.turns.mapping.mapping().shaft_per_joint())
     }
 }

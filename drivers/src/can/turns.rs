@@ -115,8 +115,7 @@ impl ShaftTurns {
             self.resume(count)?;
         }
         let angle = self.with_wraps(count);
-        let on_circle = if self.within == 0.0 { angle } else { count + self.within as f32 };
-        let turns = (on_circle + self.shift) * self.per_unit;
+        let turns = (self.phase(count) + self.shift) * self.per_unit;
         let joint = self.mapping.position_at(turns, &mut self.turn_offset);
         let joint = joint.map_err(|_| CanError::NotFinite)?;
         self.last = Some([count, angle]);
@@ -125,6 +124,11 @@ impl ShaftTurns {
 
     fn with_wraps(&self, count: f32) -> f32 {
         if self.wraps == 0.0 { count } else { count + self.wraps * self.period }
+    }
+
+    /// The same, but for whole turns on a circle.
+    fn phase(&self, count: f32) -> f32 {
+        if self.within == 0.0 { self.with_wraps(count) } else { count + self.within as f32 }
     }
 
     fn half(&self) -> f32 {
@@ -141,11 +145,19 @@ impl ShaftTurns {
         !self.period.is_finite() || self.within_turn(self.period).abs() < SAME * self.turn
     }
 
+    /// The turns of some wraps of a joint that turns without an end are not added to its angle: it
+    /// keeps what they are within a turn.
     fn set_wraps(&mut self, wraps: f32) {
-        self.wraps = wraps;
-        if self.mapping.is_circle() && self.period.is_finite() {
-            let turns = f64::from(wraps) * f64::from(self.period) / TAU;
-            self.within = (turns - turns as i64 as f64) * TAU;
+        let before = core::mem::replace(&mut self.wraps, wraps);
+        let is_counted = self.mapping.turns_of_circle().is_some();
+        if (self.mapping.is_circle() || is_counted) && self.period.is_finite() {
+            let turns = |wraps: f32| f64::from(wraps) * f64::from(self.period) / TAU;
+            let whole = |wraps: f32| turns(wraps) as i64;
+            self.within = (turns(wraps) - whole(wraps) as f64) * TAU;
+            if is_counted {
+                let added = (whole(wraps) - whole(before)) as f32;
+                self.turn_offset = self.turn_offset.map(|offset| offset + added);
+            }
         }
     }
 
@@ -184,7 +196,7 @@ impl ShaftTurns {
                 return self.lose(count);
             }
             let off = |angle: f32| self.within_turn(place - angle).abs();
-            if off(count) < off(self.with_wraps(count)) {
+            if off(count) < off(self.phase(count)) {
                 self.set_wraps(0.0);
             }
             if !knows_turn {
@@ -197,7 +209,8 @@ impl ShaftTurns {
         let is_within = matches!(self.mapping.range(), JointRange::Within { .. });
         let goes_on = moved.abs() <= travel || !can_begin && moved.abs() < self.half();
         let begins = can_begin
-            && (self.start < self.turn || self.within_turn(count - angle).abs() <= travel)
+            && (self.start < self.turn
+                || self.within_turn(count - self.phase(last)).abs() <= travel)
             && count.abs() <= self.start + travel;
         let is_one_place = self.is_whole() || (wraps == 0.0 && wrap == 0.0);
         let is_followed = travel < 0.5 * HALF * self.start || !can_begin;
@@ -207,10 +220,10 @@ impl ShaftTurns {
                 return Ok(());
             }
             if begins && !goes_on && knows_turn {
-                // Of the turns near the last place.
+                // Of the turns near the last place, with those of the wraps that are no more.
                 let turns = whole((angle - count) * self.per_unit);
-                self.turn_offset = self.turn_offset.map(|offset| offset + turns);
                 self.set_wraps(0.0);
+                self.turn_offset = self.turn_offset.map(|offset| offset + turns);
                 return Ok(());
             }
         }

@@ -120,7 +120,8 @@ impl<Counter: QuadratureCounter> IncrementalEncoder<Counter> {
     /// position was there at the first reading.
     ///
     /// # Errors
-    /// [`MappingError::Step`]: the joint can move by 2¹⁵ counts in a tick.
+    /// [`MappingError::Step`]: the joint can move by 2¹⁵ counts in a tick. [`MappingError::Circle`]:
+    /// its range is [`JointRange::ContinuousNear`](crate::JointRange).
     pub fn new(
         counter: Counter,
         resolution: Resolution,
@@ -129,6 +130,9 @@ impl<Counter: QuadratureCounter> IncrementalEncoder<Counter> {
         let (zero, per_count) = mapping.in_counts(resolution.counts() as f32);
         if mapping.can_turn(1, resolution.angle(WRAP)) {
             return Err(MappingError::Step);
+        }
+        if mapping.turns_of_circle().is_some() {
+            return Err(MappingError::Circle);
         }
         Ok(Self {
             counter,

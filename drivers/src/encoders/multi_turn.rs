@@ -12,6 +12,9 @@ use crate::{EncoderMapping, MappingError};
 const LOST: u32 = u32::MAX;
 /// The same: each reading is placed anew.
 const CIRCLE: u32 = LOST - 1;
+/// Added to the readings that are missing of a joint that turns without an end: each reading is
+/// examined, and may be one turn of the joint less.
+const ENDLESS: u32 = 1 << 31;
 
 /// The count before a reading.
 #[derive(Clone, Copy, Debug)]
@@ -49,6 +52,8 @@ pub struct MultiTurnEncoder<const BITS: u32> {
     /// If each reading says by itself where the joint is: the place of a joint without a reading,
     /// as in `halves`, which is odd. Else twice the number of readings that may be missing.
     near_or_most: i32,
+    /// The half counts in a turn of a joint that turns without an end, else zero.
+    circle: i32,
 }
 
 impl<const BITS: u32> MultiTurnEncoder<BITS> {
@@ -63,13 +68,23 @@ impl<const BITS: u32> MultiTurnEncoder<BITS> {
         let near = place(mapping.near(), zero, per_half);
         Self {
             halves: near,
-            missing: if mapping.is_circle() { CIRCLE } else { 0 },
+            missing: if mapping.is_circle() {
+                CIRCLE
+            } else if mapping.turns_of_circle().is_some() {
+                ENDLESS
+            } else {
+                0
+            },
             zero,
             per_half,
             near_or_most: if mapping.is_absolute() {
                 near
             } else {
                 doubled(mapping.most_missing(PI))
+            },
+            circle: match mapping.turns_of_circle() {
+                Some(turns) => (turns * (1_u32 << BITS) as f32) as i32 * 2,
+                None => 0,
             },
         }
     }
@@ -122,7 +137,8 @@ impl<const BITS: u32> MultiTurnEncoder<BITS> {
         if self.is_absolute() {
             self.halves = self.near_or_most;
         } else if self.halves & 1 == 0 && self.missing < LOST {
-            self.missing = self.missing.saturating_add(readings).min(LOST - 1);
+            let most = if self.circle == 0 { ENDLESS - 1 } else { CIRCLE - 1 };
+            self.missing = self.missing.saturating_add(readings).min(most);
         }
     }
 
@@ -142,9 +158,13 @@ impl<const BITS: u32> MultiTurnEncoder<BITS> {
         }
         if !self.is_absolute() {
             self.halves = place(position, self.zero, self.per_half);
-            self.missing = 0;
+            self.missing = self.none_missing();
         }
         Ok(())
+    }
+
+    const fn none_missing(&self) -> u32 {
+        if self.circle == 0 { 0 } else { ENDLESS }
     }
 
     /// Whether a reading after others that are missing says where the joint is: a function of its
@@ -156,11 +176,17 @@ impl<const BITS: u32> MultiTurnEncoder<BITS> {
             // The angle of a circle: its count does not grow with its turns.
             let apart = self.halves.wrapping_sub(self.near_or_most);
             self.halves = self.near_or_most.wrapping_add(Self::within(apart));
-        } else if self.missing > self.near_or_most as u32 / 2 {
+        } else if self.missing - self.none_missing() > self.near_or_most as u32 / 2 {
             self.missing = LOST;
             return Err(LostTurn);
         } else {
-            self.missing = 0;
+            self.missing = self.none_missing();
+            if self.circle != 0 {
+                let half = self.circle / 2;
+                let apart = self.halves.wrapping_sub(self.zero as i32).wrapping_add(half);
+                let circles = apart.checked_div_euclid(self.circle).unwrap_or(0);
+                self.halves = self.halves.wrapping_sub(circles.wrapping_mul(self.circle));
+            }
         }
         Ok(())
     }
@@ -178,7 +204,8 @@ impl<const BITS: u32> MultiTurnEncoder<BITS> {
         0.5 * (position / self.per_half + self.zero)
     }
 
-    /// The position of the encoder's shaft in counts after the last reading.
+    /// The position of the encoder's shaft in counts after the last reading: of a joint of
+    /// [`JointRange::ContinuousNear`](crate::JointRange) within a turn of the joint.
     #[inline(always)]
     pub const fn counts(&self) -> i32 {
         self.halves >> 1

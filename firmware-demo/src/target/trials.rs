@@ -36,7 +36,9 @@ mod log {
         leave(debug::EXIT_SUCCESS)
     }
 
-    /// Runs a trial and logs its figures: of one error, as of one joint.
+    /// Runs a trial and logs its figures: of one error, as of one joint. Inlined, each of its calls
+    /// would have a copy of the trial.
+    #[inline(never)]
     fn run<T: Batch<N>, const N: usize>(plant: PlantModel, law: [&str; 2], trial: &T) {
         let see = |telemetry: &joint_drivers::Telemetry<N>, error: f32| {
             if !error.is_nan() && telemetry.tick.is_multiple_of(SAMPLE) {

@@ -7,7 +7,7 @@ use dynamics_core::effects::{
     hook, smooth_sign,
 };
 use dynamics_core::model::{ArmModel, BASE, Body, Joint, JointKind, Model, Robot, model};
-use dynamics_core::robots::{Panda, Ur5e};
+use dynamics_core::robots::Ur5e;
 use dynamics_core::scalar::Real;
 use dynamics_core::spatial::Force;
 use dynamics_core::state::State;

@@ -37,9 +37,8 @@ impl Write for Writer<'_> {
     }
 }
 
-impl<L, const N: usize, const TOOL: usize, const POINTS: usize> Exports<L, N, TOOL, POINTS>
-where
-    L: Library<N, TOOL, POINTS>,
+impl<L: Library<N, TOOL, POINTS>, const N: usize, const TOOL: usize, const POINTS: usize>
+    Exports<L, N, TOOL, POINTS>
 {
     /// Writes the advice and returns how many sentences it has.
     pub fn config_advice(config: Option<&Config<N>>, advice: Option<&mut AdviceText>) -> i32 {

@@ -41,9 +41,8 @@ fn each_is_finite(list: &[f32]) -> bool {
     list.iter().all(|value| value.is_finite())
 }
 
-impl<L, const N: usize, const TOOL: usize, const POINTS: usize> Exports<L, N, TOOL, POINTS>
-where
-    L: Library<N, TOOL, POINTS>,
+impl<L: Library<N, TOOL, POINTS>, const N: usize, const TOOL: usize, const POINTS: usize>
+    Exports<L, N, TOOL, POINTS>
 {
     /// The largest distance of each position from zero: the range of angles within which the
     /// library's sines are accurate, and any finite number for prismatic joints.

@@ -152,9 +152,8 @@ impl<const N: usize> Config<N> {
     }
 }
 
-impl<L, const N: usize, const TOOL: usize, const POINTS: usize> Exports<L, N, TOOL, POINTS>
-where
-    L: Library<N, TOOL, POINTS>,
+impl<L: Library<N, TOOL, POINTS>, const N: usize, const TOOL: usize, const POINTS: usize>
+    Exports<L, N, TOOL, POINTS>
 {
     /// The limits of the robot's description, gains for the natural frequency `omega_n` (rad/s),
     /// and the usual numbers for the rest. Limits that the description does not have are infinite.
@@ -278,9 +277,8 @@ struct Limits<const N: usize> {
     acceleration: [f32; N],
 }
 
-impl<L, const N: usize, const TOOL: usize, const POINTS: usize> Control<L, N, TOOL, POINTS>
-where
-    L: Library<N, TOOL, POINTS>,
+impl<L: Library<N, TOOL, POINTS>, const N: usize, const TOOL: usize, const POINTS: usize>
+    Control<L, N, TOOL, POINTS>
 {
     /// A controller of an arm on its brake.
     ///

@@ -77,6 +77,7 @@ impl<const N: usize> Command<N> {
 }
 
 /// The number of a fault in the header, and its joint.
+#[inline]
 fn number(of: Fault) -> (i32, i32) {
     let (number, joint) = match of {
         Fault::Encoder { joint } => (fault::ENCODER, Some(joint)),
@@ -157,9 +158,8 @@ fn no_memory(memory: Option<Handle>) -> i32 {
     if memory.is_some() { status::MEMORY } else { status::NULL }
 }
 
-impl<L, const N: usize, const TOOL: usize, const POINTS: usize> Exports<L, N, TOOL, POINTS>
-where
-    L: Library<N, TOOL, POINTS>,
+impl<L: Library<N, TOOL, POINTS>, const N: usize, const TOOL: usize, const POINTS: usize>
+    Exports<L, N, TOOL, POINTS>
 {
     pub(crate) fn control<'a>(
         memory: Option<Handle>,

@@ -11,59 +11,42 @@ use crate::status::{self, NULL};
 use crate::tool::{Anywhere, Tool, With};
 use crate::{Exports, Library, State, check, status_of};
 
-/// The algorithms of a library that are in two forms: `Engine` is the faster one; beyond about 12
-/// joints it compiles for minutes, and `Core` takes its place.
-pub trait Form<A, const N: usize> {
+/// The trait of functions that two types have, and its implementations.
+macro_rules! forms {
+    ($($(#[$doc:meta])* $name:ident($($in:ident: $type:ty),*) -> $result:ty;)*) => {
+        /// The algorithms of a library that are in two forms: `Engine` is the faster one; beyond
+        /// about 12 joints it compiles for minutes, and `Core` takes its place.
+        pub trait Form<A, const N: usize> {$(
+            $(#[$doc])*
+            fn $name($($in: $type,)* effects: &impl Effect<f32, N, N>) -> $result;
+        )*}
+
+        forms! { Engine $($name($($in: $type),*) -> $result;)* }
+        forms! { Core $($name($($in: $type),*) -> $result;)* }
+    };
+    ($form:ident $($name:ident($($in:ident: $type:ty),*) -> $result:ty;)*) => {
+        impl<A: Robot<N, N, N>, const N: usize> Form<A, N> for $form<A> {$(
+            #[inline(always)]
+            fn $name($($in: $type,)* effects: &impl Effect<f32, N, N>) -> $result {
+                $form::<A>::$name($($in,)* effects)
+            }
+        )*}
+    };
+}
+
+forms! {
     /// The inertia matrix.
-    fn crba(q: &[f32; N], effects: &impl Effect<f32, N, N>) -> MassMatrix<f32, N>;
-
+    crba(q: &[f32; N]) -> MassMatrix<f32, N>;
     /// The derivatives of inverse dynamics.
-    fn rnea_derivatives(
-        state: &State<N>,
-        effects: &impl Effect<f32, N, N>,
-    ) -> TorqueGradient<f32, N>;
-
+    rnea_derivatives(state: &State<N>) -> TorqueGradient<f32, N>;
     /// Forward dynamics.
     ///
     /// # Errors
     /// A joint moves no inertia.
-    fn forward_dynamics(
-        state: &State<N>,
-        torque: &[f32; N],
-        effects: &impl Effect<f32, N, N>,
+    forward_dynamics(
+        state: &State<N>, torque: &[f32; N]
     ) -> Result<[f32; N], NotPositiveDefinite>;
 }
-
-/// Both have functions of these names.
-macro_rules! forms {
-    ($($form:ident)*) => {$(
-        impl<A: Robot<N, N, N>, const N: usize> Form<A, N> for $form<A> {
-            #[inline(always)]
-            fn crba(q: &[f32; N], effects: &impl Effect<f32, N, N>) -> MassMatrix<f32, N> {
-                $form::<A>::crba(q, effects)
-            }
-
-            #[inline(always)]
-            fn rnea_derivatives(
-                state: &State<N>,
-                effects: &impl Effect<f32, N, N>,
-            ) -> TorqueGradient<f32, N> {
-                $form::<A>::rnea_derivatives(state, effects)
-            }
-
-            #[inline(always)]
-            fn forward_dynamics(
-                state: &State<N>,
-                torque: &[f32; N],
-                effects: &impl Effect<f32, N, N>,
-            ) -> Result<[f32; N], NotPositiveDefinite> {
-                $form::<A>::forward_dynamics(state, torque, effects)
-            }
-        }
-    )*};
-}
-
-forms!(Engine Core);
 
 #[inline(always)]
 fn write<const N: usize>(result: [f32; N], output: &mut [f32; N]) -> Result<(), i32> {
@@ -98,9 +81,8 @@ fn write_rows<const N: usize>(
     Ok(())
 }
 
-impl<L, const N: usize, const TOOL: usize, const POINTS: usize> Exports<L, N, TOOL, POINTS>
-where
-    L: Library<N, TOOL, POINTS>,
+impl<L: Library<N, TOOL, POINTS>, const N: usize, const TOOL: usize, const POINTS: usize>
+    Exports<L, N, TOOL, POINTS>
 {
     /// The torques of a motion.
     pub fn inverse_dynamics(state: Option<&State<N>>, torque: Option<&mut [f32; N]>) -> i32 {

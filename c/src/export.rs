@@ -97,120 +97,91 @@ macro_rules! export {
         pub use types::*;
 
         $crate::functions! { $prefix
-            inverse_dynamics(state: Option<&State>, torque: Option<&mut Joints>);
-            gravity(q: Option<&Joints>, torque: Option<&mut Joints>);
-            inertia(q: Option<&Joints>, inertia: Option<&mut Rows>);
-            inverse_dynamics_derivatives(
-                state: Option<&State>, by_q: Option<&mut Rows>, by_qd: Option<&mut Rows>
-            );
-            forward_dynamics(
-                state: Option<&State>, torque: Option<&Joints>, acceleration: Option<&mut Joints>
-            );
-            tool_set(
-                tool: Option<&mut Tool>, body: i32, load: Option<&Load>,
-                gravity: Option<&[f32; 3]>
-            );
-            gravity_of_base(attitude: Option<&[[f32; 3]; 3]>, gravity: Option<&mut [f32; 3]>);
-            inverse_dynamics_with_tool(
-                state: Option<&State>, tool: Option<&Tool>, torque: Option<&mut Joints>
-            );
-            gravity_with_tool(q: Option<&Joints>, tool: Option<&Tool>, torque: Option<&mut Joints>);
-            inertia_with_tool(q: Option<&Joints>, tool: Option<&Tool>, inertia: Option<&mut Rows>);
+            inverse_dynamics(state: &State, torque: &mut Joints);
+            gravity(q: &Joints, torque: &mut Joints);
+            inertia(q: &Joints, inertia: &mut Rows);
+            inverse_dynamics_derivatives(state: &State, by_q: &mut Rows, by_qd: &mut Rows);
+            forward_dynamics(state: &State, torque: &Joints, acceleration: &mut Joints);
+            tool_set(tool: &mut Tool, body = i32, load: &Load, gravity: &[f32; 3]);
+            gravity_of_base(attitude: &[[f32; 3]; 3], gravity: &mut [f32; 3]);
+            inverse_dynamics_with_tool(state: &State, tool: &Tool, torque: &mut Joints);
+            gravity_with_tool(q: &Joints, tool: &Tool, torque: &mut Joints);
+            inertia_with_tool(q: &Joints, tool: &Tool, inertia: &mut Rows);
             forward_dynamics_with_tool(
-                state: Option<&State>, torque: Option<&Joints>, tool: Option<&Tool>,
-                acceleration: Option<&mut Joints>
+                state: &State, torque: &Joints, tool: &Tool, acceleration: &mut Joints
             );
             joint_wrench(
-                state: Option<&State>, tool: Option<&Tool>, body: i32,
-                torque: Option<&mut Joints>, wrench: Option<&mut Wrench>
+                state: &State, tool: &Tool, body = i32, torque: &mut Joints, wrench: &mut Wrench
             );
-            tool_wrench(state: Option<&State>, tool: Option<&Tool>, wrench: Option<&mut Wrench>);
-            sensor_fit_add(
-                fit: Option<&mut SensorFit>, gravity: Option<&Vec3>, measured: Option<&Wrench>
-            );
-            sensor_fit_load(fit: Option<&SensorFit>, load: Option<&mut SensorLoad>);
-            sensor_at_rest(
-                load: Option<&SensorLoad>, gravity: Option<&Vec3>, shown: Option<&mut Wrench>
-            );
-            body_pose(q: Option<&Joints>, body: i32, pose: Option<&mut Pose>);
-            body_jacobian(q: Option<&Joints>, body: i32, jacobian: Option<&mut [Joints; 6]>);
-            config_of_description(tick: f32, frequency: f32, config: Option<&mut Config>);
-            config_advice(config: Option<&Config>, advice: Option<&mut AdviceText>);
-            controller_init(
-                memory: Option<Handle>, bytes: usize, config: Option<&Config>,
-                at: Option<&mut Where>
-            );
-            controller_tool(memory: Option<Handle>, tool: Option<&Tool>);
-            controller_move(
-                memory: Option<Handle>, motion: Option<&Motion>, at: Option<&mut Where>
-            );
-            controller_follow(
-                memory: Option<Handle>, reference: Option<&State>, at: Option<&mut Where>
-            );
-            controller_observe(memory: Option<Handle>, q: Option<&Joints>, valid: Option<&[u8; N]>);
-            controller_command(memory: Option<Handle>, command: Option<&mut Command>);
-            controller_stop(memory: Option<Handle>);
-            controller_off(memory: Option<Handle>);
-            controller_fault(memory: Option<Handle>, kind: i32, joint: i32);
-            controller_missed(memory: Option<Handle>, ticks: u32);
-            controller_reset(memory: Option<Handle>, at: Option<&mut Where>);
-            controller_report(memory: Option<Handle>, report: Option<&mut Report>);
-            goal_init(
-                goal: Option<&mut Goal>, config: Option<&Config>, jerk: Option<&Joints>,
-                at: Option<&mut Where>
-            );
+            tool_wrench(state: &State, tool: &Tool, wrench: &mut Wrench);
+            sensor_fit_add(fit: &mut SensorFit, gravity: &Vec3, measured: &Wrench);
+            sensor_fit_load(fit: &SensorFit, load: &mut SensorLoad);
+            sensor_at_rest(load: &SensorLoad, gravity: &Vec3, shown: &mut Wrench);
+            body_pose(q: &Joints, body = i32, pose: &mut Pose);
+            body_jacobian(q: &Joints, body = i32, jacobian: &mut [Joints; 6]);
+            config_of_description(tick = f32, frequency = f32, config: &mut Config);
+            config_advice(config: &Config, advice: &mut AdviceText);
+            controller_init(memory: Handle, bytes = usize, config: &Config, at: &mut Where);
+            controller_tool(memory: Handle, tool: &Tool);
+            controller_move(memory: Handle, motion: &Motion, at: &mut Where);
+            controller_follow(memory: Handle, reference: &State, at: &mut Where);
+            controller_observe(memory: Handle, q: &Joints, valid: &[u8; N]);
+            controller_command(memory: Handle, command: &mut Command);
+            controller_stop(memory: Handle);
+            controller_off(memory: Handle);
+            controller_fault(memory: Handle, kind = i32, joint = i32);
+            controller_missed(memory: Handle, ticks = u32);
+            controller_reset(memory: Handle, at: &mut Where);
+            controller_report(memory: Handle, report: &mut Report);
+            goal_init(goal: &mut Goal, config: &Config, jerk: &Joints, at: &mut Where);
             controller_goal(
-                memory: Option<Handle>, goal: Option<&mut Goal>, q: Option<&Joints>,
-                ticks: Option<&mut u32>, at: Option<&mut Where>
+                memory: Handle, goal: &mut Goal, q: &Joints, ticks: &mut u32, at: &mut Where
             );
             controller_goal_begin(
-                memory: Option<Handle>, goal: Option<&Goal>, change: Option<&mut GoalChange>,
-                start: u32, q: Option<&Joints>, torque: Option<&Joints>, at: Option<&mut Where>
+                memory: Handle, goal: &Goal, change: &mut GoalChange, start = u32, q: &Joints,
+                torque: &Joints, at: &mut Where
             );
             controller_goal_advance(
-                memory: Option<Handle>, goal: Option<&mut Goal>, change: Option<&mut GoalChange>,
-                tick: u32, ticks: Option<&mut u32>, at: Option<&mut Where>
+                memory: Handle, goal: &mut Goal, change: &mut GoalChange, tick = u32,
+                ticks: &mut u32, at: &mut Where
             );
-            goal_state(goal: Option<&Goal>, tick: u32, state: Option<&mut State>);
+            goal_state(goal: &Goal, tick = u32, state: &mut State);
             tip_init(
-                tip: Option<&mut Tip>, config: Option<&Config>, start: Option<&State>,
-                damping: f32, length: f32, posture_gain: f32, at: Option<&mut Where>
+                tip: &mut Tip, config: &Config, start: &State, damping = f32, length = f32,
+                posture_gain = f32, at: &mut Where
             );
-            tip_step(
-                tip: Option<&mut Tip>, twist: Option<&[f32; 6]>, reference: Option<&mut State>,
-                at: Option<&mut Where>
-            );
+            tip_step(tip: &mut Tip, twist: &[f32; 6], reference: &mut State, at: &mut Where);
             tip_goal(
-                tip: Option<&mut Tip>, pose: Option<&Pose>, gain: f32, angular: f32, linear: f32,
-                reference: Option<&mut State>, at: Option<&mut Where>
+                tip: &mut Tip, pose: &Pose, gain = f32, angular = f32, linear = f32,
+                reference: &mut State, at: &mut Where
             );
-            solve_pose(solver: Option<&PoseSolver>, pose: Option<&Pose>, q: Option<&mut Joints>);
+            solve_pose(solver: &PoseSolver, pose: &Pose, q: &mut Joints);
             thermal_init(
-                thermal: Option<&mut Thermal>, motors: Option<&Motors>, config: Option<&Config>,
-                saved: Option<&Temperatures>, off: f32, at: Option<&mut Where>
+                thermal: &mut Thermal, motors: &Motors, config: &Config, saved: &Temperatures,
+                off = f32, at: &mut Where
             );
-            thermal_update(
-                thermal: Option<&mut Thermal>, torque: Option<&Joints>, limit: Option<&mut Joints>
-            );
-            thermal_measured(thermal: Option<&mut Thermal>, joint: i32, celsius: f32);
-            thermal_holds_for(
-                thermal: Option<&Thermal>, joint: i32, torque: f32, seconds: Option<&mut f32>
-            );
-            thermal_report(thermal: Option<&Thermal>, report: Option<&mut Heat>);
-            controller_limit(memory: Option<Handle>, thermal: Option<&Thermal>);
+            thermal_update(thermal: &mut Thermal, torque: &Joints, limit: &mut Joints);
+            thermal_measured(thermal: &mut Thermal, joint = i32, celsius = f32);
+            thermal_holds_for(thermal: &Thermal, joint = i32, torque = f32, seconds: &mut f32);
+            thermal_report(thermal: &Thermal, report: &mut Heat);
+            controller_limit(memory: Handle, thermal: &Thermal);
         }
     };
 }
 
-/// The functions of [`export!`].
+/// The functions of [`export!`]: pointers, which may be null, and numbers behind `=`.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! functions {
-    ($prefix:literal $($name:ident($($argument:ident: $type:ty),*);)*) => {$(
+    (
+        $prefix:literal $($name:ident($($argument:ident $(: $pointer:ty)? $(= $number:ty)?),*);)*
+    ) => {$(
         #[doc = concat!("`", $prefix, "_", stringify!($name), "` of the header.")]
         // SAFETY: no other symbol has this name, whose prefix is the library's.
         #[unsafe(export_name = concat!($prefix, "_", stringify!($name)))]
-        pub extern "C" fn $name($($argument: $type),*) -> i32 {
+        pub extern "C" fn $name(
+            $($argument: $($number)? $(Option<$pointer>)?),*
+        ) -> i32 {
             Exports::$name($($argument),*)
         }
     )*};

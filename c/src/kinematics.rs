@@ -30,9 +30,8 @@ impl Pose {
     }
 }
 
-impl<L, const N: usize, const TOOL: usize, const POINTS: usize> Exports<L, N, TOOL, POINTS>
-where
-    L: Library<N, TOOL, POINTS>,
+impl<L: Library<N, TOOL, POINTS>, const N: usize, const TOOL: usize, const POINTS: usize>
+    Exports<L, N, TOOL, POINTS>
 {
     /// The pose of a body.
     pub fn body_pose(q: Option<&[f32; N]>, body: i32, pose: Option<&mut Pose>) -> i32 {

@@ -67,9 +67,8 @@ struct Slot<L, const N: usize, const TOOL: usize, const POINTS: usize> {
     control: Control<L, N, TOOL, POINTS>,
 }
 
-impl<L, const N: usize, const TOOL: usize, const POINTS: usize> Exports<L, N, TOOL, POINTS>
-where
-    L: Library<N, TOOL, POINTS>,
+impl<L: Library<N, TOOL, POINTS>, const N: usize, const TOOL: usize, const POINTS: usize>
+    Exports<L, N, TOOL, POINTS>
 {
     /// The bytes that the header reserves for a controller.
     pub const CONTROLLER_BYTES: usize = numbers::CONTROLLER_BYTES(N, POINTS);

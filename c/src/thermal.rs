@@ -52,9 +52,8 @@ fn rejected(error: ConfigError) -> Rejected {
     (status::CONFIG, Where::of(field, joint, None))
 }
 
-impl<L, const N: usize, const TOOL: usize, const POINTS: usize> Exports<L, N, TOOL, POINTS>
-where
-    L: Library<N, TOOL, POINTS>,
+impl<L: Library<N, TOOL, POINTS>, const N: usize, const TOOL: usize, const POINTS: usize>
+    Exports<L, N, TOOL, POINTS>
 {
     /// The limits of motors with temperatures that were saved, or as hot as they may be.
     pub fn thermal_init(

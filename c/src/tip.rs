@@ -21,9 +21,8 @@ pub type Tip<L, const N: usize> = Kept<TipMotion<f32, N>, L>;
 /// The numbers of a solver: `..._pose_solver` of the header.
 pub type PoseSolver<const N: usize> = motion_control::motion::PoseSolver<f32, N>;
 
-impl<L, const N: usize, const TOOL: usize, const POINTS: usize> Exports<L, N, TOOL, POINTS>
-where
-    L: Library<N, TOOL, POINTS>,
+impl<L: Library<N, TOOL, POINTS>, const N: usize, const TOOL: usize, const POINTS: usize>
+    Exports<L, N, TOOL, POINTS>
 {
     /// The pose of the tip, and its Jacobian in the base's axes.
     fn tip_kinematics(q: &[f32; N]) -> (frame::Pose<f32>, [Motion<f32>; N]) {

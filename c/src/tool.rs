@@ -104,6 +104,8 @@ impl<const N: usize> Effect<f32, N, N> for Anywhere {
 }
 
 impl Anywhere {
+    // As part of the algorithms: in a crate of its own it would be called.
+    #[inline(always)]
     fn add_to(&self, body: usize, inertia: &mut SpatialInertia<f32>) {
         if body == self.body {
             *inertia = *inertia + self.inertia;
@@ -124,9 +126,8 @@ delegate_effect! {
     |this| { L::Forces => L::EFFECTS.1, GravityVector<f32> => this.gravity, P => this.load }
 }
 
-impl<L, const N: usize, const TOOL: usize, const POINTS: usize> Exports<L, N, TOOL, POINTS>
-where
-    L: Library<N, TOOL, POINTS>,
+impl<L: Library<N, TOOL, POINTS>, const N: usize, const TOOL: usize, const POINTS: usize>
+    Exports<L, N, TOOL, POINTS>
 {
     /// A word that zeros and the tools of other libraries do not have.
     const TOOL_MAGIC: u32 = L::HASH as u32 | 1;

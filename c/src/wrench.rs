@@ -28,9 +28,8 @@ fn numbers(SensorLoad { mass, first_moment, offset }: &SensorLoad) -> [&[f32]; 4
     [core::slice::from_ref(mass), first_moment.as_ref(), offset.ang.as_ref(), offset.lin.as_ref()]
 }
 
-impl<L, const N: usize, const TOOL: usize, const POINTS: usize> Exports<L, N, TOOL, POINTS>
-where
-    L: Library<N, TOOL, POINTS>,
+impl<L: Library<N, TOOL, POINTS>, const N: usize, const TOOL: usize, const POINTS: usize>
+    Exports<L, N, TOOL, POINTS>
 {
     /// The torques of a motion, and the wrench in the joint of a body.
     pub fn joint_wrench(

@@ -69,7 +69,8 @@ impl Random {
 }
 
 fn samples() -> u64 {
-    std::env::var("SAMPLES").map_or(2_000, |samples| samples.parse().expect("a number"))
+    let usual = if cfg!(feature = "full") { 100_000 } else { 2_000 };
+    std::env::var("SAMPLES").map_or(usual, |samples| samples.parse().expect("a number"))
 }
 
 /// How often each function was called, and how often with OK.
@@ -197,7 +198,7 @@ fn no_load_of_a_sensor_and_no_thermal_limit_is_other_than_finite() {
     let (mut random, mut tally, nothing) =
         (Random(0xfeed_5eed_0bad_cafe), Tally::default(), || String::new());
     let (mut fit, mut usual) = (numbers(), limits(None));
-    for _ in 0..samples() {
+    for _ in 0..5 * samples() {
         // A pose in ten is wild, and a fit has some five.
         let size = if random.below(10) == 0 { f32::MAX } else { 1e3 };
         fit = if random.below(5) == 0 { numbers() } else { fit };

@@ -22,7 +22,9 @@ fn header() -> String {
         ("bodies", list("BODY")),
     ];
     let text = include_str!("../../include/dynamics.h.liquid").to_owned();
-    values.into_iter().fold(text, |text, (name, value)| text.replace(&format!("{{{{{name}}}}}"), &value))
+    values
+        .into_iter()
+        .fold(text, |text, (name, value)| text.replace(&format!("{{{{{name}}}}}"), &value))
 }
 
 /// Whether a compiler accepts the header with these types' sizes; nothing without a compiler.
@@ -30,9 +32,8 @@ fn compiles(compiler: &[&str], sizes: &[(&str, usize)]) -> Option<bool> {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("header-{N}-{}", compiler[1]));
     std::fs::create_dir_all(&folder).expect("a folder");
     std::fs::write(folder.join("arm.h"), header()).expect("written");
-    let assert = |(name, size): &(&str, usize)| {
-        format!("SAME(sizeof(arm_{name}) == {size}, \"{name}\");\n")
-    };
+    let assert =
+        |(name, size): &(&str, usize)| format!("SAME(sizeof(arm_{name}) == {size}, \"{name}\");\n");
     let sizes: String = sizes.iter().map(assert).collect();
     let start = "#include \"arm.h\"\n#ifdef __cplusplus\n#define SAME static_assert\n#else\n\
                  #define SAME _Static_assert\n#endif\n";

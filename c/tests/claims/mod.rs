@@ -115,7 +115,8 @@ fn every_function_computes_what_the_textbook_does() {
 fn a_tool_is_the_library_s_payload_under_its_gravity() {
     let state = probe();
     let Load { mass, com, inertia } = LOAD;
-    let load = Payload::<f32, { scene::TOOL_BODY }>::from_inertia(BodyInertia { mass, com, inertia });
+    let load =
+        Payload::<f32, { scene::TOOL_BODY }>::from_inertia(BodyInertia { mass, com, inertia });
     let [x, y, z] = TILTED;
     let mut field = GravityVector::<f32>(load.0.first_moment);
     (field.0.x, field.0.y, field.0.z) = (x, y, z);

@@ -24,7 +24,7 @@ pub fn msrv(context: &Context) -> Result<String> {
             .or_else(|_| skip(format!("{MSRV} is not there")))?;
     }
     let check = "check --package dynamics-core --package motion-control --package joint-drivers \
-        --package machine-link --all-features --target-dir target/msrv"
+        --package dynamics-c --package machine-link --all-features --target-dir target/msrv"
         .split(' ');
     let mut cargo = toolchain::rustup(MSRV, "cargo");
     shell::capture(cargo.current_dir(&context.workspace.root).args(check))?;
@@ -51,8 +51,8 @@ pub fn guide(context: &Context) -> Result<()> {
     context.cargo(&[check(&format!("--package pico2-embassy --target {PICO_2}"))]).map(drop)
 }
 
-/// The projects that `robot-import new` writes, of a pendulum and of an arm, two libraries for C in
-/// one program, and firmware for each board.
+/// The projects that `robot-import new` writes: of an arm, two libraries for C in one program, and
+/// firmware for each board.
 pub fn projects(context: &Context) -> Result<String> {
     if setup::for_projects(context.options).is_err() {
         return skip("there is no arm-none-eabi-gcc, make, cmake or cc");
@@ -62,7 +62,7 @@ pub fn projects(context: &Context) -> Result<String> {
     let _ = lacks().then(|| setup::for_cores(context.options, &[PICO_2], &[]));
     let boards = if lacks() { "" } else { "project::the_boards" };
     context.cargo(&[&format!(
-        "test {} --test import -- --ignored --test-threads 1 project::a_pendulum project::an_arm \
+        "test {} --test import -- --ignored --test-threads 1 project::an_arm \
          project::two_robots_in_c {boards}",
         SHARED.words(context.full)
     )])?;

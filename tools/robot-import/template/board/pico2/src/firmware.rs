@@ -42,7 +42,7 @@ static PERIOD_ENDED: Signal<CriticalSectionRawMutex, ()> = Signal::new();
 /// The watchdog of the chip, which only a completed tick feeds.
 struct Starved(Watchdog);
 
-impl control::Watchdog for Starved {
+impl control::safety::Watchdog for Starved {
     fn feed(&mut self, _: CompletedTick) {
         self.0.feed(STARVED);
     }
@@ -132,7 +132,7 @@ fn tick(arm: &mut Arm<'_>) {
     let count = || arm.periods.count(moment());
     let (telemetry, completed) = arm.control.tick_at::<Law, _, ()>(&arm.motion, &(), count);
     if let Some(completed) = completed {
-        control::Watchdog::feed(&mut arm.watchdog, completed);
+        control::safety::Watchdog::feed(&mut arm.watchdog, completed);
     }
     let mode = telemetry.status.mode;
     if matches!(mode, Mode::Stopped) && arm.button.is_pressed() {

@@ -226,7 +226,7 @@ pub struct ThermalLimit<R, const V: usize> {
     energy: [R; V],
     limit: [R; V],
     /// The tick within the block, which is the joint that ends its own in it.
-    at: usize,
+    at: u32,
     /// Whether the joints are in their first blocks, which are shorter.
     first: bool,
 }
@@ -315,8 +315,8 @@ impl<R: Real, const V: usize> ThermalLimit<R, V> {
         for (energy, &tau) in self.energy.iter_mut().zip(torque) {
             *energy += tau * tau;
         }
-        let at = self.at;
-        self.at = if at + 1 >= V.max(BLOCK) { 0 } else { at + 1 };
+        let at = self.at as usize;
+        self.at = if at + 1 >= V.max(BLOCK) { 0 } else { self.at + 1 };
         if self.first {
             return self.end_first_block(at);
         }

@@ -28,8 +28,8 @@
 use crate::limits::{
     Circles, Command, ConfigError, ConfigParameter, Fault, Mode, Reaction, SafetyLimits, Status,
 };
-use crate::real;
 use crate::safety::stop_category::{Ending, StopRequest, Stopping};
+use crate::{entry, real};
 use dynamics_core::scalar::Real;
 
 mod relimit;
@@ -156,8 +156,9 @@ pub(crate) struct Supervisor<R, const V: usize> {
     /// Greatest torque, the least of the limits and of what the motors bear; its greatest change in a
     /// tick, and greatest speed.
     torque_limit: [R; V],
+    /// The limits of torque without the motors', and whether the motors' are given in each tick.
     limits_torque: [R; V],
-    bearable_torque: [R; V],
+    is_thermal: bool,
     rate_limit: [R; V],
     speed_limit: [R; V],
     /// Middle and half width of the range of positions.
@@ -218,7 +219,7 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         Self {
             torque_limit: limits.torque.map(finite),
             limits_torque: limits.torque.map(finite),
-            bearable_torque: [R::from_f64(FAR); V],
+            is_thermal: false,
             rate_limit: limits.rate.map(allowed),
             speed_limit: limits.speed,
             middle,
@@ -668,19 +669,19 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         (self.middle, self.half) = (before.middle, before.half);
     }
 
-    /// Replaces the torques that the motors bear.
+    /// Lowers the limits of torque to those that the motors bear in the next tick.
     pub(crate) fn limit_torques(&mut self, most: &[R; V]) {
-        self.bearable_torque = *most;
-        self.join_torque_limits();
+        self.is_thermal = true;
+        self.torque_limit = Self::least(&self.limits_torque, most);
     }
 
-    /// Makes each limit of torque the least one. A NaN allows nothing.
-    pub(super) fn join_torque_limits(&mut self) {
-        let both = self.limits_torque.iter().zip(&self.bearable_torque);
-        for (limit, (&a, &b)) in self.torque_limit.iter_mut().zip(both) {
+    /// The lesser limit of each joint; a NaN of the motors allows nothing.
+    fn least(a: &[R; V], b: &[R; V]) -> [R; V] {
+        core::array::from_fn(|i| {
+            let (a, b) = (entry(a, i), entry(b, i));
             let least = R::either(a < b, a, b);
-            *limit = R::either(least > R::ZERO, least, R::ZERO);
-        }
+            R::either(least > R::ZERO, least, R::ZERO)
+        })
     }
 
     /// The greatest torque of each joint.

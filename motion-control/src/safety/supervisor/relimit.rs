@@ -32,7 +32,11 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         }
         (self.middle, self.half) = (middle, half);
         (self.limits_torque, self.rate_limit) = (limits.torque, limits.rate);
-        self.join_torque_limits();
+        // Those of the motors, which are given in each tick, let a limit rise.
+        self.torque_limit = match self.is_thermal {
+            true => Self::least(&limits.torque, &self.torque_limit),
+            false => limits.torque,
+        };
         let mut there = true;
         let joints = self.speed_limit.iter_mut().zip(&mut self.plausible_step);
         for ((bound, plausible), (&goal, &qd)) in joints.zip(limits.speed.iter().zip(qd)) {

@@ -72,7 +72,7 @@ mod watch {
             fail("the serial port is taken, or cannot have this rate");
         };
         let axes = T::LIMITS.into_iter().map(|limits| Axis { limits, prismatic: false });
-        let constants = Message::Machine(machine_of(T::NAME, T::TICK, 0, axes));
+        let constants: Message<N> = Message::Machine(machine_of(T::NAME, T::TICK, 0, axes));
         // Zero has no end.
         let last = argument(b"ticks").unwrap_or(0);
         let mut sample = Sample::<N>::default();

@@ -109,6 +109,7 @@ fn the_wrenches_in_joints_are_pinocchios() {
 #[test]
 fn the_wrenches_in_the_joints_of_other_robots_are_pinocchios() {
     use dynamics_core::robots::*;
+    use host_tests::trees::{TreeA, TreeB};
     check::<Panda, 7, 7, 7>();
     check::<Iiwa14, 7, 7, 7>();
     check::<Gen3, 7, 7, 7>();

@@ -3,7 +3,8 @@
 use super::{Memory, numbers};
 use crate::library::{self as c, *};
 use crate::scene::{self, N};
-use dynamics_c::{WayPoint, field, status};
+use dynamics_c::status::*;
+use dynamics_c::{WayPoint, field};
 
 const FULL: i32 = 0;
 const HOLD: i32 = 1;
@@ -12,7 +13,7 @@ const STOPPED: i32 = 2;
 pub fn config() -> Config {
     let mut config: Config = numbers();
     let status = c::config_of_description(1e-3, 25.0, Some(&mut config));
-    assert_eq!(status, status::OK);
+    assert_eq!(status, OK);
     for (torque, rate) in config.torque.iter_mut().zip(&mut config.rate) {
         if torque.is_infinite() {
             (*torque, *rate) = (1e3, 5e2);
@@ -49,7 +50,7 @@ pub fn blank() -> Command {
 pub fn report(handle: Option<Handle>) -> Report {
     let state = State { q: [7.0; N], qd: [7.0; N], qdd: [7.0; N] };
     let mut report = Report { q: [7.0; N], qd: [7.0; N], reference: state, left: 7 };
-    assert_eq!(c::controller_report(handle, Some(&mut report)), status::OK);
+    assert_eq!(c::controller_report(handle, Some(&mut report)), OK);
     report
 }
 
@@ -57,14 +58,14 @@ fn init(memory: &mut Memory, config: &Config) {
     let mut at = Where { field: 7, joint: 7, point: 7 };
     let status =
         c::controller_init(memory.handle(), Exports::CONTROLLER_BYTES, Some(config), Some(&mut at));
-    assert_eq!((status, at), (status::OK, Where::NOWHERE));
+    assert_eq!((status, at), (OK, Where::NOWHERE));
 }
 
 /// Observes and commands.
 pub fn tick(memory: &mut Memory, q: &[f32; N]) -> Command {
     let (handle, mut command) = (memory.handle(), blank());
-    assert_eq!(c::controller_observe(handle, Some(q), None), status::OK);
-    assert_eq!(c::controller_command(handle, Some(&mut command)), status::OK);
+    assert_eq!(c::controller_observe(handle, Some(q), None), OK);
+    assert_eq!(c::controller_command(handle, Some(&mut command)), OK);
     command
 }
 
@@ -74,10 +75,10 @@ pub fn moving(memory: &mut Memory, config: &Config, ticks: u32) {
     let [home, _] = ends(config);
     let handle = memory.handle();
     let motion = there_and_back(config, ticks);
-    assert_eq!(c::controller_move(handle, Some(&motion), None), status::OK);
+    assert_eq!(c::controller_move(handle, Some(&motion), None), OK);
     let command = tick(memory, &home);
     assert_eq!((command.mode, command.brake, command.enable), (STOPPED, 1, 0));
-    assert_eq!(c::controller_reset(handle, None), status::OK);
+    assert_eq!(c::controller_reset(handle, None), OK);
 }
 
 #[test]
@@ -93,10 +94,10 @@ fn a_simulated_arm_with_a_tool_follows_its_way_points() {
         Some(&load),
         Some(&[3.0, -4.0, -8.4]),
     );
-    assert_eq!(status, status::OK);
+    assert_eq!(status, OK);
     moving(&mut memory, &config, 1000);
     let handle = memory.handle();
-    assert_eq!(c::controller_tool(handle, Some(&tool)), status::OK);
+    assert_eq!(c::controller_tool(handle, Some(&tool)), OK);
     let mut arm = State::at(ends(&config)[0]);
     let (mut worst, mut furthest) = (0.0_f32, 0.0_f32);
     for k in 0..2600 {
@@ -116,7 +117,7 @@ fn a_simulated_arm_with_a_tool_follows_its_way_points() {
             let torque = Some(&command.torque);
             let status =
                 c::forward_dynamics_with_tool(Some(&arm), torque, Some(&tool), Some(&mut qdd));
-            assert_eq!(status, status::OK);
+            assert_eq!(status, OK);
             for ((q, qd), qdd) in arm.q.iter_mut().zip(&mut arm.qd).zip(qdd) {
                 *qd += h * qdd;
                 *q += h * *qd;
@@ -128,15 +129,15 @@ fn a_simulated_arm_with_a_tool_follows_its_way_points() {
     // From where it stands it goes on; from elsewhere it does not.
     let mut next = there_and_back(&config, 500);
     let accepted = c::controller_move(handle, Some(&next), None);
-    assert_eq!(accepted, status::OK);
-    assert_eq!(c::controller_move(handle, Some(&next), None), status::STATE);
+    assert_eq!(accepted, OK);
+    assert_eq!(c::controller_move(handle, Some(&next), None), STATE);
     for _ in 0..1300 {
         let q = report(handle).reference.q;
         tick(&mut memory, &q);
     }
     next.points[0].q[N - 1] += 0.01;
     let mut at = Where::NOWHERE;
-    assert_eq!(c::controller_move(handle, Some(&next), Some(&mut at)), status::TOO_FAR);
+    assert_eq!(c::controller_move(handle, Some(&next), Some(&mut at)), TOO_FAR);
     assert_eq!((at.field, at.joint, at.point), (field::POSITION, N as i32 - 1, 0));
 }
 
@@ -147,26 +148,26 @@ fn memory_without_a_controller_has_a_status() {
     for fill in [0_u8, 0xff, 0x5a] {
         memory = Memory::filled(fill);
         let handle = memory.handle();
-        assert_eq!(c::controller_observe(handle, Some(&[0.0; N]), None), status::MEMORY);
-        assert_eq!(c::controller_reset(handle, None), status::MEMORY);
-        assert_eq!(c::controller_stop(handle), status::MEMORY);
+        assert_eq!(c::controller_observe(handle, Some(&[0.0; N]), None), MEMORY);
+        assert_eq!(c::controller_reset(handle, None), MEMORY);
+        assert_eq!(c::controller_stop(handle), MEMORY);
         // What a wrong memory leaves for the drives is zero torque on the brake.
         command = blank();
-        assert_eq!(c::controller_command(handle, Some(&mut command)), status::MEMORY);
+        assert_eq!(c::controller_command(handle, Some(&mut command)), MEMORY);
         assert_eq!((command.torque, command.brake, command.enable), ([0.0; N], 1, 0));
     }
-    assert_eq!(c::controller_command(None, Some(&mut command)), status::NULL);
-    assert_eq!(c::controller_command(memory.handle(), None), status::NULL);
+    assert_eq!(c::controller_command(None, Some(&mut command)), NULL);
+    assert_eq!(c::controller_command(memory.handle(), None), NULL);
     let of = |handle, bytes| c::controller_init(handle, bytes, Some(&config), None);
-    assert_eq!(of(memory.handle(), 64), status::MEMORY);
-    assert_eq!(of(None, Exports::CONTROLLER_BYTES), status::NULL);
+    assert_eq!(of(memory.handle(), 64), MEMORY);
+    assert_eq!(of(None, Exports::CONTROLLER_BYTES), NULL);
     // A controller that moved in memory is still one; one of other bytes is not.
     init(&mut memory, &config);
     let mut copy = memory;
     assert_eq!(tick(&mut copy, &[0.0; N]).mode, STOPPED);
     // The word is odd.
     copy.spoil(0);
-    assert_eq!(c::controller_stop(copy.handle()), status::MEMORY);
+    assert_eq!(c::controller_stop(copy.handle()), MEMORY);
 }
 
 #[test]
@@ -196,16 +197,16 @@ fn a_wrong_number_of_the_configuration_is_named() {
                 Some(&wrong),
                 Some(&mut at),
             );
-            assert_eq!((status, at.field, at.joint), (status::CONFIG, field, joint));
+            assert_eq!((status, at.field, at.joint), (CONFIG, field, joint));
         }
     }
     let (mut empty, mut at) = (config(), Where::NOWHERE);
     (empty.lower[0], empty.upper[0]) = (1.0, 0.5);
     let status =
         c::controller_init(memory.handle(), Exports::CONTROLLER_BYTES, Some(&empty), Some(&mut at));
-    assert_eq!((status, at.field, at.joint), (status::CONFIG, field::UPPER, 0));
+    assert_eq!((status, at.field, at.joint), (CONFIG, field::UPPER, 0));
     // None of them left a controller.
-    assert_eq!(c::controller_stop(memory.handle()), status::MEMORY);
+    assert_eq!(c::controller_stop(memory.handle()), MEMORY);
 }
 
 #[test]
@@ -222,31 +223,31 @@ fn a_wrong_way_point_is_named() {
     let at = |field, joint, point| Where { field, joint, point };
     for count in [0, scene::MOST_POINTS as u32 + 1, u32::MAX] {
         let found = refused(&Motion { count, ..good });
-        assert_eq!(found, (status::POINT, at(field::COUNT, -1, -1)));
+        assert_eq!(found, (POINT, at(field::COUNT, -1, -1)));
     }
     let mut wrong = good;
     wrong.points[1].q[0] = f32::NAN;
-    assert_eq!(refused(&wrong), (status::NOT_FINITE, at(field::POSITION, 0, 1)));
+    assert_eq!(refused(&wrong), (NOT_FINITE, at(field::POSITION, 0, 1)));
     wrong = good;
     wrong.points[2].ticks = 0;
-    assert_eq!(refused(&wrong), (status::POINT, at(field::TICKS, -1, 2)));
+    assert_eq!(refused(&wrong), (POINT, at(field::TICKS, -1, 2)));
     wrong = good;
     wrong.points[2].qd[0] = 0.1;
-    assert_eq!(refused(&wrong), (status::POINT, at(field::VELOCITY, 0, 2)));
+    assert_eq!(refused(&wrong), (POINT, at(field::VELOCITY, 0, 2)));
     wrong = good;
     wrong.points[1].ticks = 1;
     let (status, place) = refused(&wrong);
-    assert_eq!((status, place.field, place.point), (status::POINT, field::SPEED, 1));
-    assert_eq!(refused(&good).0, status::OK);
+    assert_eq!((status, place.field, place.point), (POINT, field::SPEED, 1));
+    assert_eq!(refused(&good).0, OK);
     // A motion is needed for a reset, and a measurement.
-    assert_eq!(c::controller_reset(memory.handle(), None), status::NO_REFERENCE);
-    assert_eq!(c::controller_move(memory.handle(), Some(&good), None), status::OK);
-    assert_eq!(c::controller_reset(memory.handle(), None), status::NO_MEASUREMENT);
+    assert_eq!(c::controller_reset(memory.handle(), None), NO_REFERENCE);
+    assert_eq!(c::controller_move(memory.handle(), Some(&good), None), OK);
+    assert_eq!(c::controller_reset(memory.handle(), None), NO_MEASUREMENT);
     let mut far = ends(&config)[0];
     far[0] += 0.2;
     tick(&mut memory, &far);
     let (mut place, handle) = (Where::NOWHERE, memory.handle());
-    assert_eq!(c::controller_reset(handle, Some(&mut place)), status::TOO_FAR);
+    assert_eq!(c::controller_reset(handle, Some(&mut place)), TOO_FAR);
     assert_eq!(place, at(field::POSITION, 0, -1));
 }
 
@@ -266,8 +267,8 @@ fn faults_lead_from_full_to_hold_to_zero_torque() {
     for _ in 0..120 {
         let mut command = blank();
         q[N - 1] = f32::NAN;
-        assert_eq!(c::controller_observe(handle, Some(&q), Some(&valid)), status::OK);
-        assert_eq!(c::controller_command(handle, Some(&mut command)), status::OK);
+        assert_eq!(c::controller_observe(handle, Some(&q), Some(&valid)), OK);
+        assert_eq!(c::controller_command(handle, Some(&mut command)), OK);
         assert_eq!((command.fault, command.joint), (1, N as i32 - 1));
         assert!(command.torque.iter().all(|torque| torque.is_finite()));
         modes.push(command.mode);
@@ -279,15 +280,15 @@ fn faults_lead_from_full_to_hold_to_zero_torque() {
     assert_eq!(modes, [FULL, HOLD, STOPPED]);
     // It starts again after a measurement and a reset.
     let q = report(handle).q;
-    assert_eq!(c::controller_reset(handle, None), status::NO_MEASUREMENT);
+    assert_eq!(c::controller_reset(handle, None), NO_MEASUREMENT);
     tick(&mut memory, &q);
-    assert_eq!(c::controller_reset(handle, None), status::OK);
+    assert_eq!(c::controller_reset(handle, None), OK);
     assert_eq!(tick(&mut memory, &q).mode, FULL);
     // A tick without a measurement, a measurement without a command, and one that is not finite.
     let mut command = blank();
-    assert_eq!(c::controller_command(handle, Some(&mut command)), status::OK);
+    assert_eq!(c::controller_command(handle, Some(&mut command)), OK);
     assert_eq!((command.mode, command.fault), (FULL, 2));
-    assert_eq!(c::controller_observe(handle, Some(&q), None), status::OK);
+    assert_eq!(c::controller_observe(handle, Some(&q), None), OK);
     assert_eq!(tick(&mut memory, &q).fault, 3);
     let mut bad = q;
     bad[0] = f32::INFINITY;
@@ -305,14 +306,14 @@ fn faults_lead_from_full_to_hold_to_zero_torque() {
             3 => c::controller_fault(handle, 23, 0),
             _ => c::controller_off(handle),
         };
-        assert_eq!(status, status::OK);
+        assert_eq!(status, OK);
         let command = tick(&mut again, &ends(&config)[0]);
         let mode = if stop % 2 == 1 { HOLD } else { STOPPED };
         assert_eq!((command.mode, command.fault, command.joint), (mode, fault, joint));
     }
-    assert_eq!(c::controller_fault(handle, 9, N as i32), status::NO_FAULT);
-    assert_eq!(c::controller_fault(handle, 99, 0), status::NO_FAULT);
-    assert_eq!(c::controller_missed(handle, 1000), status::OK);
+    assert_eq!(c::controller_fault(handle, 9, N as i32), NO_FAULT);
+    assert_eq!(c::controller_fault(handle, 99, 0), NO_FAULT);
+    assert_eq!(c::controller_missed(handle, 1000), OK);
     assert_eq!(tick(&mut memory, &q).mode, STOPPED);
 }
 
@@ -324,29 +325,29 @@ fn a_streamed_reference_is_checked_and_followed() {
     let handle = memory.handle();
     let mut reference = State::at(ends(&config)[0]);
     let follow = |reference: &State| c::controller_follow(handle, Some(reference), None);
-    assert_eq!(follow(&reference), status::OK);
+    assert_eq!(follow(&reference), OK);
     tick(&mut memory, &reference.q);
-    assert_eq!(c::controller_reset(handle, None), status::OK);
+    assert_eq!(c::controller_reset(handle, None), OK);
     for _ in 0..400 {
-        assert_eq!(follow(&reference), status::OK);
+        assert_eq!(follow(&reference), OK);
         assert_eq!(tick(&mut memory, &reference.q).fault, 0);
     }
     // A step, a speed, a number that is not finite: none of them is taken.
     let mut wrong = reference;
     wrong.q[0] += 0.05;
-    assert_eq!(follow(&wrong), status::TOO_FAR);
+    assert_eq!(follow(&wrong), TOO_FAR);
     wrong = reference;
     wrong.qd[0] = 2.5;
-    assert_eq!(follow(&wrong), status::POINT);
+    assert_eq!(follow(&wrong), POINT);
     wrong.qd[0] = f32::NAN;
-    assert_eq!(follow(&wrong), status::NOT_FINITE);
+    assert_eq!(follow(&wrong), NOT_FINITE);
     wrong = reference;
     wrong.q[0] = 2e4;
-    let beyond = if Exports::RANGE[0] > 1e4 { status::POINT } else { status::ANGLE };
-    assert!([beyond, status::TOO_FAR].contains(&follow(&wrong)));
+    let beyond = if Exports::RANGE[0] > 1e4 { POINT } else { ANGLE };
+    assert!([beyond, TOO_FAR].contains(&follow(&wrong)));
     // A tick without a reference is bridged, and then the arm is held.
     reference.qd[0] = 0.1;
-    assert_eq!(follow(&reference), status::OK);
+    assert_eq!(follow(&reference), OK);
     let modes: Vec<(i32, i32)> = (0..9)
         .map(|_| {
             let command = tick(&mut memory, &reference.q);
@@ -369,13 +370,13 @@ fn an_arm_away_from_its_streamed_reference_returns_to_it() {
     // Within the distance of a restart, beyond the step of a tick.
     q[0] += 0.5 * config.restart_distance.min(0.1);
     let follow = |reference: &State| c::controller_follow(handle, Some(reference), None);
-    assert_eq!(follow(&reference), status::OK);
+    assert_eq!(follow(&reference), OK);
     tick(&mut memory, &q);
-    assert_eq!(c::controller_reset(handle, None), status::OK);
+    assert_eq!(c::controller_reset(handle, None), OK);
     for k in 0..3000 {
         // The reference moves meanwhile; the arm is where the controller wants it.
         reference.q[0] += if k % 2 == 0 { 1e-4 } else { -1e-4 };
-        assert_eq!(follow(&reference), status::OK, "tick {k}");
+        assert_eq!(follow(&reference), OK, "tick {k}");
         let command = tick(&mut memory, &q);
         assert_eq!((command.mode, command.fault), (FULL, 0), "tick {k}");
         q = report(handle).reference.q;
@@ -396,6 +397,6 @@ fn a_configuration_in_other_units_gets_advice() {
     let (count, text) = said(&Config { tick: 1.0, ..good });
     assert!(count > before && text.contains("tick"), "{count} {text}");
     assert_eq!(text.lines().count() as i32, count, "{text}");
-    assert_eq!(c::config_advice(None, Some(&mut advice)), status::NULL);
-    assert_eq!(c::config_advice(Some(&good), None), status::NULL);
+    assert_eq!(c::config_advice(None, Some(&mut advice)), NULL);
+    assert_eq!(c::config_advice(Some(&good), None), NULL);
 }

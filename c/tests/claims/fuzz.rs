@@ -2,12 +2,13 @@
 //!
 //! `SAMPLES=1000000 cargo test -p dynamics-c` makes a million calls of each function; the numbers are the same in each run.
 
-use super::Memory;
 use crate::library::{self as c, *};
 use crate::scene::{self, N};
-use dynamics_c::{WayPoint, status};
+use dynamics_c::WayPoint;
+use dynamics_c::status::*;
 use dynamics_core::glam::Vec3;
 
+use super::Memory;
 use super::controller::{blank, config, ends, there_and_back};
 use super::goal::{goal, limited};
 use super::thermal::{MOTORS, limits};
@@ -88,13 +89,13 @@ impl Tally {
     ) {
         let [calls, good] = self.0.entry(name).or_default();
         *calls += 1;
-        if status == status::OK {
+        if status == OK {
             *good += 1;
             let is_finite = output.iter().all(|x| x.is_finite());
             assert!(is_finite, "{name}: OK and {output:?} of {}", input());
         } else {
-            let is_known = (status::LATE..status::OK).contains(&status);
-            assert!(is_known && status != status::NULL, "{name}: {status}");
+            let is_known = (LATE..OK).contains(&status);
+            assert!(is_known && status != NULL, "{name}: {status}");
             let is_unchanged = output.iter().all(|&x| x == 42.0);
             assert!(is_unchanged, "{name}: {status} and {output:?} of {}", input());
         }
@@ -126,13 +127,8 @@ fn no_result_of_the_dynamics_is_other_than_finite() {
         let load = if random.bits() & 1 == 0 { load } else { point };
         let status = c::tool_set(Some(&mut drawn), body, Some(&load), Some(&gravity));
         // What a refused tool holds is that of no tool.
-        tally.check(
-            "tool_set",
-            status,
-            &[if status == status::OK { load.mass } else { 42.0 }],
-            &input,
-        );
-        let ordinary = random.bits() & 3 == 0 || status != status::OK;
+        tally.check("tool_set", status, &[if status == OK { load.mass } else { 42.0 }], &input);
+        let ordinary = random.bits() & 3 == 0 || status != OK;
         let tool = if ordinary { &usual[random.below(N)] } else { &drawn };
 
         let mut out = [42.0; N];
@@ -231,7 +227,7 @@ fn no_load_of_a_sensor_and_no_thermal_limit_is_other_than_finite() {
         let status =
             c::thermal_init(Some(&mut drawn), Some(&motors), None, Some(&saved), off, None);
         tally.check("thermal_init", status, &[42.0], &nothing);
-        let thermal = if status == status::OK { &mut drawn } else { &mut usual };
+        let thermal = if status == OK { &mut drawn } else { &mut usual };
         let (mut limit, mut seconds, joint) = ([42.0; N], 42.0, random.below(N + 1) as i32);
         let status = c::thermal_update(Some(thermal), Some(&random.finites()), Some(&mut limit));
         tally.check("thermal_update", status, &limit, &nothing);
@@ -243,7 +239,7 @@ fn no_load_of_a_sensor_and_no_thermal_limit_is_other_than_finite() {
         let status = c::thermal_report(Some(thermal), Some(&mut heat));
         let all = [heat.torque, heat.celsius, heat.saved.winding, heat.saved.housing];
         assert!(
-            status == status::OK && all.as_flattened().iter().all(|x| x.is_finite()),
+            status == OK && all.as_flattened().iter().all(|x| x.is_finite()),
             "{motors:?} {heat:?}"
         );
     }
@@ -316,7 +312,7 @@ fn no_goal_and_no_inverse_kinematics_is_other_than_finite() {
         let solver = PoseSolver { length, iterations: 20, ..solver(&config) };
         let status = c::solve_pose(Some(&solver), Some(&pose), Some(&mut q));
         let all = [next.q, next.qd, next.qdd, q];
-        tally.check("solve_pose", status::OK, all.as_flattened(), &|| {
+        tally.check("solve_pose", OK, all.as_flattened(), &|| {
             format!("{status} {start:?} {pose:?}")
         });
     }
@@ -400,7 +396,7 @@ fn no_command_of_the_controller_is_other_than_finite() {
         }
         let mut command = blank();
         let status = c::controller_command(handle, Some(&mut command));
-        assert_eq!(status, status::OK);
+        assert_eq!(status, OK);
         let limits = command.torque.iter().all(|torque| torque.is_finite());
         assert!(limits, "{command:?}");
         modes[command.mode as usize] += 1;
@@ -411,7 +407,7 @@ fn no_command_of_the_controller_is_other_than_finite() {
             Report { q: [42.0; N], qd: [42.0; N], reference: State::at([42.0; N]), left: 42 };
         let status = c::controller_report(handle, Some(&mut known));
         let all = [known.q, known.qd, known.reference.q, known.reference.qd];
-        if status == status::OK {
+        if status == OK {
             tally.check("controller_report", status, all.as_flattened(), &|| String::new());
             state.q = known.reference.q;
         }
@@ -453,7 +449,7 @@ fn wild_configurations_motions_and_references_leave_finite_commands() {
         let status =
             c::controller_init(handle, Exports::CONTROLLER_BYTES, Some(&wild), Some(&mut at));
         tally.check("controller_init", status, &[42.0], &nothing);
-        if status != status::OK {
+        if status != OK {
             continue;
         }
         let mut drawn = motion;
@@ -476,7 +472,7 @@ fn wild_configurations_motions_and_references_leave_finite_commands() {
             c::controller_observe(handle, Some(&measured), None);
             let mut command = blank();
             let status = c::controller_command(handle, Some(&mut command));
-            assert_eq!(status, status::OK);
+            assert_eq!(status, OK);
             assert!(command.torque.iter().all(|torque| torque.is_finite()), "{wild:?} {command:?}");
             c::controller_reset(handle, None);
         }

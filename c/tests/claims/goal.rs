@@ -1,11 +1,11 @@
 //! Goals that move as C calls them.
 
-use super::Memory;
 use super::controller::{config, ends, moving, report, there_and_back, tick};
-use super::numbers;
+use super::{Memory, numbers};
 use crate::library::{self as c, *};
 use crate::scene::N;
-use dynamics_c::{field, status};
+use dynamics_c::field;
+use dynamics_c::status::*;
 
 pub fn limited() -> Config {
     Config { speed: [2.0; N], acceleration: [20.0; N], ..config() }
@@ -13,7 +13,7 @@ pub fn limited() -> Config {
 
 pub fn goal(config: &Config, jerk: f32) -> Goal {
     let mut goal = numbers();
-    assert_eq!(c::goal_init(Some(&mut goal), Some(config), Some(&[jerk; N]), None), status::OK);
+    assert_eq!(c::goal_init(Some(&mut goal), Some(config), Some(&[jerk; N]), None), OK);
     goal
 }
 
@@ -32,7 +32,7 @@ fn a_moving_arm_takes_a_goal_at_any_tick_and_arrives() {
     assert!(last.qd.iter().any(|qd| qd.abs() > 0.1), "{last:?}");
     assert_eq!(
         c::controller_move(handle, Some(&there_and_back(&config, 500)), Some(&mut at)),
-        status::STATE
+        STATE
     );
     // The goal moves while the arm moves to it.
     for (target, most) in [(away, 200), (home, 70), (away, u32::MAX)] {
@@ -43,10 +43,10 @@ fn a_moving_arm_takes_a_goal_at_any_tick_and_arrives() {
             Some(&mut ticks),
             Some(&mut at),
         );
-        assert_eq!(found, status::OK);
+        assert_eq!(found, OK);
         for k in 0..ticks.min(most) {
             let mut next = State::at([7.0; N]);
-            assert_eq!(c::goal_state(Some(&motion), k, Some(&mut next)), status::OK);
+            assert_eq!(c::goal_state(Some(&motion), k, Some(&mut next)), OK);
             for joint in 0..N {
                 assert!(
                     k > 0 || next.q[joint] == last.q[joint] && next.qd[joint] == last.qd[joint],
@@ -55,12 +55,8 @@ fn a_moving_arm_takes_a_goal_at_any_tick_and_arrives() {
                 assert!(next.qd[joint].abs() <= 2.0 && next.qdd[joint].abs() <= 20.0, "{next:?}");
                 assert!((next.qdd[joint] - last.qdd[joint]).abs() <= 0.201, "{next:?} {last:?}");
             }
-            assert_eq!(c::goal_state(Some(&motion), k + 1, Some(&mut next)), status::OK);
-            assert_eq!(
-                c::controller_follow(handle, Some(&next), Some(&mut at)),
-                status::OK,
-                "{at:?}"
-            );
+            assert_eq!(c::goal_state(Some(&motion), k + 1, Some(&mut next)), OK);
+            assert_eq!(c::controller_follow(handle, Some(&next), Some(&mut at)), OK, "{at:?}");
             assert_eq!(tick(&mut memory, &q).fault, 0);
             (last, q) = (report(handle).reference, report(handle).reference.q);
         }
@@ -80,7 +76,7 @@ fn a_moving_arm_takes_a_goal_at_any_tick_and_arrives() {
             torque.as_ref(),
             Some(&mut at),
         );
-        assert_eq!(begin, status::OK);
+        assert_eq!(begin, OK);
         let (mut moved, mut arrival) = (motion, 0);
         for tick in (ticks..=start).flat_map(|tick| core::iter::repeat_n(tick, steps)) {
             let found = c::controller_goal_advance(
@@ -91,10 +87,10 @@ fn a_moving_arm_takes_a_goal_at_any_tick_and_arrives() {
                 Some(&mut arrival),
                 Some(&mut at),
             );
-            assert_eq!((found, arrival > 0), (status::OK, tick == start), "{at:?}");
+            assert_eq!((found, arrival > 0), (OK, tick == start), "{at:?}");
         }
         for (tick, q) in [(start, away), (arrival, home)] {
-            assert_eq!(c::goal_state(Some(&moved), tick, Some(&mut next)), status::OK);
+            assert_eq!(c::goal_state(Some(&moved), tick, Some(&mut next)), OK);
             assert_eq!((next.q, next.qd), (q, [0.0; N]));
         }
         let late = c::controller_goal_advance(
@@ -105,7 +101,7 @@ fn a_moving_arm_takes_a_goal_at_any_tick_and_arrives() {
             None,
             Some(&mut at),
         );
-        assert_eq!(late, status::LATE);
+        assert_eq!(late, LATE);
     }
     let weak = c::controller_goal_begin(
         handle,
@@ -116,7 +112,7 @@ fn a_moving_arm_takes_a_goal_at_any_tick_and_arrives() {
         Some(&[0.0; N]),
         Some(&mut at),
     );
-    assert_eq!((weak, at.field, at.joint), (status::TORQUE_LIMIT, field::TORQUE, 0));
+    assert_eq!((weak, at.field, at.joint), (TORQUE_LIMIT, field::TORQUE, 0));
 }
 
 #[test]
@@ -135,15 +131,15 @@ fn wrong_goals_are_named_and_a_stopped_arm_starts_where_it_is() {
     };
     let mut wrong = home;
     wrong[N - 1] = f32::NAN;
-    assert_eq!(refused(&mut slow, wrong), (status::NOT_FINITE, field::POSITION));
-    assert_eq!(refused(&mut slow, home), (status::TOO_FAST, field::VELOCITY));
-    assert_eq!(refused(&mut numbers(), home).0, status::MEMORY);
-    assert_eq!(c::controller_off(handle), status::OK);
+    assert_eq!(refused(&mut slow, wrong), (NOT_FINITE, field::POSITION));
+    assert_eq!(refused(&mut slow, home), (TOO_FAST, field::VELOCITY));
+    assert_eq!(refused(&mut numbers(), home).0, MEMORY);
+    assert_eq!(c::controller_off(handle), OK);
     tick(&mut memory, &home);
     tick(&mut memory, &home);
-    assert_eq!(refused(&mut slow, home), (status::OK, field::NONE));
+    assert_eq!(refused(&mut slow, home), (OK, field::NONE));
     let mut state = State::at([7.0; N]);
-    assert_eq!(c::goal_state(Some(&slow), 0, Some(&mut state)), status::OK);
+    assert_eq!(c::goal_state(Some(&slow), 0, Some(&mut state)), OK);
     assert_eq!((state.q, state.qd), (report(handle).q, [0.0; N]));
     for (config, jerk, field) in
         [(config, f32::NAN, field::JERK), (Config { tick: 0.0, ..config }, 1.0, field::TICK)]
@@ -151,7 +147,7 @@ fn wrong_goals_are_named_and_a_stopped_arm_starts_where_it_is() {
         let found = c::goal_init(Some(&mut slow), Some(&config), Some(&[jerk; N]), Some(&mut at));
         assert_eq!(
             (found, at.field, at.joint),
-            (status::CONFIG, field, if field == field::JERK { 0 } else { -1 })
+            (CONFIG, field, if field == field::JERK { 0 } else { -1 })
         );
     }
 }

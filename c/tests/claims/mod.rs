@@ -12,7 +12,7 @@ use core::ptr::NonNull;
 
 use crate::library::{self as c, *};
 use crate::scene::{self, N};
-use dynamics_c::status;
+use dynamics_c::status::*;
 use dynamics_core::Core;
 use dynamics_core::algorithms::frame::LocalWorldAligned;
 use dynamics_core::effects::{Gravity, GravityVector, Payload};
@@ -78,35 +78,35 @@ impl Memory {
 pub fn tool(body: usize) -> Tool {
     let mut tool = Tool::default();
     let status = c::tool_set(Some(&mut tool), body as i32, Some(&LOAD), Some(&TILTED));
-    assert_eq!(status, status::OK);
+    assert_eq!(status, OK);
     tool
 }
 
 #[test]
 fn every_function_computes_what_the_textbook_does() {
     let (state, mut tau) = (probe(), [0.0; N]);
-    assert_eq!(c::inverse_dynamics(Some(&state), Some(&mut tau)), status::OK);
+    assert_eq!(c::inverse_dynamics(Some(&state), Some(&mut tau)), OK);
     close(&tau, &Core::<scene::Arm>::rnea(&state, &scene::EFFECTS));
 
     let mut gravity = [0.0; N];
-    assert_eq!(c::gravity(Some(&state.q), Some(&mut gravity)), status::OK);
+    assert_eq!(c::gravity(Some(&state.q), Some(&mut gravity)), OK);
     close(&gravity, &Core::<scene::Arm>::rnea(&State::at(state.q), &Gravity::EARTH));
 
     let mut inertia = [[0.0; N]; N];
-    assert_eq!(c::inertia(Some(&state.q), Some(&mut inertia)), status::OK);
+    assert_eq!(c::inertia(Some(&state.q), Some(&mut inertia)), OK);
     let m = Core::<scene::Arm>::crba(&state.q, &scene::EFFECTS);
     let rows: Vec<f32> = (0..N * N).map(|at| m.get(at / N, at % N)).collect();
     close(inertia.as_flattened(), &rows);
 
     let [mut by_q, mut by_qd] = [[[0.0; N]; N]; 2];
     let status = c::inverse_dynamics_derivatives(Some(&state), Some(&mut by_q), Some(&mut by_qd));
-    assert_eq!(status, status::OK);
+    assert_eq!(status, OK);
     let by = Core::<scene::Arm>::rnea_derivatives(&state, &scene::EFFECTS);
     close(by_q.as_flattened(), by.dq.as_flattened());
     close(by_qd.as_flattened(), by.dqd.as_flattened());
 
     let mut qdd = [0.0; N];
-    assert_eq!(c::forward_dynamics(Some(&state), Some(&tau), Some(&mut qdd)), status::OK);
+    assert_eq!(c::forward_dynamics(Some(&state), Some(&tau), Some(&mut qdd)), OK);
     // M q̈ is compared, since q̈ of a light joint has the rounding of the others' torque.
     close_for(largest(&tau), &m.mul_vec(&qdd), &m.mul_vec(&state.qdd));
 }
@@ -127,15 +127,15 @@ fn a_tool_is_the_library_s_payload_under_its_gravity() {
     let (mut tau, mut gravity) = ([0.0; N], [0.0; N]);
     let (mut inertia, mut qdd) = ([[0.0; N]; N], [0.0; N]);
     let set = Some(&on_last);
-    assert_eq!(c::inverse_dynamics_with_tool(Some(&state), set, Some(&mut tau)), status::OK);
+    assert_eq!(c::inverse_dynamics_with_tool(Some(&state), set, Some(&mut tau)), OK);
     close(&tau, &Core::<scene::Arm>::rnea(&state, &scene));
-    assert_eq!(c::gravity_with_tool(Some(&state.q), set, Some(&mut gravity)), status::OK);
+    assert_eq!(c::gravity_with_tool(Some(&state.q), set, Some(&mut gravity)), OK);
     close(&gravity, &Core::<scene::Arm>::rnea(&State::at(state.q), &(field, load)));
-    assert_eq!(c::inertia_with_tool(Some(&state.q), set, Some(&mut inertia)), status::OK);
+    assert_eq!(c::inertia_with_tool(Some(&state.q), set, Some(&mut inertia)), OK);
     let rows: Vec<f32> = (0..N * N).map(|at| m.get(at / N, at % N)).collect();
     close(inertia.as_flattened(), &rows);
     let status = c::forward_dynamics_with_tool(Some(&state), Some(&tau), set, Some(&mut qdd));
-    assert_eq!(status, status::OK);
+    assert_eq!(status, OK);
     close_for(largest(&tau), &m.mul_vec(&qdd), &m.mul_vec(&state.qdd));
 }
 
@@ -147,16 +147,16 @@ fn a_tool_on_any_body_weighs_by_its_jacobian() {
         let (mut light, mut jacobian) = (Tool::default(), [[0.0; N]; 6]);
         let none = Load::default();
         let set = c::tool_set(Some(&mut light), body as i32, Some(&none), Some(&TILTED));
-        assert_eq!(set, status::OK);
+        assert_eq!(set, OK);
         // A point of 2 kg at the body's origin.
         let (mut heavy, point) = (Tool::default(), Load { mass: 2.0, ..none });
         let set = c::tool_set(Some(&mut heavy), body as i32, Some(&point), Some(&TILTED));
-        assert_eq!(set, status::OK);
+        assert_eq!(set, OK);
         for (tool, tau) in [(&heavy, &mut with), (&light, &mut without)] {
-            assert_eq!(c::gravity_with_tool(Some(&state.q), Some(tool), Some(tau)), status::OK);
+            assert_eq!(c::gravity_with_tool(Some(&state.q), Some(tool), Some(tau)), OK);
         }
         let found = c::body_jacobian(Some(&state.q), body as i32, Some(&mut jacobian));
-        assert_eq!(found, status::OK);
+        assert_eq!(found, OK);
         let size = largest(&with).max(largest(&without));
         for joint in 0..N {
             let weight: f32 = (0..3).map(|k| -2.0 * TILTED[k] * jacobian[3 + k][joint]).sum();
@@ -171,14 +171,14 @@ fn gravity_of_a_base_is_turned_with_it() {
     let mut gravity = [0.0; 3];
     let upside_down = [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, -1.0]];
     let status = c::gravity_of_base(Some(&upside_down), Some(&mut gravity));
-    assert_eq!((status, gravity), (status::OK, [0.0, 0.0, scene::GRAVITY as f32]));
+    assert_eq!((status, gravity), (OK, [0.0, 0.0, scene::GRAVITY as f32]));
     // The base's x axis points upwards.
     let wall = [[0.0, 0.0, -1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]];
-    assert_eq!(c::gravity_of_base(Some(&wall), Some(&mut gravity)), status::OK);
+    assert_eq!(c::gravity_of_base(Some(&wall), Some(&mut gravity)), OK);
     assert_eq!(gravity, [-(scene::GRAVITY as f32), 0.0, 0.0]);
     let mirrored = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, -1.0]];
     let refused = c::gravity_of_base(Some(&mirrored), Some(&mut gravity));
-    assert_eq!(refused, status::ROTATION);
+    assert_eq!(refused, ROTATION);
 }
 
 #[test]
@@ -186,11 +186,11 @@ fn pose_and_jacobian_are_those_of_the_textbook() {
     let (q, poses) = (probe().q, Core::<scene::Arm>::poses(&probe().q));
     for (body, expected) in poses.iter().enumerate() {
         let (mut pose, mut jacobian) = (Pose::default(), [[0.0; N]; 6]);
-        assert_eq!(c::body_pose(Some(&q), body as i32, Some(&mut pose)), status::OK);
+        assert_eq!(c::body_pose(Some(&q), body as i32, Some(&mut pose)), OK);
         assert_eq!(pose.position, expected.pos.to_array());
         assert_eq!(pose.rotation[0][1], expected.rot.y_axis.x);
         let found = c::body_jacobian(Some(&q), body as i32, Some(&mut jacobian));
-        assert_eq!(found, status::OK);
+        assert_eq!(found, OK);
         for (joint, column) in
             Core::<scene::Arm>::jacobian(&q, body, LocalWorldAligned).iter().enumerate()
         {
@@ -201,9 +201,9 @@ fn pose_and_jacobian_are_those_of_the_textbook() {
     }
     for body in [-1, N as i32, i32::MAX] {
         let (mut pose, mut jacobian) = (Pose::default(), [[7.0; N]; 6]);
-        assert_eq!(c::body_pose(Some(&q), body, Some(&mut pose)), status::NO_BODY);
+        assert_eq!(c::body_pose(Some(&q), body, Some(&mut pose)), NO_BODY);
         let refused = c::body_jacobian(Some(&q), body, Some(&mut jacobian));
-        assert_eq!((refused, jacobian), (status::NO_BODY, [[7.0; N]; 6]));
+        assert_eq!((refused, jacobian), (NO_BODY, [[7.0; N]; 6]));
     }
 }
 
@@ -211,14 +211,14 @@ fn pose_and_jacobian_are_those_of_the_textbook() {
 fn loads_that_no_body_has_are_refused() {
     let good = LOAD;
     for (body, load, expected) in [
-        (N, good, status::NO_BODY),
-        (0, Load { mass: -0.1, ..good }, status::MASS),
-        (0, Load { mass: 0.0, ..good }, status::MASSLESS),
-        (0, Load { mass: f32::NAN, ..good }, status::NOT_FINITE),
-        (0, Load { com: [f32::INFINITY, 0.0, 0.0], ..good }, status::NOT_FINITE),
-        (0, Load { com: [3e38, 0.0, 0.0], ..good }, status::OVERFLOW),
-        (0, Load { inertia: [0.01, 0.0, 0.0, 0.01, 0.0, 0.03], ..good }, status::MOMENTS),
-        (0, Load { inertia: [-0.01, 0.0, 0.0, 0.01, 0.0, 0.01], ..good }, status::MOMENTS),
+        (N, good, NO_BODY),
+        (0, Load { mass: -0.1, ..good }, MASS),
+        (0, Load { mass: 0.0, ..good }, MASSLESS),
+        (0, Load { mass: f32::NAN, ..good }, NOT_FINITE),
+        (0, Load { com: [f32::INFINITY, 0.0, 0.0], ..good }, NOT_FINITE),
+        (0, Load { com: [3e38, 0.0, 0.0], ..good }, OVERFLOW),
+        (0, Load { inertia: [0.01, 0.0, 0.0, 0.01, 0.0, 0.03], ..good }, MOMENTS),
+        (0, Load { inertia: [-0.01, 0.0, 0.0, 0.01, 0.0, 0.01], ..good }, MOMENTS),
     ] {
         let mut tool = Tool::default();
         let status = c::tool_set(Some(&mut tool), body as i32, Some(&load), Some(&TILTED));
@@ -226,27 +226,27 @@ fn loads_that_no_body_has_are_refused() {
         // It is still none.
         let mut tau = [7.0; N];
         let refused = c::gravity_with_tool(Some(&probe().q), Some(&tool), Some(&mut tau));
-        assert_eq!((refused, tau), (status::TOOL, [7.0; N]));
+        assert_eq!((refused, tau), (TOOL, [7.0; N]));
     }
 }
 
 #[test]
 fn wrong_inputs_have_a_status_and_leave_the_output() {
     let mut tau = [7.0; N];
-    assert_eq!(c::inverse_dynamics(None, Some(&mut tau)), status::NULL);
-    assert_eq!(c::inverse_dynamics(Some(&probe()), None), status::NULL);
+    assert_eq!(c::inverse_dynamics(None, Some(&mut tau)), NULL);
+    assert_eq!(c::inverse_dynamics(Some(&probe()), None), NULL);
     for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
         for joint in 0..N {
             for (k, mut state) in [probe(); 3].into_iter().enumerate() {
                 [&mut state.q, &mut state.qd, &mut state.qdd][k][joint] = bad;
                 let returned = c::inverse_dynamics(Some(&state), Some(&mut tau));
-                assert_eq!(returned, status::NOT_FINITE);
+                assert_eq!(returned, NOT_FINITE);
             }
         }
     }
     // Infinities of both signs have no sum.
     let both = State { q: [f32::INFINITY; N], qd: [f32::NEG_INFINITY; N], ..probe() };
-    assert_eq!(c::inverse_dynamics(Some(&both), Some(&mut tau)), status::NOT_FINITE);
+    assert_eq!(c::inverse_dynamics(Some(&both), Some(&mut tau)), NOT_FINITE);
     assert_eq!(tau, [7.0; N]);
 }
 
@@ -257,10 +257,10 @@ fn finite_numbers_whose_sum_is_infinite_are_accepted() {
     let state = State { qd: [0.0; N], qdd: [2e38; N], ..probe() };
     let status = c::inverse_dynamics(Some(&state), Some(&mut tau));
     let expected = Core::<scene::Arm>::rnea(&state, &scene::EFFECTS);
-    if status == status::OK {
+    if status == OK {
         close(&tau, &expected);
     } else {
-        assert_eq!((status, tau), (status::OVERFLOW, [7.0; N]));
+        assert_eq!((status, tau), (OVERFLOW, [7.0; N]));
         assert!(expected.iter().any(|tau| !tau.is_finite()), "{expected:?}");
     }
 }
@@ -285,14 +285,11 @@ fn angles_beyond_their_range_are_an_error() {
                 1e4
             }
         );
-        for (q, expected) in [
-            (range, status::OK),
-            (-range, status::OK),
-            (range.next_up(), status::ANGLE),
-            (-range.next_up(), status::ANGLE),
-        ] {
+        for (q, expected) in
+            [(range, OK), (-range, OK), (range.next_up(), ANGLE), (-range.next_up(), ANGLE)]
+        {
             // The next number after the greatest one is infinite.
-            let expected = if q.is_finite() { expected } else { status::NOT_FINITE };
+            let expected = if q.is_finite() { expected } else { NOT_FINITE };
             let (mut at, mut tau, mut m) = (probe(), [7.0; N], [[7.0; N]; N]);
             at.q[joint] = q;
             let mut found = vec![
@@ -302,7 +299,7 @@ fn angles_beyond_their_range_are_an_error() {
             ];
             if !is_angle && q.is_finite() {
                 // A prismatic joint may be anywhere, as long as the result is finite.
-                found.retain(|&status| status != status::OVERFLOW);
+                found.retain(|&status| status != OVERFLOW);
             }
             assert!(found.iter().all(|&status| status == expected), "{q} {found:?}");
         }
@@ -340,12 +337,12 @@ fn results_that_are_not_finite_have_a_status() {
             let forward = c::forward_dynamics(Some(&state), Some(&[1.0; N]), Some(&mut qdd));
             for (status, result) in [(inverse, &mut tau), (forward, &mut qdd)] {
                 let is_written = *result != [42.0; N];
-                assert_eq!(is_written, status == status::OK, "{state:?}");
+                assert_eq!(is_written, status == OK, "{state:?}");
                 assert!(result.iter().all(|x| x.is_finite()), "{state:?} {result:?}");
                 *result = [42.0; N];
             }
             if k == 0 && Exports::RANGE[0] < value.abs() {
-                assert_eq!((inverse, forward), (status::ANGLE, status::ANGLE));
+                assert_eq!((inverse, forward), (ANGLE, ANGLE));
             }
         }
     }

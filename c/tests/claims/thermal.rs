@@ -1,11 +1,11 @@
 //! The thermal limits as C calls them.
 
-use super::Memory;
 use super::controller::{config, ends, moving, tick};
-use super::numbers;
+use super::{Memory, numbers};
 use crate::library::{self as c, *};
 use crate::scene::N;
-use dynamics_c::{field, status};
+use dynamics_c::field;
+use dynamics_c::status::*;
 
 pub const MOTORS: Motors = Motors {
     tick: 1e-3,
@@ -24,13 +24,13 @@ pub fn limits(saved: Option<[f32; 2]>) -> Thermal {
         .map(|[winding, housing]| Temperatures { winding: [winding; N], housing: [housing; N] });
     let mut thermal = numbers();
     let found = c::thermal_init(Some(&mut thermal), Some(&MOTORS), None, saved.as_ref(), 0.0, None);
-    assert_eq!(found, status::OK);
+    assert_eq!(found, OK);
     thermal
 }
 
 fn heat(thermal: &Thermal) -> Heat {
     let mut heat = numbers();
-    assert_eq!(c::thermal_report(Some(thermal), Some(&mut heat)), status::OK);
+    assert_eq!(c::thermal_report(Some(thermal), Some(&mut heat)), OK);
     heat
 }
 
@@ -40,16 +40,13 @@ fn a_torque_is_held_as_long_as_was_said_and_temperatures_are_kept() {
     let [for_ever, never, said] = [1.9, 6.1, -4.0].map(|torque| {
         let mut seconds = 7.0;
         let found = c::thermal_holds_for(Some(&thermal), N as i32 - 1, torque, Some(&mut seconds));
-        assert_eq!(found, status::OK);
+        assert_eq!(found, OK);
         seconds
     });
     let (mut limit, mut held) = ([6.0; N], 0.0);
     while limit[N - 1] >= 4.0 {
         held += 1e-3;
-        assert_eq!(
-            c::thermal_update(Some(&mut thermal), Some(&[-4.0; N]), Some(&mut limit)),
-            status::OK
-        );
+        assert_eq!(c::thermal_update(Some(&mut thermal), Some(&[-4.0; N]), Some(&mut limit)), OK);
     }
     assert!(
         said <= held && held - said < 0.1 && (for_ever, never) == (f32::MAX, 0.0),
@@ -65,16 +62,10 @@ fn a_torque_is_held_as_long_as_was_said_and_temperatures_are_kept() {
     assert_eq!(heat(&limits(Some([f32::NAN, -1.0]))), worst);
     // A torque that is not a number heats more than any other, and a drive's measurement counts.
     let found = c::thermal_update(Some(&mut thermal), Some(&[f32::NAN; N]), Some(&mut limit));
-    assert!(
-        found == status::NOT_FINITE
-            && heat(&thermal).saved.winding[0] > before.saved.winding[0] + 0.1
-    );
+    assert!(found == NOT_FINITE && heat(&thermal).saved.winding[0] > before.saved.winding[0] + 0.1);
     let mut measured = |joint, celsius| c::thermal_measured(Some(&mut thermal), joint, celsius);
-    assert_eq!(
-        [measured(N as i32, 1.0), measured(0, f32::NAN)],
-        [status::NO_FAULT, status::NOT_FINITE]
-    );
-    (0..1000).for_each(|_| assert_eq!(measured(0, 150.0), status::OK));
+    assert_eq!([measured(N as i32, 1.0), measured(0, f32::NAN)], [NO_FAULT, NOT_FINITE]);
+    (0..1000).for_each(|_| assert_eq!(measured(0, 150.0), OK));
     assert_eq!((heat(&thermal).state, heat(&thermal).joint), (2, 0));
 }
 
@@ -86,7 +77,7 @@ fn a_wrong_motor_is_named_and_the_gate_of_a_controller_has_the_limits() {
     let (mut most, home, limit) = (0.0_f32, ends(&config)[0], heat(&thermal).torque[0]);
     moving(&mut memory, &config, 1000);
     for _ in 0..300 {
-        assert_eq!(c::controller_limit(memory.handle(), Some(&thermal)), status::OK);
+        assert_eq!(c::controller_limit(memory.handle(), Some(&thermal)), OK);
         most = tick(&mut memory, &home)
             .torque
             .iter()
@@ -102,7 +93,7 @@ fn a_wrong_motor_is_named_and_the_gate_of_a_controller_has_the_limits() {
             c::thermal_init(Some(&mut thermal), Some(&wrong), config, None, 0.0, Some(&mut at));
         (found, at.field, at.joint)
     };
-    let named = |field| (status::CONFIG, field, N as i32 - 1);
+    let named = |field| (CONFIG, field, N as i32 - 1);
     assert_eq!(refused(Some(&config), |_| ()), named(field::THERMAL_TORQUE));
     assert_eq!(
         refused(None, |motors| motors.continuous[N - 1] = f32::NAN),
@@ -112,6 +103,6 @@ fn a_wrong_motor_is_named_and_the_gate_of_a_controller_has_the_limits() {
         refused(None, |motors| motors.winding_time[N - 1] = -1.0),
         named(field::THERMAL_MOTOR)
     );
-    assert_eq!(refused(None, |motors| motors.tick = 0.0), (status::CONFIG, field::TICK, -1));
-    assert_eq!(c::controller_limit(memory.handle(), Some(&numbers())), status::MEMORY);
+    assert_eq!(refused(None, |motors| motors.tick = 0.0), (CONFIG, field::TICK, -1));
+    assert_eq!(c::controller_limit(memory.handle(), Some(&numbers())), MEMORY);
 }

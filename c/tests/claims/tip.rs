@@ -5,7 +5,8 @@ use super::goal::limited;
 use super::{close_for, numbers};
 use crate::library::{self as c, *};
 use crate::scene::{self, N};
-use dynamics_c::{field, status};
+use dynamics_c::field;
+use dynamics_c::status::*;
 
 pub fn solver(config: &Config) -> PoseSolver {
     PoseSolver {
@@ -19,7 +20,7 @@ pub fn solver(config: &Config) -> PoseSolver {
 
 fn pose(q: &[f32; N]) -> Pose {
     let mut pose = Pose::default();
-    assert_eq!(c::body_pose(Some(q), scene::TOOL_BODY as i32, Some(&mut pose)), status::OK);
+    assert_eq!(c::body_pose(Some(q), scene::TOOL_BODY as i32, Some(&mut pose)), OK);
     pose
 }
 
@@ -36,21 +37,18 @@ fn a_tip_moves_to_a_pose_within_limits_and_brakes_without_one() {
     let (start, last) = (State::at(home), N as i32 - 1);
     let mut wrong = (config, start);
     (wrong.0.acceleration[N - 1], wrong.1.qd[N - 1]) = (f32::INFINITY, f32::NAN);
-    assert_eq!(init(&mut tip, &wrong.0, &start), (status::CONFIG, field::RANGE, last));
-    assert_eq!(init(&mut tip, &config, &wrong.1), (status::NOT_FINITE, field::VELOCITY, last));
-    assert_eq!(
-        init(&mut tip, &Config { tick: 0.0, ..config }, &start),
-        (status::CONFIG, field::TIP, -1)
-    );
+    assert_eq!(init(&mut tip, &wrong.0, &start), (CONFIG, field::RANGE, last));
+    assert_eq!(init(&mut tip, &config, &wrong.1), (NOT_FINITE, field::VELOCITY, last));
+    assert_eq!(init(&mut tip, &Config { tick: 0.0, ..config }, &start), (CONFIG, field::TIP, -1));
     let mut goal = pose(&away);
     let go = |tip: &mut Tip, goal: &Pose, now: &mut State| {
         c::tip_goal(Some(tip), Some(goal), 4.0, 1.0, 0.25, Some(now), None)
     };
-    assert_eq!(go(&mut tip, &goal, &mut now), status::MEMORY);
-    assert_eq!(init(&mut tip, &config, &start), (status::OK, field::NONE, -1));
+    assert_eq!(go(&mut tip, &goal, &mut now), MEMORY);
+    assert_eq!(init(&mut tip, &config, &start), (OK, field::NONE, -1));
     for _ in 0..6000 {
         let before = now;
-        assert_eq!(go(&mut tip, &goal, &mut now), status::OK);
+        assert_eq!(go(&mut tip, &goal, &mut now), OK);
         for joint in 0..N {
             let (q, qd) = (now.q[joint], now.qd[joint]);
             assert!(
@@ -67,12 +65,12 @@ fn a_tip_moves_to_a_pose_within_limits_and_brakes_without_one() {
     let mut step = |tip: &mut Tip, twist, now: &mut State| {
         (c::tip_step(Some(tip), Some(&[twist; 6]), Some(now), Some(&mut why)), why.field)
     };
-    assert_eq!(step(&mut tip, 1e3, &mut now).0, status::OK);
+    assert_eq!(step(&mut tip, 1e3, &mut now).0, OK);
     assert!([field::SPEED, field::RANGE].contains(&step(&mut tip, 1e3, &mut now).1));
     goal.rotation[0] = [0.0; 3];
     for _ in 0..200 {
-        assert_eq!(step(&mut tip, f32::NAN, &mut now), (status::NOT_FINITE, field::NONE));
-        assert_eq!(go(&mut tip, &goal, &mut now), status::ROTATION);
+        assert_eq!(step(&mut tip, f32::NAN, &mut now), (NOT_FINITE, field::NONE));
+        assert_eq!(go(&mut tip, &goal, &mut now), ROTATION);
     }
     assert_eq!(now.qd, [0.0; N]);
 }
@@ -82,17 +80,17 @@ fn positions_of_a_pose_are_those_of_its_kinematics() {
     let config = limited();
     let [home, away] = ends(&config);
     let (solver, mut goal, mut q) = (solver(&config), pose(&away), home);
-    assert_eq!(c::solve_pose(Some(&solver), Some(&goal), Some(&mut q)), status::OK);
+    assert_eq!(c::solve_pose(Some(&solver), Some(&goal), Some(&mut q)), OK);
     let reached = pose(&q);
     close_for(50.0, reached.rotation.as_flattened(), goal.rotation.as_flattened());
     close_for(50.0, &reached.position, &goal.position);
     goal.position[0] += 100.0;
-    assert_eq!(c::solve_pose(Some(&solver), Some(&goal), Some(&mut q)), status::NOT_REACHED);
+    assert_eq!(c::solve_pose(Some(&solver), Some(&goal), Some(&mut q)), NOT_REACHED);
     assert!(q != away && pose(&q).position[0] >= reached.position[0] - 1e-3, "{q:?}");
     let before = q;
     goal.position[0] = f32::NAN;
-    assert_eq!(c::solve_pose(Some(&solver), Some(&goal), Some(&mut q)), status::NOT_FINITE);
+    assert_eq!(c::solve_pose(Some(&solver), Some(&goal), Some(&mut q)), NOT_FINITE);
     goal = Pose::default();
-    assert_eq!(c::solve_pose(Some(&solver), Some(&goal), Some(&mut q)), status::ROTATION);
+    assert_eq!(c::solve_pose(Some(&solver), Some(&goal), Some(&mut q)), ROTATION);
     assert_eq!(q, before);
 }

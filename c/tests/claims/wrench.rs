@@ -2,7 +2,7 @@
 
 use crate::library::{self as c, *};
 use crate::scene::{self, N};
-use dynamics_c::status;
+use dynamics_c::status::*;
 use dynamics_core::Core;
 use dynamics_core::glam::Vec3;
 
@@ -16,15 +16,15 @@ fn joint(tool: Option<&Tool>, body: usize) -> ([f32; N], Wrench) {
     let (mut tau, mut wrench) = ([7.0; N], Wrench::ZERO);
     let found =
         c::joint_wrench(Some(&probe()), tool, body as i32, Some(&mut tau), Some(&mut wrench));
-    assert_eq!(found, status::OK);
+    assert_eq!(found, OK);
     (tau, wrench)
 }
 
 /// The wrench of a load on a body, and the tool that has it.
 fn of_tool(state: &State, body: usize, load: &Load, gravity: &[f32; 3]) -> (Wrench, Tool) {
     let (mut wrench, mut tool) = (Wrench::ZERO, Tool::default());
-    assert_eq!(c::tool_set(Some(&mut tool), body as i32, Some(load), Some(gravity)), status::OK);
-    assert_eq!(c::tool_wrench(Some(state), Some(&tool), Some(&mut wrench)), status::OK);
+    assert_eq!(c::tool_set(Some(&mut tool), body as i32, Some(load), Some(gravity)), OK);
+    assert_eq!(c::tool_wrench(Some(state), Some(&tool), Some(&mut wrench)), OK);
     (wrench, tool)
 }
 
@@ -44,10 +44,10 @@ fn wrenches_in_joints_are_those_of_the_textbook_with_what_a_tool_adds() {
     let (mut tau, mut wrench) = ([7.0; N], Wrench::ZERO);
     for body in [-1, N as i32] {
         let found = c::joint_wrench(Some(&probe()), None, body, Some(&mut tau), Some(&mut wrench));
-        assert_eq!((found, tau), (status::NO_BODY, [7.0; N]));
+        assert_eq!((found, tau), (NO_BODY, [7.0; N]));
     }
     let unset = c::tool_wrench(Some(&probe()), Some(&Tool::default()), Some(&mut wrench));
-    assert_eq!((unset, c::sensor_fit_load(None, None)), (status::TOOL, status::NULL));
+    assert_eq!((unset, c::sensor_fit_load(None, None)), (TOOL, NULL));
 }
 
 #[test]
@@ -61,25 +61,19 @@ fn the_load_of_a_sensor_is_found_from_poses_at_rest() {
     let mut add = |gravity: [f32; 3], expected| {
         let here = rot.transpose() * Vec3::from(gravity);
         let found = c::sensor_fit_add(Some(&mut fit), Some(&here), Some(&shown(gravity)));
-        assert_eq!(
-            (found, c::sensor_fit_load(Some(&fit), Some(&mut load))),
-            (status::OK, expected)
-        );
+        assert_eq!((found, c::sensor_fit_load(Some(&fit), Some(&mut load))), (OK, expected));
     };
-    let (few, line) = (status::FEW_POSES, status::ONE_DIRECTION);
+    let (few, line) = (FEW_POSES, ONE_DIRECTION);
     [few, few, line, line].into_iter().for_each(|expected| add([0.0, 0.0, -9.81], expected));
     add(TILTED, line);
-    add([9.81, 0.0, 0.0], status::OK);
+    add([9.81, 0.0, 0.0], OK);
     close(&[load.mass], &[LOAD.mass]);
     close_for(10.0, load.first_moment.as_ref(), &LOAD.com.map(|c| LOAD.mass * c));
     close_for(10.0, &six(&load.offset), &six(&offset));
     let (gravity, mut rest) = ([-4.0, 8.0, 1.0], Wrench::ZERO);
     let here = rot.transpose() * Vec3::from(gravity);
-    assert_eq!(c::sensor_at_rest(Some(&load), Some(&here), Some(&mut rest)), status::OK);
+    assert_eq!(c::sensor_at_rest(Some(&load), Some(&here), Some(&mut rest)), OK);
     close_for(10.0, &six(&rest), &six(&shown(gravity)));
     let refused = c::sensor_fit_add(Some(&mut fit), Some(&Vec3::NAN), Some(&rest));
-    assert_eq!(
-        (refused, c::sensor_fit_load(Some(&fit), Some(&mut load))),
-        (status::NOT_FINITE, status::OK)
-    );
+    assert_eq!((refused, c::sensor_fit_load(Some(&fit), Some(&mut load))), (NOT_FINITE, OK));
 }

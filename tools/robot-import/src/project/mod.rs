@@ -2,9 +2,9 @@
 //! library for C.
 //!
 //! The templates are in `template/rust`, which is one of `cargo generate` as well, `template/c` and
-//! `template/board`; the header of C is that of the crate `dynamics-c`. A placeholder is replaced by text, nothing else: no
-//! condition, no loop. Lines of a board's files are left out if they are for joints that the robot
-//! does not have.
+//! `template/board`; the header of C is that of the crate `dynamics-c`. A placeholder is replaced by
+//! text, nothing else: no condition, no loop. Lines of a board's files are left out if they are for
+//! joints that the robot does not have.
 
 mod board;
 mod choice;

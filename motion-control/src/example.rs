@@ -1,6 +1,6 @@
 use dynamics_core::effects::{Armature, Coriolis, Gravity, Inertia};
 use dynamics_core::{Core, robots::Ur5e, state::State};
-use motion_control::{estimate::*, law::*, limits::*, motion::*, reference::*, safety::*};
+use motion_control::{estimate::*, law::*, limits::*, motion::*, safety::*};
 
 pub type Effects = (Gravity, Inertia, Coriolis, Armature<f32, 6>);
 pub const EFFECTS: Effects =

@@ -27,6 +27,8 @@
 //! ```
 #![doc = include_str!("example.rs")]
 //!
+//! use motion_control::reference::{Trajectory, WayPoint};
+//!
 //! let stop = |q, ticks| WayPoint { q, qd: [0.0; 6], ticks };
 //! let home = [0.0, -1.57, 1.57, -1.57, -1.57, 0.0];
 //! let away = [1.0, -1.2, 1.4, -1.57, -1.57, 0.0];

@@ -64,8 +64,8 @@ where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    let (bodies, factors) = (Vec::new(), Vec::new());
-    let mut passes = Passes { robot, trig, state, effects, given, bodies, factors };
+    let mut passes =
+        Passes { robot, trig, state, effects, given, bodies: Vec::new(), factors: Vec::new() };
     passes.outward_velocities();
     passes.inward_inertias()?;
     Ok(passes.outward_accelerations())
@@ -169,7 +169,7 @@ where
 
     /// Pass 3: q̈ᵢ = D⁻¹ (u − Uᵀ a′) with a′ = X a_λ + c, and aᵢ = a′ + S q̈.
     #[cfg_attr(optimised, inline(always))]
-    fn outward_accelerations(mut self) -> JointResult<R, V> {
+    fn outward_accelerations(&mut self) -> JointResult<R, V> {
         let mut joints = JointResult::ZERO;
         let mut a = per_body(self.robot, base_motion(self.effects).1);
         for (body, link) in self.bodies.iter().zip(self.robot.links()) {

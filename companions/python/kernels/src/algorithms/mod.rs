@@ -9,12 +9,12 @@ use dynamics_core::scalar::{Matrix, Real, Vector};
 use dynamics_core::spatial::{Force, Motion};
 use dynamics_core::state::State;
 
-use crate::algorithm::{Algorithm, Call, Done, Sizes, Terms};
+use crate::algorithm::{Algorithm, Call, Done, Sizes};
 use crate::dispatch::terms;
 use crate::job::{Problem, Row, Rows};
 use crate::lanes::Lanes;
 use crate::model::Counts;
-use crate::scene::{Parts, Scene};
+use crate::scene::{Parts, Scene, Terms};
 
 /// An algorithm: which scenes it distinguishes, what it reads and what it writes.
 macro_rules! algorithm {

@@ -63,7 +63,6 @@ def test_a_released_arm_stays_and_falls_without(bench, postures, gears):
     drift = [released(bench, posture, gears)[0] for posture in postures]
     falls = [fallen(bench, posture, gears) for posture in postures]
     assert max(drift) <= BAR and min(falls) >= FALL, (drift, falls)
-    name = "leader" if gears == LEADER_GEARS else "scene"
 
 
 @pytest.mark.parametrize("sign", [-1.0, 1.0])

@@ -1,6 +1,7 @@
 // A robot from the command `peers`' text form, as Pinocchio's model.
 #pragma once
 
+#include <tuple>
 #include <utility>
 #include <vector>
 

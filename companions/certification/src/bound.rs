@@ -50,7 +50,7 @@ impl Bound {
 /// The ways in which values are enclosed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Enclosure {
-    /// Operation by operation, as Gappa does.
+    /// Operation by operation.
     Plain,
     /// With sums written out: [`crate::forms`].
     WrittenOut,

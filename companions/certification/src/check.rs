@@ -1,16 +1,12 @@
-//! Checks of certificates: by Gappa, and of the page against today's machine code.
+//! Checks of the page against today's machine code.
 
 use sha2::{Digest, Sha256};
 
-use crate::bound::{Bounder, Enclosure, SineErrors};
 use crate::certificate::Subject;
 use crate::digits;
 use crate::error::{Error, Result};
 use crate::function::Function;
-use crate::gappa;
 use crate::image::{Image, hexadecimal};
-use crate::interval::Interval;
-use crate::state_box::Robot;
 
 /// A part of the page, between its marks, or the record of configurations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -126,67 +122,4 @@ pub fn hash_of(page: &str, robot: &str, function: Function, hash: &str) -> Resul
             Err(Error::Stale(what))
         }
     }
-}
-
-/// Has Gappa and Coq check a part of the box of one result of a function, drawn at random, and
-/// refuse what is wrong: Gappa a smaller bound, Coq a smaller rounding error in Gappa's proof.
-///
-/// # Errors
-/// [`Error::Program`] if one of them decides otherwise.
-pub fn sampled(
-    image: &Image,
-    function: Function,
-    robot: &Robot,
-    rng: &mut fastrand::Rng,
-) -> Result<()> {
-    let graph = Subject::of(image, function)?.graph;
-    let whole = robot.whole();
-    let state: Vec<f64> = whole.iter().map(|x| x.low + rng.f64() * (x.high - x.low)).collect();
-    let around = around(&state, &whole, 1.0 / 64.0);
-    let outputs = 0..graph.outputs.len();
-    let mut bounded = outputs.filter_map(|output| {
-        let mut bounder = Bounder::new(&graph, output, robot, NOMINAL, Enclosure::Plain)?;
-        let bound = bounder.bound(&around).total();
-        (bound > 0.0).then_some((bounder, bound))
-    });
-    let skipped = rng.usize(..graph.outputs.len().min(3));
-    let Some((bounder, bound)) = bounded.nth(skipped).or_else(|| bounded.next()) else {
-        return Err(Error::Missing(format!("rounded result of {}", function.name())));
-    };
-    let said = |program: &str, said: &str| {
-        let said = format!("{}: {said}", function.name());
-        Err(Error::Program { program: program.to_owned(), said })
-    };
-    let script = gappa::script(&bounder);
-    if !script.clone().bounded(&bounder, bound).is_proven()? {
-        return said("gappa", "a part of the box is not proven");
-    }
-    if script.clone().bounded(&bounder, 0.99 * bound).is_proven()? {
-        return said("gappa", "accepts a bound that is too small");
-    }
-    let texts: Vec<String> = script.texts().collect();
-    let Some(proof) = gappa::proof(&texts[rng.usize(..texts.len().div_ceil(2))])? else {
-        return said("gappa", "has no proof for Coq");
-    };
-    if !gappa::is_checked_by_coq(&proof)? {
-        return said("coqc", "does not accept the proof of Gappa");
-    }
-    match gappa::corrupted(&proof) {
-        Some(wrong) if !gappa::is_checked_by_coq(&wrong)? => Ok(()),
-        Some(_) => said("coqc", "accepts a proof in which a rounding error is too small"),
-        None => said("gappa", "a proof without a rounded operation"),
-    }
-}
-
-/// Errors of sine and cosine near those of the library's; the proof of a part holds for any such
-/// errors.
-const NOMINAL: SineErrors = SineErrors { sine: 1.2e-7, cosine: 1.2e-7 };
-
-/// The part of a box around a state that has this share of each range.
-pub fn around(state: &[f64], whole: &[Interval], share: f64) -> Vec<Interval> {
-    let ranges = state.iter().zip(whole).map(|(x, range)| {
-        let reach = 0.5 * share * (range.high - range.low);
-        Interval::new(x - reach, x + reach)
-    });
-    ranges.collect()
 }

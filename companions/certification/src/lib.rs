@@ -16,7 +16,7 @@
 //! | [`configurations`] | the errors of other kernels of sines and of other models |
 //! | [`search`] | the worst error that is found |
 //! | [`certificate`], `output`, [`page`] | what was proven, as data and text |
-//! | [`gappa`], [`check`] | checks of it by others |
+//! | [`check`] | that the page is of today's machine code |
 //! | [`cycles`], `flow`, `machine`, `words` | the most cycles of a path, by the cycle meter's model |
 //! | [`stack`] | the most stack |
 //! | [`emulation`], [`target`], [`narrow`] | the functions in QEMU, and boxes of one's own |
@@ -42,7 +42,6 @@ mod flow;
 pub mod forms;
 pub mod forward;
 mod function;
-pub mod gappa;
 pub mod graph;
 pub mod grid;
 pub mod image;

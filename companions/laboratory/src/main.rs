@@ -2,8 +2,6 @@
 //! beyond a bar, shows which figures have changed, and writes its page.
 
 mod cores;
-mod flags;
-mod history;
 mod page;
 mod peers;
 mod robots;
@@ -40,10 +38,6 @@ enum Study {
     /// The control loop on four cores that QEMU emulates, which compute the host's bits; its stack;
     /// the images of boards
     Cores,
-    /// The cost of other flags of the compiler and of profiles
-    Flags,
-    /// The algorithms that today's replaced
-    History,
     /// Other libraries and this one side by side: takes an hour
     Peers,
     /// The robots of published packages, imported, checked and measured
@@ -64,8 +58,6 @@ fn run(cli: &Cli) -> Result<ExitCode> {
     let bench = Bench::new(&workspace, cli.setup);
     let parts: Vec<Part> = match &cli.study {
         Study::Cores => cores::measure(&bench)?,
-        Study::Flags => flags::measure(&bench)?,
-        Study::History => history::measure(&bench)?,
         Study::Peers => peers::measure(&bench)?,
         Study::Robots(args) => robots::measure(&bench, args)?,
         Study::Rtl => rtl::measure(&bench)?,

@@ -8,10 +8,9 @@ use xtask::kit::error::{Result, check};
 use xtask::kit::toolchain::Toolchain;
 use xtask::kit::workspace::{self, Workspace};
 
-/// The text of a page between `<!-- NAME:begin -->` and `<!-- NAME:end -->`, or a whole picture.
+/// The text of a page between `<!-- NAME:begin -->` and `<!-- NAME:end -->`.
 pub struct Part {
     pub file: &'static str,
-    /// Empty of a picture.
     pub name: &'static str,
     pub text: String,
 }
@@ -27,10 +26,6 @@ pub fn write(workspace: &Workspace, parts: &[Part], toolchain: &Toolchain) -> Re
     let head = format!("{}, with {}.", today_and_commit(workspace), toolchain.rustc_version()?);
     for part in parts {
         let path = workspace.root.join(part.file);
-        if part.name.is_empty() {
-            workspace::write(&path, &part.text)?;
-            continue;
-        }
         let old = workspace::read(&path)?;
         let new = replaced(&old, part.name, &part.text)?;
         for change in changes(&old, &new) {

@@ -4,7 +4,6 @@ mod build;
 mod gates;
 mod host;
 mod report;
-mod robot_dynamics;
 mod robots;
 mod target;
 mod tools;

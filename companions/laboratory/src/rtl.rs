@@ -24,7 +24,6 @@ use row::{Row, Said, Worst};
 use simulator::{LATENCIES, Simulators};
 
 const PAGE: &str = "companions/laboratory/docs/rtl.md";
-const PICTURE: &str = "companions/laboratory/docs/rtl.svg";
 const PACKAGE: &str = "gates";
 /// The time limit of a program in QEMU.
 const LIMIT: Duration = Duration::from_secs(300);
@@ -101,12 +100,7 @@ pub fn measure(bench: &Bench<'_>) -> Result<Vec<Part>> {
     let report = Report { rows, errors };
     let [algorithms, ticks] = report.tables();
     let part = |name, text| Part { file: PAGE, name, text };
-    Ok(vec![
-        part("algorithms", algorithms),
-        part("ticks", ticks),
-        part("errors", report.errors()?),
-        Part { file: PICTURE, name: "", text: page::svg(&report.rows)? },
-    ])
+    Ok(vec![part("algorithms", algorithms), part("ticks", ticks), part("errors", report.errors()?)])
 }
 
 /// What a thread returned.

@@ -57,11 +57,8 @@ struct Args {
     /// Only prove the errors of the configurations of `cargo xtask accuracy`, and print them as
     /// JSON; of the robots of docs/accuracy.md, over boxes that their paths lie in, if no robot is
     /// given
-    #[arg(long, conflicts_with_all = ["sampled", "write", "hashes"])]
-    configurations: bool,
-    /// Only let Gappa and Coq check a sample of parts of the box, and refuse wrong ones
     #[arg(long, conflicts_with_all = ["write", "hashes"])]
-    sampled: bool,
+    configurations: bool,
     /// Rewrite certificates.md, or parts of it, or docs/accuracy-proven.json
     #[arg(long, value_enum, value_name = "PART", value_delimiter = ',', conflicts_with_all = ["robot", "json"])]
     write: Vec<Part>,
@@ -132,9 +129,6 @@ fn run(args: &Args) -> Result<String> {
     let programs: Vec<(Program, Robot)> = programs.collect::<Result<_>>()?;
     if args.hashes {
         return hashes(args, &programs);
-    }
-    if args.sampled {
-        return sampled(args, &programs);
     }
     // Once for all robots: what holds over the widest ranges holds over each.
     let joints = programs.iter().flat_map(|(_, robot)| &robot.joints);
@@ -265,23 +259,6 @@ fn part(function: Function) -> Part {
         _ if function.matrix().is_some() => Part::Forward,
         _ => Part::Certificates,
     }
-}
-
-fn sampled(args: &Args, programs: &[(Program, Robot)]) -> Result<String> {
-    let mut rng = fastrand::Rng::with_seed(1);
-    let mut sampled = 0;
-    for (program, robot) in programs {
-        for function in program.functions(&args.function) {
-            check::sampled(&Image::read(&program.elf)?, function, robot, &mut rng)?;
-            let (name, function) = (&program.robot, function.name());
-            eprintln!("{name}: {function}: accepted by Gappa and Coq");
-            sampled += 1;
-        }
-    }
-    Ok(format!(
-        "Gappa and Coq accept {sampled} parts of certificates, and refuse {} wrong ones",
-        2 * sampled
-    ))
 }
 
 fn spent(args: &Args, function: Function, robot: &str) -> Spent {

@@ -7,23 +7,22 @@ use certification::bound::{Bounder, Enclosure};
 use certification::branch::prove;
 use certification::certificate::{Function, expression};
 use certification::error::Error;
-use certification::gappa;
 use certification::graph::{Guess, Input, Node};
 use certification::grid::Program;
 use certification::image::Image;
 use certification::interval::Interval;
+use certification::paths;
 use certification::roots::relative_error;
 use certification::search::{Evaluation, search};
 use certification::state_box::Robot;
 use certification::walk::{Walked, walk};
-use certification::{check, paths};
 use dynamics_core::Core;
 use dynamics_core::clusters::Clustered;
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::state::State;
 use firmware_demo::robots::FourBarLeg;
 
-use super::recorded::{BASE, LITTLE, SINES, bytes, gappa_is_installed, robot};
+use super::recorded::{BASE, LITTLE, SINES, bytes, robot};
 
 /// `Clustered::<Engine<FourBarLeg>>::rnea` with its kernel of sines as a call, behind a function
 /// that passes the gravity.
@@ -164,39 +163,4 @@ fn a_box_with_a_singular_posture_is_declined() {
     let mut wrong = walked;
     wrong.comparisons[0].ordering = Ordering::Less;
     assert!(paths::prove(&wrong, &leg(0.6), SINES, 1000).is_err());
-}
-
-#[test]
-fn gappa_checks_quotients_and_roots_and_refuses_wrong_ones() {
-    if !gappa_is_installed() {
-        return;
-    }
-    let (walked, robot) = (four_bar(), leg(0.6));
-    let around = check::around(&[0.3; 9], &robot.whole(), 1.0 / 64.0);
-    let mut bounder = Bounder::new(&walked.graph, 1, &robot, SINES, Enclosure::Plain)
-        .expect("its inputs are the robot's");
-    let bound = bounder.bound(&around).total();
-    let script = |of: &Bounder, bound: f64| gappa::script(of).bounded(of, bound);
-    let is_proven = |script: gappa::Script| script.is_proven().expect("it runs");
-    assert!(is_proven(script(&bounder, bound)));
-    assert!(!is_proven(script(&bounder, 0.99 * bound)));
-    let nodes = bounder.graph().nodes.clone();
-    let at = |is: fn(&Node) -> bool| nodes.iter().position(is).expect("one");
-    let quotient = at(|node| matches!(node, Node::Div(..)));
-    let root = at(|node| matches!(node, Node::InverseRoot(..)));
-    for k in [quotient, root] {
-        let Some(Node::Div(_, of) | Node::InverseRoot(of, _)) = nodes.get(k).copied() else {
-            panic!("{k}");
-        };
-        // A range of the result, or of the derivative by what it is of, that is too narrow.
-        let mut wrong = bounder.clone();
-        wrong.values[k].high = 0.5 * (wrong.values[k].low + wrong.values[k].high);
-        assert!(!is_proven(script(&wrong, bound)));
-        let mut wrong = bounder.clone();
-        wrong.adjoints[of].high = 0.5 * (wrong.adjoints[of].low + wrong.adjoints[of].high);
-        assert!(!is_proven(script(&wrong, bound)));
-    }
-    let mut wrong = bounder.clone();
-    wrong.errors[quotient] *= 0.5;
-    assert!(!is_proven(script(&wrong, bound)));
 }

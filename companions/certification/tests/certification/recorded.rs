@@ -1,7 +1,5 @@
 //! Machine code that was compiled one day, and a robot for it.
 
-use std::process::Command;
-
 use certification::bound::SineErrors;
 use certification::graph::Graph;
 use certification::image::Image;
@@ -16,15 +14,6 @@ pub const GRAVITY: &str = include_str!("ur5e_gravity.hex");
 /// The bytes of `RIGID_BODY` in memory.
 pub const EFFECTS: &str = "1f85eb51b89e2340c3f51c4100000000";
 pub const BASE: u32 = 0x0800_0000;
-
-/// Whether Gappa can check a script here; if not, the output says so.
-pub fn gappa_is_installed() -> bool {
-    let version = Command::new("gappa").arg("--version").output();
-    if version.is_err() {
-        eprintln!("not tested: Gappa is not installed (Debian: gappa)");
-    }
-    version.is_ok()
-}
 
 pub fn bytes(hex: &str) -> Vec<u8> {
     let digits: Vec<u32> = hex.chars().filter_map(|c| c.to_digit(16)).collect();

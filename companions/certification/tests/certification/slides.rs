@@ -6,7 +6,6 @@ use certification::certificate::{Function, Spent, Subject, expression};
 use certification::exact::Exact;
 use certification::factors::{Factored, Order};
 use certification::forward::{Forward, greatest_over};
-use certification::gappa;
 use certification::graph::{Graph, Input, Node};
 use certification::grid::Program;
 use certification::image::Image;
@@ -20,7 +19,7 @@ use dynamics_core::model::{BASE as NONE, Body, Joint as Of, Model, Robot as _};
 use dynamics_core::state::State;
 
 use super::floor;
-use super::recorded::{BASE, LITTLE, SINES, bytes, forward_program, gappa_is_installed, robot};
+use super::recorded::{BASE, LITTLE, SINES, bytes, forward_program, robot};
 
 /// Assembled by hand: |3 x − 1|.
 const CODE: &str = "92ed000af0ee080a20ee200af7ee000a30ee600ab0eec00a80ed000a7047";
@@ -62,33 +61,6 @@ fn an_absolute_value_has_the_error_of_its_operand() {
     }
     assert!(Program::new(&graph, &robot).is_none(), "no polynomial");
     assert_eq!(graph.operations(), 2);
-}
-
-#[test]
-fn gappa_checks_an_absolute_value_and_refuses_wrong_ones() {
-    if !gappa_is_installed() {
-        return;
-    }
-    let walked = walk(&Image::of(BASE, &bytes(CODE)), BASE, [None; 4]);
-    let (graph, robot) = (walked.expect("it is followed").graph, robot(1));
-    let mut bounder =
-        Bounder::new(&graph, 0, &robot, SINES, Enclosure::Plain).expect("its input is the robot's");
-    let bound = bounder.bound(&robot.whole()).total();
-    let is_proven = |of: &Bounder| {
-        let script = gappa::script(of).bounded(of, bound);
-        script.is_proven().expect("it runs")
-    };
-    assert!(is_proven(&bounder));
-    // Gappa refuses a range that begins above zero, one that ends too early, and a derivative of
-    // one sign alone.
-    let wrong = |change: fn(&mut Bounder)| {
-        let mut wrong = bounder.clone();
-        change(&mut wrong);
-        !is_proven(&wrong)
-    };
-    assert!(wrong(|one| one.values[5].low = 1.0));
-    assert!(wrong(|one| one.values[5].high = 8.1));
-    assert!(wrong(|one| one.adjoints[4].low = 0.0));
 }
 
 /// A turn about an oblique axis, and a slide beyond it.

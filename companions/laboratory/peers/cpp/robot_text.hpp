@@ -9,7 +9,7 @@
 struct Body {
   std::string name, joint;
   int parent;
-  double axis[3], axis2[3], rotation[9], position[3], mass, com[3], inertia[6];
+  double axis[3], rotation[9], position[3], mass, com[3], inertia[6];
 };
 
 struct Robot {
@@ -32,7 +32,6 @@ inline Robot read_robot(std::istream &in) {
   for (Body &body : robot.bodies) {
     in >> body.name >> body.parent >> body.joint;
     read(in, body.axis);
-    if (body.joint == "universal") read(in, body.axis2);
     read(in, body.rotation);
     read(in, body.position);
     in >> body.mass;

@@ -1,7 +1,7 @@
 //! Functions in shared libraries: what C and C++ compilers made of the peers.
 
 use std::error::Error;
-use std::ffi::{CStr, CString, c_char, c_void};
+use std::ffi::{CString, c_char, c_void};
 use std::path::{Path, PathBuf};
 use std::ptr;
 
@@ -10,7 +10,7 @@ use dynamics_core::state::State;
 use libloading::{Library, Symbol};
 use serde::Deserialize;
 
-use crate::subject::{Batch, Subject, square};
+use crate::subject::{Subject, square};
 
 type Open = unsafe extern "C" fn(*const c_char, *const c_char) -> *mut c_void;
 type Run<R> = unsafe extern "C" fn(*mut c_void, *const R, usize, *mut R);
@@ -116,7 +116,6 @@ pub fn their_order<'a>(joints: impl Iterator<Item = &'a str>) -> [Vec<usize>; 2]
         let blocks: [&[usize]; 2] = match joint {
             "fixed" => [&[], &[]],
             "free" => [&[4, 5, 6, 0, 1, 2, 3], &[3, 4, 5, 0, 1, 2]],
-            "universal" => [&[0, 1], &[0, 1]],
             _ => [&[0], &[0]],
         };
         for (order, block) in order.iter_mut().zip(blocks) {
@@ -131,31 +130,4 @@ fn load(path: &Path) -> Result<&'static Library, Box<dyn Error>> {
     // SAFETY: xtask has compiled this library, which runs no code when it is loaded beyond what C++
     // needs. It is never unloaded.
     Ok(Box::leak(Box::new(unsafe { Library::new(path) }?)))
-}
-
-/// A function of Pinocchio's dynamics of robots with loops, which gives `outputs` numbers for each
-/// of this many states.
-pub fn loops(
-    library: &Path,
-    function: &str,
-    machine: &CStr,
-    input: Vec<f64>,
-    [states, outputs]: [usize; 2],
-) -> Result<Batch<f64>, Box<dyn Error>> {
-    type Open = unsafe extern "C" fn(*const c_char) -> *mut c_void;
-    let library = load(library)?;
-    // SAFETY: `companions/laboratory/peers/cpp/pinocchio_loops.cpp` gives these functions these types.
-    let (open, run): (Symbol<'_, Open>, Symbol<'static, Run<f64>>) =
-        unsafe { (library.get(b"pinocchio_loops_open")?, library.get(function.as_bytes())?) };
-    // SAFETY: a string that ends in a zero, which it does not keep.
-    let context = unsafe { open(machine.as_ptr()) };
-    if context.is_null() {
-        return Err("Pinocchio does not take a robot with loops".into());
-    }
-    Ok(Box::new(move |out| {
-        assert_eq!(out.len(), states * outputs);
-        // SAFETY: the states have the size that the machine expects, and there is room for their
-        // outputs; the context is its own.
-        unsafe { run(context, input.as_ptr(), states, out.as_mut_ptr()) }
-    }))
 }

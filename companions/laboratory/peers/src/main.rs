@@ -3,18 +3,13 @@
 //! JSON object. The command `peers` writes the manifest and reads the lines.
 
 mod foreign;
-mod loops;
 mod ours;
 mod robot;
 mod subject;
 
 use std::error::Error;
-use std::path::PathBuf;
 
 use dynamics_core::robots::{A1, A1Free, G1, G1Free, Iiwa14, Panda, Ur5e, XArm7};
-use firmware_demo::robots::{AnkleLeg, FourBarLeg, StewartPlatform};
-use loop_tests::clusters::DeltaRobot;
-use loop_tests::machines::{Delta, Stewart};
 use serde::Deserialize;
 
 use foreign::Foreign;
@@ -23,21 +18,11 @@ use foreign::Foreign;
 #[derive(Deserialize)]
 struct Manifest {
     foreign: Vec<Foreign>,
-    /// Names and libraries of Pinocchio's side of robots with loops.
-    loops: Vec<(String, PathBuf)>,
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
     let path = std::env::args().nth(1).ok_or("usage: peers-bench MANIFEST")?;
     let manifest: Manifest = serde_json::from_str(&std::fs::read_to_string(path)?)?;
-    let loops = &manifest.loops;
-    loops::general::<Delta, 10, 22, 21, 6, 18, 3>(loops)?;
-    loops::general::<Stewart, 13, 25, 24, 6, 18, 6>(loops)?;
-    // Planar, so that one row of three is redundant.
-    loops::clustered::<FourBarLeg, 5, 5, 3>(loops, 1e-10)?;
-    loops::clustered::<AnkleLeg, 9, 9, 3>(loops, 0.0)?;
-    loops::clustered::<DeltaRobot, 12, 12, 3>(loops, 0.0)?;
-    loops::clustered::<StewartPlatform, 24, 24, 6>(loops, 0.0)?;
     const ARM: &[&str] = &["rnea", "bias", "gravity", "crba", "aba", "gradient", "osim"];
     const DYNAMICS: &[&str] = &["rnea", "crba", "aba"];
     macro_rules! arms {

@@ -33,8 +33,7 @@ pub struct Subject<R> {
 #[derive(Serialize)]
 pub struct Row<'a> {
     pub robot: &'a str,
-    /// `rnea`, `bias`, `gravity`, `crba`, `aba`, `gradient`, `osim` or, with loops, `loops inverse` and
-    /// `loops forward`.
+    /// `rnea`, `bias`, `gravity`, `crba`, `aba`, `gradient` or `osim`.
     pub algorithm: &'a str,
     pub peer: &'a str,
     /// `f32` or `f64`.

@@ -117,12 +117,11 @@ impl<'a> Workshop<'a> {
         self.robots.join("robots.txt")
     }
 
-    /// Pinocchio's dynamics, or those of robots with loops, by a compiler: the source `NAME.cpp` as
-    /// a shared library.
-    pub fn pinocchio(&self, name: &str, compiler: &str) -> Result<PathBuf> {
-        let _spinner = Spinner::start(&format!("building {name} by {compiler}"));
-        let library = format!("{}_{compiler}.so", name.trim_end_matches("_peer"));
-        self.cpp(&library, compiler, &words(HOST), &format!("{name}.cpp"))
+    /// Pinocchio's dynamics by a compiler, as a shared library.
+    pub fn pinocchio(&self, compiler: &str) -> Result<PathBuf> {
+        let _spinner = Spinner::start(&format!("building Pinocchio's side by {compiler}"));
+        let library = format!("pinocchio_{compiler}.so");
+        self.cpp(&library, compiler, &words(HOST), "pinocchio_peer.cpp")
     }
 
     /// A function of CasADi's by a compiler, as a shared library.

@@ -14,7 +14,6 @@ use xtask::studies::study::Bench;
 use crate::cores::{Core, risc_v, set_up};
 use crate::peers::build::Workshop;
 use crate::peers::report::{GATES, Row};
-use crate::peers::robot_dynamics;
 use crate::peers::robots::Robot;
 use crate::peers::target::{self, Way};
 use crate::rtl::Build;
@@ -80,7 +79,6 @@ pub fn measure(bench: &Bench<'_>, shop: &Workshop<'_>, robots: &[Robot]) -> Resu
         rows.extend(best(&theirs(&emulated, &simulators.run_all(&elf)?)?));
     }
     complete(&rows)?;
-    rows.extend(robot_dynamics::on_gates());
     Ok(rows)
 }
 
@@ -133,7 +131,7 @@ fn theirs(emulated: &str, counted: &[String]) -> Result<Vec<Counted>> {
 }
 
 /// A row for each number of stages.
-pub fn by_stages(
+fn by_stages(
     [robot, algorithm, peer]: [&str; 3],
     found: impl Fn(usize) -> (u64, String),
 ) -> [Row; 3] {

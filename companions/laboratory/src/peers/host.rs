@@ -27,17 +27,8 @@ type Wanted<'a> = (&'a Robot, &'static str, &'static str);
 
 /// Builds Pinocchio's side, which takes compilers minutes: both beside each other.
 pub fn pinocchio(shop: &Workshop<'_>) -> Result<()> {
-    let build = |compiler| {
-        let peer = shop.pinocchio("pinocchio_peer", compiler);
-        peer.and_then(|_| shop.pinocchio("pinocchio_loops", compiler))
-    };
     let built = thread::scope(|scope| {
-        let threads = CPP_COMPILERS.map(|compiler| {
-            scope.spawn({
-                let build = &build;
-                move || build(compiler)
-            })
-        });
+        let threads = CPP_COMPILERS.map(|compiler| scope.spawn(move || shop.pinocchio(compiler)));
         threads.map(|thread| thread.join())
     });
     for result in built {
@@ -54,12 +45,7 @@ pub fn measure(
     benches: &[PathBuf; 2],
 ) -> Result<Vec<Row>> {
     foreign.extend(trees(shop, robots)?);
-    let loops = CPP_COMPILERS.map(|compiler| {
-        let library = shop.pinocchio("pinocchio_loops", compiler)?;
-        Ok((format!("pinocchio {compiler}"), library))
-    });
-    let loops: Vec<_> = loops.into_iter().collect::<Result<_>>()?;
-    let manifest = json!({ "foreign": foreign, "loops": loops });
+    let manifest = json!({ "foreign": foreign });
     let path = shop.built.join("manifest.json");
     workspace::write(&path, manifest.to_string())?;
     let spinner = Spinner::start("timing on the host");
@@ -74,12 +60,12 @@ pub fn measure(
     Ok(report::with_fused(rows, fused))
 }
 
-/// Pinocchio's functions of the robots without loops.
+/// Pinocchio's functions.
 fn trees(shop: &Workshop<'_>, robots: &[Robot]) -> Result<Vec<Value>> {
     let mut all = Vec::new();
     let text = shop.robots_file();
     for compiler in CPP_COMPILERS {
-        let library = shop.pinocchio("pinocchio_peer", compiler)?;
+        let library = shop.pinocchio(compiler)?;
         for wanted in wanted(robots) {
             let (_, algorithm, precision) = wanted;
             let (peer, prefix) =

@@ -6,7 +6,6 @@ use xtask::kit::table::{Table, thousands};
 
 use crate::page::Part;
 use crate::peers::gates::{self, INSIDE, WAYS};
-use crate::peers::robot_dynamics;
 use crate::peers::{ALGORITHMS, GRADIENT};
 
 /// The processor that runs xtask.
@@ -155,11 +154,8 @@ impl Report {
             ("target", section("Cortex-M4F", ON_TARGET, &|a| self.on_target(a), &ALGORITHMS)),
             ("ways", list(&ways)),
             ("gates", section("CV32E40P", ON_GATES, &|a| self.on_gates(a), &gates::ALGORITHMS)),
-            ("robot_dynamics", robot_dynamics::table(&self.rows).markdown()),
             ("host", section("Host", ON_HOST, &|a| self.on_host(a), &on_host)),
             ("builds", self.build_times().markdown()),
-            ("inverse", self.in_a_row("loops inverse").markdown()),
-            ("forward", self.in_a_row("loops forward").markdown()),
             ("versions", list(&self.versions)),
         ];
         let page = "companions/laboratory/docs/peers.md";
@@ -172,23 +168,6 @@ impl Report {
             &[
                 ("robot, function", &|(function, _)| function.clone()),
                 ("s", &|(_, seconds)| format!("{seconds:.1}")),
-            ],
-        )
-    }
-
-    /// Times, and their ratios to Pinocchio's by its better compiler.
-    fn in_a_row(&self, algorithm: &str) -> Table {
-        let to_best = |row: &Row| {
-            let rows = self.of(HOST, algorithm).filter(|other| other.robot == row.robot);
-            let theirs = rows.filter(|other| other.peer.starts_with("pinocchio"));
-            theirs.filter_map(|other| ratio(row, other)).max_by(f64::total_cmp)
-        };
-        Table::of(
-            self.of(HOST, algorithm),
-            &[
-                ("robot, code", &|row| format!("{}, {}", row.robot, row.peer)),
-                ("ns", &|row| text(row.ns, 1)),
-                ("this / pinocchio", &|row| text(to_best(row), 2)),
             ],
         )
     }

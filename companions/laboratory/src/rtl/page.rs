@@ -1,14 +1,10 @@
-//! The page of the counted cycles, and its picture.
+//! The page of the counted cycles.
 
 use super::row::{Row, Worst};
 use super::{BUILDS, Build, Report};
-use xtask::kit::chart::{Axis, BLUE, GREEN, ORANGE, Panels, RED, SKY, Shape};
 use xtask::kit::error::{Result, check};
 use xtask::kit::table::{Table, thousands};
 use xtask::studies::accuracy::names::digits;
-
-/// The robots, in the order of the page.
-const ROBOTS: [&str; 5] = ["ur5e", "panda", "iiwa14", "xarm7", "a1"];
 
 /// The cycles of the row of this name, by the number of stages.
 fn cycles(rows: &[Row], name: &[&str], build: Build, stages: usize) -> Option<u64> {
@@ -67,47 +63,6 @@ impl Report {
         }
         Ok(table.markdown())
     }
-}
-
-/// Inverse dynamics of each robot by core and engine, for each latency.
-pub fn svg(rows: &[Row]) -> Result<String> {
-    let panels = ["engine", "core"].map(|form| {
-        let robots = ROBOTS.iter().flat_map(|robot| {
-            ["outside", "inside"].map(|sines| {
-                let name = [robot, "rnea", form, sines];
-                let dot = |stages, build, shape, colour| {
-                    let cycles = cycles(rows, &name, build, stages)?;
-                    Some((cycles as f64, shape, colour, String::new()))
-                };
-                let dots = [
-                    dot(0, Build::Scheduled, Shape::Dot, SKY),
-                    dot(1, Build::Scheduled, Shape::Dot, BLUE),
-                    dot(2, Build::Scheduled, Shape::Dot, RED),
-                    dot(1, Build::Fused, Shape::Ring, GREEN),
-                    dot(2, Build::Fused, Shape::Ring, ORANGE),
-                ];
-                (format!("{robot}, sines {sines}"), dots.into_iter().flatten().collect())
-            })
-        });
-        (format!("{form}: inverse dynamics"), robots.collect())
-    });
-    let mut x = Axis::decades("counted cycles", [5e2, 1.7e4], 0);
-    x.ticks = [500.0, 1e3, 2e3, 5e3, 1e4].into();
-    Panels {
-        title: "Cycles that the core counts, by the stages of its floating-point unit".into(),
-        note: "CV32E40P from its register-transfer source, f32, memory that never waits.",
-        legend: &[
-            ("0 stages", SKY),
-            ("1 stage", BLUE),
-            ("2 stages", RED),
-            ("1 stage, fused", GREEN),
-            ("2 stages, fused", ORANGE),
-        ],
-        x,
-        names: 176,
-        mark: None,
-    }
-    .svg(&panels)
 }
 
 #[cfg(test)]

@@ -3,7 +3,6 @@
 import signal
 
 import numpy as np
-import page
 import pytest
 from conftest import SCENE_GEARS, TICK, Arm, run
 
@@ -64,8 +63,6 @@ def test_a_released_arm_stays_and_falls_without(bench, postures, gears):
     drift = [released(bench, posture, gears)[0] for posture in postures]
     falls = [fallen(bench, posture, gears) for posture in postures]
     assert max(drift) <= BAR and min(falls) >= FALL, (drift, falls)
-    name = "leader" if gears == LEADER_GEARS else "scene"
-    page.figures[f"release {name}"] = (max(drift), min(falls))
 
 
 @pytest.mark.parametrize("sign", [-1.0, 1.0])
@@ -75,7 +72,6 @@ def test_a_released_arm_stays_with_parameters_that_are_off(bench, postures, sign
     off = {"gravity_scale": (1.0 + 0.03 * sign,) * 6}
     drift = [released(bench, posture, LEADER_GEARS, {"friction": 1.0 / 1.1}, **off)[0] for posture in postures[1::2]]
     assert max(drift) <= 3.0 * BAR, drift
-    page.figures[f"release off {sign:+.0f}"] = (max(drift),)
 
 
 def test_a_moving_arm_comes_to_rest(bench, postures):
@@ -103,7 +99,6 @@ def test_an_arm_that_loses_its_bus_sinks_slowly(bench, postures):
         assert all(servo.torque_enabled for servo in bus.servos)
         ways.append(np.degrees(np.abs(arm.q - start).max()))
     assert max(ways) <= SINKS, ways
-    page.figures["bus lost"] = (max(ways),)
 
 
 FALL_BAR, SPEED_BAR = 2.0, 0.6
@@ -159,7 +154,6 @@ def test_an_arm_that_is_disconnected_comes_down_and_does_not_fall(bench, posture
     results = [comes_down(bench, posture, gears, lambda _, teleoperator: teleoperator.disconnect()) for posture in some]
     fall, speed, way = (np.array(each) for each in zip(*results, strict=True))
     assert (fall <= FALL_BAR).all() and speed.max() <= SPEED_BAR and way.min() > FALL, (fall, speed, way)
-    page.figures[f"down {'leader' if gears == LEADER_GEARS else 'scene'}"] = (fall.max(), speed.max())
 
 
 @pytest.mark.parametrize("ends", [by_ctrl_c, by_a_bus_that_was_lost])

@@ -1,7 +1,6 @@
 """The torques on the bus are those of the firmware's scene, which were computed without Python."""
 
 import numpy as np
-import page
 import pytest
 from conftest import SCENE_GEARS, TICK, Still, run
 
@@ -60,7 +59,6 @@ def off_at_rest(bench, scene, law, postures, **options):
 def test_torques_at_rest_are_the_scenes(bench, scene, law):
     worst, rounding = off_at_rest(bench, scene, law, scene["postures"])
     assert worst <= BAR and rounding <= BAR, (worst, rounding)
-    page.figures[f"rest {law}"] = (worst, rounding)
 
 
 def test_the_comparison_finds_a_model_that_is_two_per_cent_off(bench, scene):
@@ -90,7 +88,6 @@ def test_torques_in_motion_are_the_scenes(bench, scene, law):
     # The check is one: the torque of friction alone is more than the bar.
     gravity = np.array([row["commands"]["gravity"] for row in scene["path"]])
     assert (np.abs(wanted - gravity).max(axis=0) > 5.0 * BAR * largest).all()
-    page.figures[f"motion {law}"] = (each, whole)
 
 
 def test_a_supply_that_is_measured_gives_the_same_torque(bench, scene):

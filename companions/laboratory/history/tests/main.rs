@@ -1,4 +1,0 @@
-//! The ancestors of today's algorithms: their torques, and the operations that they take.
-
-mod counts;
-mod oracle;

@@ -87,7 +87,7 @@ pub fn measure(bench: &Bench<'_>) -> Result<Vec<Part>> {
     shell::capture(&mut build)?;
     let meter = build_meter(workspace)?;
     let costs = Record::read(workspace)?;
-    let report = Report(rows::run_for_time(tools, &meter, BIN, &elf, "")?);
+    let report = Report(rows::run_for_time(tools, &meter, BIN, &elf)?);
     let part = |name, text| Part { file: PAGE, name, text };
     Ok(vec![
         part("comparison", report.comparison(ancestors)?.markdown()),

@@ -58,8 +58,8 @@ mod log {
 #[cfg(feature = "telemetry")]
 mod watch {
     use cortex_m_semihosting::debug;
-    use stm32f4xx_hal::pac;
     use machine_link::{Axis, Message, Sample};
+    use stm32f4xx_hal::pac;
 
     use crate::scene::{Batch, Less, PlantModel};
     use crate::target::watch::{MACHINE, argument, port, send};

@@ -17,7 +17,6 @@ use motion_control::safety::SupervisorConfig;
 use crate::hand_guiding::cell::TICK;
 use crate::hand_guiding::plant::{Inertias, Q, SLIDING, arm, modelled, real};
 use crate::taught_path::person::{STEP, guide, measured, shaken};
-use crate::taught_path::table;
 use crate::taught_path::ur5e::{RIGID, inverse_dynamics};
 use simulation_tests::plant::VISCOUS;
 
@@ -142,10 +141,9 @@ const TOLERANCES: [f64; 4] = [0.0, 0.002, 0.005, 0.01];
 fn a_taught_path_is_played_within_motor_torques() {
     let guided = guide(1.0);
     let measured = measured(&guided);
-    let person = guided.len() as f64 * TICK;
     let mut last = f64::INFINITY;
     for tolerance in TOLERANCES {
-        let (points, path) = taught(&measured, tolerance);
+        let (_, path) = taught(&measured, tolerance);
         let motion = timed(&path);
         let (played, planned) = (play(&motion), feedforward(&motion));
         let [seconds, off] = [f64::from(played.ticks) * TICK, off(&path, &guided)];

@@ -9,7 +9,6 @@ use motion_control::reference::{GeometricPath, JointFriction, PathLimits, PathSp
 use serde::Deserialize;
 
 use crate::hand_guiding::plant::{Q, ROTORS};
-use crate::taught_path::table;
 use crate::taught_path::ur5e::{Shares, inverse_dynamics, shares};
 
 /// The output of `host-tests/oracle/toppra_paths.py`.

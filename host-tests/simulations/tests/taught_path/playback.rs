@@ -48,8 +48,8 @@ fn limits() -> PathLimits<f64, 6> {
     }
 }
 
-/// The number of way-points of an arm with these positions in each tick, and the path near them.
-fn taught(positions: &[Q], tolerance: f64) -> (usize, Path) {
+/// The path near the way-points of an arm with these positions in each tick.
+fn taught(positions: &[Q], tolerance: f64) -> Path {
     let mut taught = TaughtPath::<f64, 6, N>::try_new(SPACING).expect("spacings");
     for q in positions {
         let recorded = taught.record(q);
@@ -57,8 +57,7 @@ fn taught(positions: &[Q], tolerance: f64) -> (usize, Path) {
     }
     let end = positions.last().expect("some");
     assert_eq!(taught.end(end), Recorded::Stored);
-    let path = taught.spline(&[tolerance; 6]).expect("way-points");
-    (taught.points().len(), path)
+    taught.spline(&[tolerance; 6]).expect("way-points")
 }
 
 fn timed(path: &Path) -> TimedPath<'_, f64, Path, 401> {
@@ -143,7 +142,7 @@ fn a_taught_path_is_played_within_motor_torques() {
     let measured = measured(&guided);
     let mut last = f64::INFINITY;
     for tolerance in TOLERANCES {
-        let (_, path) = taught(&measured, tolerance);
+        let path = taught(&measured, tolerance);
         let motion = timed(&path);
         let (played, planned) = (play(&motion), feedforward(&motion));
         let [seconds, off] = [f64::from(played.ticks) * TICK, off(&path, &guided)];
@@ -176,7 +175,7 @@ fn encoder_noise_and_hand_tremor_cost_little_time() {
     let calm = guide(0.0);
     let shaken = shaken(&calm);
     for tolerance in TOLERANCES {
-        let seconds = |positions: &[Q]| timed(&taught(positions, tolerance).1).seconds();
+        let seconds = |positions: &[Q]| timed(&taught(positions, tolerance)).seconds();
         let least = seconds(&calm);
         let all = [measured(&calm), shaken.clone(), measured(&shaken)];
         let costs = all.map(|positions| 100.0 * (seconds(&positions) / least - 1.0));

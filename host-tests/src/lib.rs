@@ -9,7 +9,6 @@ pub mod friction;
 pub mod fuzz;
 pub mod hard;
 pub mod measured;
-pub mod page;
 pub mod random;
 pub mod recordings;
 pub mod stress_robot;

@@ -9,7 +9,7 @@
 use std::collections::{BTreeSet, HashMap};
 use std::rc::Rc;
 
-use cycle_meter::{Class, Pipe, Reading};
+use cycle_meter::{Class, Pipe};
 use serde::{Deserialize, Serialize};
 
 use crate::decode::Instruction;
@@ -111,7 +111,7 @@ pub fn function(image: &Image, at: u32) -> Bound {
     let at = at & !1;
     let range = image.function(at).unwrap_or((at, u32::MAX));
     let mut run = Run::new(image, range);
-    let pipes = vec![(Pipe::clear(Reading::Chosen), 0)];
+    let pipes = vec![(Pipe::default(), 0)];
     let start = Machine::new(&mut run.names, pipes);
     let cycles = run.call(start, at).map(|end| end.cycles());
     Bound { cycles, branches: run.branches.into_iter().collect() }
@@ -145,13 +145,13 @@ fn before<'a>(image: &Image, whole: &'a Flow, mark: u32) -> Option<Before<'a>> {
         row.push(one);
     }
     row.reverse();
-    let mut pipe = Pipe::clear(Reading::Chosen);
+    let mut pipe = Pipe::default();
     row.iter().for_each(|one| {
         pipe.step(&one.insn);
     });
     let mut pipes = vec![(pipe, 0)];
     if targets.contains(&mark) && !pipe.is_clear() {
-        pipes.push((pipe.cleared(), 0));
+        pipes.push((Pipe::default(), 0));
     }
     // A branch skips what stands before its target.
     let last = targets.range(..=mark).next_back().copied().unwrap_or(0);

@@ -132,7 +132,7 @@ impl Build {
         flags.extend((self == Self::Fused).then(|| FUSED.to_owned()));
         // Paths from the workspace: symbols follow flags, and the order of functions these.
         for script in [&*format!("machines/{}.x", core.machine), "link.x"] {
-            flags.push(format!("-Clink-arg=-T../../firmware-demo/cores/{script}"));
+            flags.push(format!("-Clink-arg=-Tcores/{script}"));
         }
         flags.extend(short_paths(workspace));
         let target = workspace.target.join(format!("gates/{self:?}").to_lowercase());

@@ -4,4 +4,3 @@ mod circles;
 mod files;
 mod pages;
 mod readme;
-mod reference;

@@ -76,68 +76,6 @@ fn the_page_shows_the_controller_of_the_programs() {
     assert!(!words(PAGE).contains(&expected.replace("25.0", "26.0")));
 }
 
-/// The dependencies of a template's manifest from the registry: name, version and features.
-fn dependencies(manifest: &str) -> Vec<[String; 3]> {
-    let (_, rest) = manifest.split_once("[dependencies]\n").expect("dependencies");
-    let lines = rest.lines().take_while(|line| !line.is_empty());
-    let lines = lines.filter(|line| !line.starts_with('#'));
-    let registry = lines.filter(|line| !line.contains("{{library}}") && !line.contains(" = {{"));
-    let parts = registry.map(|line| {
-        let strings: Vec<&str> = line.split('"').skip(1).step_by(2).collect();
-        let name = line.split(' ').next().unwrap_or_default().to_owned();
-        let (version, features) = strings.split_first().expect("a version");
-        let features: Vec<String> = features.iter().map(|one| format!("`{one}`")).collect();
-        let alone = match line.contains("default-features = false") {
-            true => "without its default ones: ",
-            false => "",
-        };
-        [name, (*version).to_owned(), format!("{alone}{}", features.join(", "))]
-    });
-    parts.collect()
-}
-
-/// The dependencies of the projects for boards, as `porting.md` has them.
-#[test]
-fn the_page_has_the_dependencies_of_the_templates() {
-    let templates = [
-        (
-            "RTIC, STM32F4 or STM32G4",
-            include_str!("../../../tools/robot-import/template/board/rtic/Cargo.toml.liquid"),
-        ),
-        (
-            "Embassy, RP2350",
-            include_str!("../../../tools/robot-import/template/board/pico2/Cargo.toml.liquid"),
-        ),
-    ];
-    let hals = concat!(
-        include_str!("../../../tools/robot-import/template/board/stm32f4/hal.toml"),
-        include_str!("../../../tools/robot-import/template/board/stm32g4/hal.toml"),
-        include_str!("../../../tools/robot-import/template/board/can/can.toml"),
-    );
-    let mut table = String::new();
-    for (title, manifest) in templates {
-        table += &format!("\n| {title} | version | features |\n|---|---|---|\n");
-        for [name, version, features] in dependencies(&manifest.replace("{{hal}}\n", hals)) {
-            table += &format!("| `{name}` | {version} | {features} |\n");
-        }
-    }
-    assert!(table.contains("| `embassy-rp` | 0.") && table.contains("`stm32g474`"), "{table}");
-    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src/porting.md");
-    let page = std::fs::read_to_string(&path).expect("the page");
-    let line = "do not edit -->\n";
-    let (before, rest) = page.split_once("<!-- dependencies:begin -->").expect("a begin");
-    let (note, rest) = rest.split_once(line).expect("a note");
-    let (_, after) = rest.split_once("<!-- dependencies:end -->").expect("an end");
-    let current = format!(
-        "{before}<!-- dependencies:begin -->{note}{line}{table}\n<!-- dependencies:end -->{after}"
-    );
-    if std::env::var_os("UPDATE_EXPECT").is_some() {
-        std::fs::write(&path, current).expect("the page is written");
-        return;
-    }
-    assert_eq!(page, current, "UPDATE_EXPECT=1 cargo test -p guide");
-}
-
 #[test]
 fn every_page_is_listed_and_its_code_compiled() {
     let pages = root().join("docs/guide");

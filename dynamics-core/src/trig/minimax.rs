@@ -14,7 +14,7 @@ use super::kernel::bounded;
 ///
 /// Two parts suffice up to ±100 rad, three up to 10⁴; for other x the results are within ±1, see
 /// [`crate::trig`]. Cost: the same instructions for all x. Source: as [`crate::trig`]; the
-/// coefficients are printed by `host-tests/oracle/minimax.py`.
+/// coefficients are printed by `companions/laboratory/minimax.py`.
 ///
 /// ```
 /// use dynamics_core::trig::{Kernel, Minimax};

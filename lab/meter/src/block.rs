@@ -2,7 +2,7 @@
 //! its costs summed once, when it is translated.
 
 use crate::insn::{Class, Insn, Marker};
-use crate::model::{Pipe, Reading};
+use crate::model::Pipe;
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Tally {
@@ -61,14 +61,8 @@ pub struct Block {
 
 impl Block {
     /// The block of these instructions, the first of which is at address `start`.
-    #[cfg(test)]
     pub fn new(start: u32, insns: Vec<Insn>) -> Self {
-        Self::read_as(start, insns, Reading::Chosen)
-    }
-
-    /// The same, with the cycles of a reading of the manual.
-    pub fn read_as(start: u32, insns: Vec<Insn>, reading: Reading) -> Self {
-        let (mut sum, mut pipe) = (Tally::default(), Pipe::clear(reading));
+        let (mut sum, mut pipe) = (Tally::default(), Pipe::default());
         let mut from_clear = vec![(sum, pipe)];
         for insn in &insns {
             sum.charge(insn, &mut pipe);

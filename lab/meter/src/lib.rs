@@ -63,7 +63,7 @@
 //! - A division still running when its region is closed is charged to whoever waits for it.
 //! - The refill is 1 to 3 cycles, by the alignment and the width of the target; we take 2.
 //!
-//! The bracket of these choices is measured with the argument `reading=least` or `reading=most`:
+//! The manual leaves room in these choices too:
 //!
 //! | choice | least | chosen | most |
 //! |---|---|---|---|
@@ -74,8 +74,8 @@
 //! | addend of a multiply-accumulate from the previous instruction | 0 | 1 more | 1 more |
 //! | `SDIV`, `UDIV` | 2 | 12 | 12 |
 //!
-//! The page `silicon.md` of the laboratory compares the three readings with cycles that others
-//! counted on chips.
+//! The page `silicon.md` of the laboratory compares the model with cycles that others counted on
+//! chips.
 //!
 //! # Flash that waits
 //!
@@ -132,7 +132,7 @@ pub use decode::{Operation, Relative, decode, operation, relative, size};
 pub use fetch::{COUPLED, F405, FLASHES, Flash, G474};
 pub use hand_counted::check_hand_counted;
 pub use insn::{Class, Insn, Marker};
-pub use model::{Pipe, Reading};
+pub use model::Pipe;
 /// The newest version of QEMU's plugin interface that the plugin knows.
 pub const NEWEST_INTERFACE: i32 = 7;
 /// The environment variable that sets the version of the interface which the plugin asks QEMU for.

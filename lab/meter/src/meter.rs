@@ -3,7 +3,7 @@
 use crate::block::{Block, Mark, Tally};
 use crate::fetch::{FLASHES, Fetch, in_flash};
 use crate::insn::Marker;
-use crate::model::{Pipe, Reading};
+use crate::model::Pipe;
 use crate::samples::Sample;
 
 /// The running count and the regions that are open.
@@ -31,11 +31,10 @@ pub struct Meter<'b> {
 }
 
 impl<'b> Meter<'b> {
-    /// A meter whose cycles are those of a reading of the manual.
-    pub fn read_as(reading: Reading) -> Self {
+    pub fn new() -> Self {
         Self {
             total: Tally::default(),
-            entry: Pipe::clear(reading),
+            entry: Pipe::default(),
             current: None,
             open: [None; 8],
             fetches: FLASHES.map(Fetch::new),
@@ -128,7 +127,7 @@ impl<'b> Meter<'b> {
                 self.total.cycles += refill;
                 self.fetches.iter_mut().for_each(|fetch| fetch.branch(refill));
             } else {
-                self.entry = self.entry.cleared();
+                self.entry = Pipe::default();
             }
         }
     }
@@ -161,7 +160,7 @@ mod tests {
     fn run(blocks: &[&Block]) -> Vec<Sample> {
         let open = block(0, &dbg(0));
         let close = block(blocks.last().map_or(4, |last| last.end()), &dbg(1));
-        let mut meter = Meter::read_as(Reading::Chosen);
+        let mut meter = Meter::new();
         for block in [&[&open][..], blocks, &[&close]].concat() {
             meter.enter(block, usize::MAX);
             block.marks().iter().for_each(|mark| meter.mark(mark));
@@ -228,7 +227,7 @@ mod tests {
         let whole = block(4, &[NOP, LDR_R0_R1, NOP, NOP]);
         let rest = block(8, &[NOP, NOP]);
         let close = block(12, &dbg(1));
-        let mut meter = Meter::read_as(Reading::Chosen);
+        let mut meter = Meter::new();
         for (block, passed) in [(&open, 0), (&whole, 0), (&rest, 1), (&close, 0)] {
             meter.enter(block, passed);
             block.marks().iter().for_each(|mark| meter.mark(mark));
@@ -241,7 +240,7 @@ mod tests {
         let mark = |start, option| block(start, &dbg(option));
         let (open, body, close) = (mark(0, 0), block(4, &[NOP; 40]), mark(84, 1));
         let elsewhere = block(0x1000, &[NOP; 4000]);
-        let mut meter = Meter::read_as(Reading::Chosen);
+        let mut meter = Meter::new();
         for _ in 0..2 {
             for block in [&elsewhere, &open, &body, &close] {
                 meter.enter(block, usize::MAX);
@@ -261,7 +260,7 @@ mod tests {
     #[test]
     fn unmatched_markers_are_counted() {
         let block = block(0, &[dbg(0), dbg(0), dbg(1), dbg(1)].concat());
-        let mut meter = Meter::read_as(Reading::Chosen);
+        let mut meter = Meter::new();
         meter.enter(&block, 0);
         block.marks().iter().for_each(|mark| meter.mark(mark));
         assert_eq!((meter.samples().len(), meter.unmatched()), (1, 2));

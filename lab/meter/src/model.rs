@@ -4,63 +4,22 @@
 use crate::insn::{Class, Insn};
 
 /// Cycles to refill the pipeline after an executed branch (the manual says 1 to 3).
-#[cfg(test)]
 pub const REFILL: u32 = 2;
 
 /// Cycles that `VDIV` and `VSQRT` go on for after their first one.
 pub const DIVIDER_BUSY: u32 = 13;
 
-/// A reading of the manual where it leaves room: the crate's documentation has the choices of each.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Reading {
-    /// The fewest cycles.
-    Least,
-    /// The choice that every figure uses.
-    #[default]
-    Chosen,
-    /// The most cycles.
-    Most,
-}
-
-impl Reading {
-    /// By its name on the command line.
-    pub fn named(name: &str) -> Option<Self> {
-        match name {
-            "least" => Some(Self::Least),
-            "most" => Some(Self::Most),
-            _ => None,
-        }
-    }
-
-    /// Cycles to refill the pipeline after an executed branch (the manual says 1 to 3).
-    fn refill(self) -> u32 {
-        match self {
-            Self::Least => 1,
-            Self::Chosen => 2,
-            Self::Most => 3,
-        }
-    }
-
-    /// Cycles of `SDIV` and `UDIV` (the manual says 2 to 12): a figure does not depend on the
-    /// operands that a test happened to use.
-    fn integer_divide(self) -> u32 {
-        match self {
-            Self::Least => 2,
-            Self::Chosen | Self::Most => 12,
-        }
-    }
-}
+/// Cycles of `SDIV` and `UDIV` (the manual says 2 to 12): a figure does not depend on the operands
+/// that a test happened to use.
+const INTEGER_DIVIDE: u32 = 12;
 
 /// The state that an instruction leaves behind and that can delay later ones.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Pipe {
-    reading: Reading,
     /// Core registers written by the previous instruction.
     core_results: u16,
     /// Registers written by the previous instruction, if it was floating-point arithmetic.
     float_results: u32,
-    /// Registers loaded by the previous instruction, if a load interlocks no address.
-    loaded: u16,
     /// Whether the previous instruction was a single load.
     after_load: bool,
     /// Cycles until the floating-point divider is done.
@@ -68,19 +27,9 @@ pub struct Pipe {
 }
 
 impl Pipe {
-    /// With nothing pending, by a reading of the manual.
-    pub fn clear(reading: Reading) -> Self {
-        Self { reading, ..Self::default() }
-    }
-
-    /// With nothing pending, by the same reading.
-    pub fn cleared(&self) -> Self {
-        Self::clear(self.reading)
-    }
-
     /// Whether nothing is pending: the next instructions cost what they cost alone.
     pub fn is_clear(&self) -> bool {
-        *self == self.cleared()
+        *self == Self::default()
     }
 
     /// Executes one instruction and returns its cycles, stalls included. A branch
@@ -89,15 +38,10 @@ impl Pipe {
         if insn.is_marker() {
             return 0;
         }
-        let mut stall = u32::from(insn.address & self.core_results != 0);
-        let interlock = insn.address & (self.core_results | self.loaded) != 0;
+        let interlock = insn.address & self.core_results != 0;
+        let mut stall = u32::from(interlock);
         if insn.float {
-            let addend = match (self.reading, insn.class) {
-                (Reading::Least, Class::FloatMultiplyAdd) => insn.float_writes,
-                _ => 0,
-            };
-            let reads = insn.float_reads & !addend;
-            stall += self.divider + u32::from(reads & self.float_results != 0);
+            stall += self.divider + u32::from(insn.float_reads & self.float_results != 0);
             self.divider = 0;
         }
         let cycles = stall + self.issue(insn, interlock);
@@ -106,11 +50,8 @@ impl Pipe {
             FloatArithmetic | FloatConversion | FloatMultiplyAdd | FloatDivide => u32::MAX,
             _ => 0,
         };
-        let is_charged = !matches!((self.reading, insn.class), (Reading::Least, Class::Load));
         *self = Self {
-            reading: self.reading,
-            core_results: if is_charged { insn.core_writes } else { 0 },
-            loaded: if is_charged { 0 } else { insn.core_writes },
+            core_results: insn.core_writes,
             float_results: insn.float_writes & is_arithmetic,
             after_load: insn.class == Class::Load,
             divider: match insn.class {
@@ -123,22 +64,18 @@ impl Pipe {
 
     /// Refills the pipeline after an executed branch and returns the cycles it takes.
     pub fn refill(&mut self) -> u32 {
-        let refill = self.reading.refill();
-        *self = Self { divider: self.divider.saturating_sub(refill), ..self.cleared() };
-        refill
+        *self = Self { divider: self.divider.saturating_sub(REFILL), ..Self::default() };
+        REFILL
     }
 
     fn issue(&self, insn: &Insn, interlock: bool) -> u32 {
-        let reading = self.reading;
         match insn.class {
             Class::Marker(_) => 0,
-            Class::IfThen if reading == Reading::Least => 0,
-            Class::Load | Class::Store if insn.float && reading == Reading::Most => 2,
             Class::Load if self.after_load && !interlock => 1,
             Class::Load | Class::System | Class::TableBranch | Class::FloatMovePair => 2,
-            Class::InstructionBarrier => 1 + reading.refill(),
+            Class::InstructionBarrier => 1 + REFILL,
             Class::FloatMultiplyAdd => 3,
-            Class::IntegerDivide => reading.integer_divide(),
+            Class::IntegerDivide => INTEGER_DIVIDE,
             Class::Words(n) => 1 + u32::from(n),
             _ => 1,
         }
@@ -161,39 +98,22 @@ mod tests {
     }
 
     fn cycles(insns: &[Insn]) -> u32 {
-        read_as(Reading::Chosen, insns)
-    }
-
-    fn read_as(reading: Reading, insns: &[Insn]) -> u32 {
-        let mut pipe = Pipe::clear(reading);
+        let mut pipe = Pipe::default();
         insns.iter().map(|insn| pipe.step(insn)).sum()
     }
 
-    /// The cycles by the least favourable, the chosen and the most favourable reading, from the
-    /// fewest.
-    fn bracket(insns: &[Insn]) -> [u32; 3] {
-        [Reading::Least, Reading::Chosen, Reading::Most].map(|reading| read_as(reading, insns))
-    }
-
     #[test]
-    fn each_choice_of_the_manual_has_its_bracket() {
-        let refills = [Reading::Least, Reading::Chosen, Reading::Most]
-            .map(|reading| Pipe::clear(reading).refill());
-        assert_eq!(refills, [1, 2, 3]);
-        assert_eq!(bracket(&[Insn::new(Class::IfThen, 2)]), [0, 1, 1]);
-        assert_eq!(bracket(&[Insn::new(Class::IntegerDivide, 4)]), [2, 12, 12]);
-        // An address from a load: no pipelining, and by the least reading no further cycle.
-        assert_eq!(bracket(&[load(2, 1), load(1, 4)]), [4, 5, 5]);
-        assert_eq!(bracket(&[load(2, 1), load(2, 4)]), [3, 3, 3]);
-        assert_eq!(bracket(&[INTEGER.writing(1), load(1, 2)]), [4, 4, 4]);
+    fn each_choice_where_the_manual_leaves_room_is_made() {
+        assert_eq!(Pipe::default().refill(), 2);
+        assert_eq!(cycles(&[Insn::new(Class::IfThen, 2)]), 1);
+        assert_eq!(cycles(&[Insn::new(Class::IntegerDivide, 4)]), 12);
+        assert_eq!(cycles(&[load(2, 1), load(1, 4)]), 5);
+        assert_eq!(cycles(&[load(2, 1), load(2, 4)]), 3);
         // The addend of a multiply-accumulate is the register that it writes.
         let add = float(Class::FloatArithmetic, 0b110, 0b1);
-        let onto = float(Class::FloatMultiplyAdd, 0b11001, 0b1);
-        assert_eq!(bracket(&[add, onto]), [4, 5, 5]);
-        let by = float(Class::FloatMultiplyAdd, 0b11001, 0b1000);
-        assert_eq!(bracket(&[add, by]), [5, 5, 5]);
+        assert_eq!(cycles(&[add, float(Class::FloatMultiplyAdd, 0b11001, 0b1)]), 5);
         let (loads, stores) = (float(Class::Load, 0, 0b1), float(Class::Store, 0b1, 0));
-        assert_eq!(bracket(&[loads, loads, stores]), [4, 4, 6]);
+        assert_eq!(cycles(&[loads, loads, stores]), 4);
     }
 
     #[test]

@@ -11,7 +11,6 @@ use crate::decode::decode;
 use crate::ffi::{self, Info, PluginId, Qemu, Tb};
 use crate::insn::Insn;
 use crate::meter::Meter;
-use crate::model::Reading;
 use crate::samples::format_samples;
 
 struct Plugin {
@@ -19,7 +18,6 @@ struct Plugin {
     /// The version of the interface that QEMU speaks, whichever was requested.
     version: c_int,
     out: PathBuf,
-    reading: Reading,
     meter: Meter<'static>,
     /// Blocks by address and length, so that code translated again takes no new
     /// memory. They are never freed: QEMU may run them until it exits.
@@ -84,17 +82,11 @@ fn install(
     info: &Info,
     arguments: impl Iterator<Item = String>,
 ) -> Result<(), String> {
-    let (mut out, mut reading) = (None, Reading::default());
+    let mut out = None;
     for argument in arguments {
         match argument.split_once('=') {
             Some(("out", path)) if !path.is_empty() => out = Some(PathBuf::from(path)),
-            Some(("reading", name)) if Reading::named(name).is_some() => {
-                reading = Reading::named(name).unwrap_or_default();
-            }
-            _ => {
-                let what = "expected out=PATH, reading=least or reading=most";
-                return Err(format!("unknown argument `{argument}`; {what}"));
-            }
+            _ => return Err(format!("unknown argument `{argument}`; expected out=PATH")),
         }
     }
     let out = out.ok_or("expected the argument out=PATH")?;
@@ -106,8 +98,7 @@ fn install(
         qemu,
         version: info.version_cur,
         out,
-        reading,
-        meter: Meter::read_as(reading),
+        meter: Meter::new(),
         blocks: HashMap::new(),
         checkpoints: 0,
         checkpoints_at_entry: 0,
@@ -218,7 +209,7 @@ impl Plugin {
         if let Some(block) = known.iter().find(|block| block.insns() == insns) {
             return block;
         }
-        let block: &Block = Box::leak(Box::new(Block::read_as(start, insns, self.reading)));
+        let block: &Block = Box::leak(Box::new(Block::new(start, insns)));
         known.push(block);
         block
     }

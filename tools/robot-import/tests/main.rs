@@ -1,6 +1,5 @@
 //! Imports from files to written code and projects, in one program.
 
-mod edits;
 mod held;
 mod hostile;
 mod imports;

@@ -5,11 +5,8 @@ use std::process::ExitCode;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
-use cycle_meter::Sample;
-
-use crate::kit::bracket::{READINGS, bracket};
 use crate::kit::elf::Image;
-use crate::kit::error::{Error, Result, check, refuse_if};
+use crate::kit::error::{Error, Result};
 use crate::kit::progress::Spinner;
 use crate::kit::protocol::{FEEDFORWARD, PD, Recording};
 use crate::kit::qemu::Run;
@@ -19,7 +16,7 @@ use crate::kit::toolchain::RELEASE;
 use crate::kit::workspace::{self, Workspace};
 use crate::kit::{docs, firmware, meter, output};
 use crate::studies::scenes::plot;
-use crate::studies::scenes::report::{Report, feedforward_costs};
+use crate::studies::scenes::report::Report;
 use crate::studies::{budgets, scenes};
 
 /// The picture of the default scene.
@@ -77,7 +74,7 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
     }
     let reports: Vec<&Report> = measured.iter().map(|one| &one.report).collect();
     if args.write_docs {
-        write_docs(&workspace, &tools, &built.meter, &measured)?;
+        write_docs(&workspace, &measured)?;
         if args.all {
             scenes::PAGE.write(&workspace, &scenes::markdown(&reports))?;
         }
@@ -96,16 +93,10 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
 }
 
 /// The table and the picture of the default scene.
-fn write_docs(
-    workspace: &Workspace,
-    tools: &Tools,
-    plugin: &Path,
-    measured: &[Measured],
-) -> Result<()> {
+fn write_docs(workspace: &Workspace, measured: &[Measured]) -> Result<()> {
     let shown = Scene::default().name();
     for one in measured.iter().filter(|one| one.report.scene == shown) {
-        let brackets = brackets(workspace, tools, plugin, one)?;
-        scenes::TICK.write(workspace, &one.report.markdown(&brackets))?;
+        scenes::TICK.write(workspace, &one.report.markdown())?;
         plot::write(&one.recording, &workspace.report(PICTURE))?;
     }
     Ok(())
@@ -192,43 +183,6 @@ pub fn measure(
     Ok(Measured { report, recording, elf: elf.to_owned(), raw: (raw, metered) })
 }
 
-/// The brackets of the longest tick with feed-forward and of its phases, by two more runs side by
-/// side.
-///
-/// # Errors
-/// A run logs other bytes, or executes other instructions, than the measured one.
-fn brackets(
-    workspace: &Workspace,
-    tools: &Tools,
-    plugin: &Path,
-    measured: &Measured,
-) -> Result<Vec<[u64; 2]>> {
-    let name = &*measured.report.scene;
-    let spinner =
-        Spinner::start(&format!("running scene {name} by two more readings of the manual"));
-    let longest = |reading: &'static str| -> Result<Vec<u64>> {
-        let regions = workspace.output(&format!("{name}.{reading}.regions"))?;
-        let mut run = Run::logging(name, &measured.elf, Some((plugin, &regions)));
-        run.reading = reading;
-        let log = tools.qemu.run(&run, |_| Ok(()))?;
-        let samples = meter::read(&regions)?;
-        same_run(&measured.raw, &log, &samples)?;
-        let costs = feedforward_costs(&measured.recording, &samples)?;
-        Ok(costs.iter().map(|cost| cost.cycles.max).collect())
-    };
-    let [least, most] = std::thread::scope(|scope| {
-        let runs = READINGS.map(|reading| scope.spawn(move || longest(reading)));
-        runs.map(|run| {
-            let lost = |_| Err(check!("a run by another reading was lost"));
-            run.join().unwrap_or_else(lost)
-        })
-    });
-    drop(spinner);
-    let chosen = measured.report.tick.values().map(|cost| cost.cycles.max);
-    let all = least?.into_iter().zip(chosen).zip(most?);
-    all.map(|((least, chosen), most)| bracket([least, chosen, most])).collect()
-}
-
 /// Runs a scene, with the meter and its file or without, and returns what it said, and that as it
 /// came.
 fn record(
@@ -252,21 +206,9 @@ fn record(
     Ok((recording, raw))
 }
 
-/// Refuses a run that is not a repetition of the first: whose log has other bytes, or whose regions
-/// have other instructions.
-fn same_run(first: &(Vec<u8>, String), log: &[u8], samples: &[Sample]) -> Result<()> {
-    refuse_if!(first.0 != log, "two runs of the same ELF logged different bytes");
-    let of_first =
-        cycle_meter::parse_samples(&first.1).map_err(|e| check!("the first run: {e}"))?;
-    let executed = |sample: &Sample| (sample.region, sample.instructions);
-    let same = of_first.iter().map(executed).eq(samples.iter().map(executed));
-    refuse_if!(!same, "two runs of the same ELF executed different instructions");
-    Ok(())
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{run_in_words, same_run};
+    use super::run_in_words;
 
     #[test]
     fn a_run_is_said_in_words() {
@@ -276,18 +218,5 @@ mod tests {
         let without = words("run mismatched without-Coulomb 0x1").expect("a run");
         assert_eq!(without, "without Coulomb, with the mismatched model");
         assert_eq!(words("tick 7"), None);
-    }
-
-    #[test]
-    fn a_run_that_differs_is_found() {
-        let file =
-            |instructions: u64| format!("{}\n0 {instructions} 9 2 1 0 8\n", cycle_meter::HEADER);
-        let samples =
-            |instructions| cycle_meter::parse_samples(&file(instructions)).expect("samples");
-        let first = (b"log".to_vec(), file(7));
-        assert!(same_run(&first, b"log", &samples(7)).is_ok());
-        assert!(same_run(&first, b"lag", &samples(7)).is_err());
-        assert!(same_run(&first, b"log", &samples(8)).is_err());
-        assert!(same_run(&first, b"log", &[]).is_err());
     }
 }

@@ -24,7 +24,7 @@ pub const SHARED: Together = Together {
     packages: "--workspace --exclude xtask --exclude telemetry-watch --exclude firmware-demo \
          --exclude lab-firmware --exclude identification --exclude simulation-tests",
     // Hard cases that compute for minutes are optimised.
-    full: "--features dynamics-c/full,guide/full,host-tests/full,robot-import/full \
+    full: "--features dynamics-c/full,host-tests/full,robot-import/full \
          --config profile.dev.package.dynamics-c.opt-level=1 \
          --config profile.dev.package.simulation-tests.opt-level=2",
     folder: "debug",

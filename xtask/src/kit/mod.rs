@@ -3,7 +3,6 @@
 
 pub mod apt;
 pub mod bars;
-pub mod bracket;
 pub mod callgraph;
 pub mod chart;
 pub mod display;

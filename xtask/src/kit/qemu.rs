@@ -64,9 +64,6 @@ pub struct Run<'a> {
     pub elf: &'a Path,
     /// The cycle meter and the file that it writes, if its regions are to be measured.
     pub meter: Option<(&'a Path, &'a Path)>,
-    /// By which of [`READINGS`](crate::kit::bracket::READINGS) the meter counts cycles, or nothing
-    /// for the chosen one.
-    pub reading: &'a str,
     /// Whether it logs, and then ends with [`DONE`]; one that does not must stay silent.
     pub logs: bool,
     /// The value of QEMU's option `-serial`.
@@ -78,7 +75,7 @@ pub struct Run<'a> {
 impl<'a> Run<'a> {
     /// A firmware that logs, and is measured if there is a meter.
     pub fn logging(name: &'a str, elf: &'a Path, meter: Option<(&'a Path, &'a Path)>) -> Self {
-        Self { name, elf, meter, reading: "", logs: true, serial: "none", words: &[] }
+        Self { name, elf, meter, logs: true, serial: "none", words: &[] }
     }
 }
 
@@ -255,10 +252,7 @@ impl Qemu {
         command.args(["-serial", run.serial, "-semihosting-config", &semihosting]);
         if let Some((plugin, out)) = run.meter {
             let [file, out] = [plugin, out].map(|path| doubled(path.display()));
-            let mut plugged = format!("file={file},out={out}");
-            if !run.reading.is_empty() {
-                plugged += &format!(",reading={}", run.reading);
-            }
+            let plugged = format!("file={file},out={out}");
             command.args(["-plugin", &plugged]);
             let version = self.interface(plugin)?;
             command.envs(version.map(|version| (cycle_meter::INTERFACE, version.to_string())));

@@ -122,23 +122,21 @@ pub fn run(
     elf: &Path,
 ) -> Result<(Vec<Row>, Vec<String>)> {
     let image = Image::read(elf)?;
-    let (lines, samples) = watch(tools, meter, name, elf, "")?;
+    let (lines, samples) = watch(tools, meter, name, elf)?;
     let rows =
         cut(&lines, &samples, |address| code_bytes(&image, address, |name| name.contains("libm")))?;
     Ok((rows, lines))
 }
 
 /// Runs a bin under the meter for what its rows take, not how long their code is: of code that
-/// calls through registers nobody knows. By a reading of the manual, or the chosen one if it is
-/// empty.
+/// calls through registers nobody knows.
 pub fn run_for_time(
     tools: &Tools,
     meter: &Path,
     name: &'static str,
     elf: &Path,
-    reading: &str,
 ) -> Result<Vec<Row>> {
-    let (lines, samples) = watch(tools, meter, name, elf, reading)?;
+    let (lines, samples) = watch(tools, meter, name, elf)?;
     cut(&lines, &samples, |_| Ok(0))
 }
 
@@ -147,11 +145,9 @@ fn watch(
     meter: &Path,
     name: &'static str,
     elf: &Path,
-    reading: &str,
 ) -> Result<(Vec<String>, Vec<Sample>)> {
     let regions = elf.with_extension("regions");
-    let mut run = Run::logging(name, elf, Some((meter, &regions)));
-    run.reading = reading;
+    let run = Run::logging(name, elf, Some((meter, &regions)));
     Ok((tools.qemu.lines(&run)?, meter::read(&regions)?))
 }
 

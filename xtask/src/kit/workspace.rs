@@ -13,7 +13,7 @@ use crate::kit::{shell, unpacked};
 /// Cargo finds a bin and a feature in the one that has it.
 pub const FIRMWARE: [&str; 2] = ["firmware-demo", LAB];
 pub const LAB: &str = "lab-firmware";
-/// The manifest of the workspace of boards and cores, which has HALs that nobody else needs.
+/// The manifest of the workspace of boards, which has HALs that nobody else needs.
 pub const BOARDS: &str = "firmware-demo/boards/Cargo.toml";
 
 /// The workspace that xtask was called in.

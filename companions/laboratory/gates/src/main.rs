@@ -18,7 +18,7 @@ mod counters;
 mod on_bus;
 mod rows;
 #[cfg(target_os = "none")]
-#[path = "../../../../firmware-demo/cores/src/start.rs"]
+#[path = "../../cores/src/start.rs"]
 mod start;
 mod ticks;
 

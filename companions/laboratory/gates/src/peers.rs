@@ -9,7 +9,7 @@
 mod counters;
 #[expect(dead_code, reason = "the rows of this library are those of the image without C")]
 mod rows;
-#[path = "../../../../firmware-demo/cores/src/start.rs"]
+#[path = "../../cores/src/start.rs"]
 mod start;
 
 use core::hint::black_box;

@@ -11,7 +11,7 @@ use xtask::kit::{system, toolchain};
 #[derive(Debug)]
 pub struct Core {
     pub name: &'static str,
-    /// The machine of QEMU, which names the memory map in `firmware-demo/cores/machines/` too.
+    /// The machine of QEMU, which names the memory map in `cores/machines/` too.
     pub machine: &'static str,
     pub target: &'static str,
     /// The flags of the compiler.

@@ -5,12 +5,13 @@ use std::time::Duration;
 
 use super::list::{self, Core};
 use super::walk;
+use crate::MANIFEST;
 use xtask::kit::elf::Image;
 use xtask::kit::error::{Result, check, refuse_if};
 use xtask::kit::qemu::Qemu;
 use xtask::kit::shell;
 use xtask::kit::toolchain::RELEASE;
-use xtask::kit::workspace::{BOARDS, Workspace};
+use xtask::kit::workspace::Workspace;
 
 const PACKAGE: &str = "cores";
 /// The time limit of a core in QEMU.
@@ -79,7 +80,7 @@ impl Said {
 /// The torques of this machine, which no emulator computes.
 pub fn on_host(workspace: &Workspace) -> Result<Vec<Torques>> {
     let mut command = workspace.cargo("run");
-    command.args(["--quiet", "--manifest-path", BOARDS, "--package", PACKAGE]);
+    command.args(["--quiet", "--manifest-path", MANIFEST, "--package", PACKAGE]);
     command.arg("--target-dir").arg(workspace.target.join(PACKAGE));
     Ok(Said::read(&shell::capture(&mut command)?)?.torques)
 }
@@ -89,14 +90,14 @@ pub fn build(workspace: &Workspace, core: &Core) -> Result<PathBuf> {
     let mut flags: Vec<String> = core.flags.iter().map(ToString::to_string).collect();
     // Cargo calls the linker in the folder of the workspace.
     for script in [format!("machines/{}.x", core.machine), "link.x".into()] {
-        flags.push(format!("-Clink-arg=-T../{PACKAGE}/{script}"));
+        flags.push(format!("-Clink-arg=-T{PACKAGE}/{script}"));
     }
     flags.extend(list::short_paths(workspace));
     // Apart from other firmware of the same targets, whose flags differ.
     let target = workspace.target.join(PACKAGE);
     let mut command = workspace.cargo("build");
     command
-        .args(["--manifest-path", BOARDS, "--profile", RELEASE])
+        .args(["--manifest-path", MANIFEST, "--profile", RELEASE])
         .args(["--package", PACKAGE])
         .args(["--target", core.target, "--target-dir"])
         .arg(&target)
@@ -154,7 +155,7 @@ mod tests {
             "done\n",
             "digest small 2 00ff\n",
             "digest small two 00ff\ndone\n",
-            "panicked at firmware-demo/cores/src/main.rs\n",
+            "panicked at cores/src/main.rs\n",
             "digest small 2 00ff\ndone\nstack small 200\n",
         ] {
             assert!(Said::read(bad).is_err(), "{bad:?}");

@@ -1,5 +1,5 @@
 //! Claims about an arm that a hand guides: a UR5e with friction of bristles, of which the law has a
-//! model with a smooth sign. `TABLES_WRITE=1` writes the tables of `docs/guide/src/guiding.md`.
+//! model with a smooth sign. The tables of `docs/guide/src/guiding.md` were measured here.
 
 pub mod cell;
 pub mod plant;
@@ -10,11 +10,7 @@ mod walls;
 use self::cell::{Cell, Setup, TICK, config};
 use self::plant::{Hand, Inertias, Q};
 use glam::DVec3;
-use host_tests::page::Table;
 
-const fn table(name: &'static str) -> Table {
-    Table { page: "guiding.md", name, test: "host-tests/simulations/tests/hand_guiding" }
-}
 /// The last one is nearly stretched, with the greatest torque of gravity.
 const POSTURES: [Q; 4] = [
     [0.0, -1.57, 1.57, -1.57, -1.57, 0.0],
@@ -87,48 +83,29 @@ fn most(x: &[f64]) -> f64 {
     x.iter().copied().fold(0.0, f64::max)
 }
 
-fn range(x: &[f64]) -> String {
-    let least = x.iter().copied().fold(f64::INFINITY, f64::min);
-    format!("{least:.0} to {:.0} N", most(x))
-}
-
 // The force of breakaway is that of stiction.
 #[test]
 fn the_mean_drag_is_at_most_a_quarter() {
-    let mut rows = String::from(
-        "| stated error of gravity | the tip moves at | without compensation | model exact | \
-         over-estimated by 10 % | under-estimated by 10 % |\n\
-         |---|---|---:|---:|---:|---:|\n",
-    );
     for gravity_error in GRAVITY_ERRORS {
         for path in SPEEDS {
             let none = all(|q, way| drag(q, &setup(0.0, 0.0), way, path));
-            let [percent, speed] = [100.0 * gravity_error, 1e3 * path[0]];
-            rows += &format!("| {percent:.0} % | {speed:.0} mm/s | {} |", range(&none));
+            println!("{gravity_error} {path:?}: {none:.1?} N");
             for over in [0.0, 0.1, -0.1] {
                 let setup = Setup { gravity_error, ..setup(SHARE, over) };
                 let compensated = all(|q, way| drag(q, &setup, way, path));
                 let shares: Vec<f64> = compensated.iter().zip(&none).map(|(c, n)| c / n).collect();
-                println!("{percent} % {path:?} {over}: {shares:.2?}");
-                rows += &format!(" {:.2} ({:.2}) |", mean(&shares), most(&shares));
+                println!("{gravity_error} {path:?} {over}: {shares:.2?}");
                 let bars = [0.25, if gravity_error > 0.01 { 0.4 } else { 0.27 }];
                 let holds = mean(&shares) <= bars[0] && most(&shares) <= bars[1];
                 assert!(holds || over < 0.0, "{over}: {shares:?}");
             }
-            rows += "\n";
         }
     }
-    rows += "\n| from rest | without compensation | model exact | over-estimated by 10 % | \
-             under-estimated by 10 % |\n\
-             |---|---:|---:|---:|---:|\n| breakaway |";
     let forces = [(0.0, 0.0), (SHARE, 0.0), (SHARE, 0.1), (SHARE, -0.1)]
         .map(|(share, over)| all(|q, way| breakaway(q, &setup(share, over), way)));
     for of in &forces {
         println!("breakaway: {of:.1?} N");
-        rows += &format!(" {} |", range(of));
         let pairs = of.iter().zip(&forces[0]);
         assert!(pairs.into_iter().all(|(of, none)| of <= none), "{of:?}");
     }
-    rows += "\n";
-    table("drag").write(&rows);
 }

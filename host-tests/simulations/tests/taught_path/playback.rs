@@ -17,7 +17,6 @@ use motion_control::safety::SupervisorConfig;
 use crate::hand_guiding::cell::TICK;
 use crate::hand_guiding::plant::{Inertias, Q, SLIDING, arm, modelled, real};
 use crate::taught_path::person::{STEP, guide, measured, shaken};
-use crate::taught_path::table;
 use crate::taught_path::ur5e::{RIGID, inverse_dynamics};
 use simulation_tests::plant::VISCOUS;
 
@@ -49,8 +48,8 @@ fn limits() -> PathLimits<f64, 6> {
     }
 }
 
-/// The number of way-points of an arm with these positions in each tick, and the path near them.
-fn taught(positions: &[Q], tolerance: f64) -> (usize, Path) {
+/// The path near the way-points of an arm with these positions in each tick.
+fn taught(positions: &[Q], tolerance: f64) -> Path {
     let mut taught = TaughtPath::<f64, 6, N>::try_new(SPACING).expect("spacings");
     for q in positions {
         let recorded = taught.record(q);
@@ -58,8 +57,7 @@ fn taught(positions: &[Q], tolerance: f64) -> (usize, Path) {
     }
     let end = positions.last().expect("some");
     assert_eq!(taught.end(end), Recorded::Stored);
-    let path = taught.spline(&[tolerance; 6]).expect("way-points");
-    (taught.points().len(), path)
+    taught.spline(&[tolerance; 6]).expect("way-points")
 }
 
 fn timed(path: &Path) -> TimedPath<'_, f64, Path, 401> {
@@ -142,28 +140,12 @@ const TOLERANCES: [f64; 4] = [0.0, 0.002, 0.005, 0.01];
 fn a_taught_path_is_played_within_motor_torques() {
     let guided = guide(1.0);
     let measured = measured(&guided);
-    let person = guided.len() as f64 * TICK;
-    let mut rows = String::from(
-        "| tolerance | way-points | the person | played back | distance from the person's path | \
-         torque of the plan | of the drives | ticks with a limited torque | tracking error |\n\
-         |---:|---:|---:|---:|---:|---:|---:|---:|---:|\n",
-    );
     let mut last = f64::INFINITY;
     for tolerance in TOLERANCES {
-        let (points, path) = taught(&measured, tolerance);
+        let path = taught(&measured, tolerance);
         let motion = timed(&path);
         let (played, planned) = (play(&motion), feedforward(&motion));
         let [seconds, off] = [f64::from(played.ticks) * TICK, off(&path, &guided)];
-        rows += &format!(
-            "| {:.0} mrad | {points} | {person:.1} s | {seconds:.2} s | {:.1} mrad | {:.1} % | \
-             {:.1} % | {} | {:.1} mrad |\n",
-            1e3 * tolerance,
-            1e3 * off,
-            100.0 * planned,
-            100.0 * played.torque,
-            played.limited,
-            1e3 * played.error
-        );
         println!("{tolerance}: planned {planned}, {played:?}, {off} rad");
         // Between the points of the grid, a path through every noisy way-point bends more.
         let most = if tolerance > 0.0 { 1.01 } else { 1.1 };
@@ -174,7 +156,6 @@ fn a_taught_path_is_played_within_motor_torques() {
         within("from the person's path, rad", off, 5e-3 + 1.2 * tolerance);
         last = seconds;
     }
-    table("playback").write(&rows);
 }
 
 /// The greatest share of a torque's limit in the feed-forward, with friction.
@@ -193,13 +174,8 @@ fn feedforward(motion: &impl Reference<f64, 6>) -> f64 {
 fn encoder_noise_and_hand_tremor_cost_little_time() {
     let calm = guide(0.0);
     let shaken = shaken(&calm);
-    let mut rows = String::from(
-        "| tolerance | without noise and tremor | noise of the encoders | tremor of 1 mrad | both \
-         |\n\
-         |---:|---:|---:|---:|---:|\n",
-    );
     for tolerance in TOLERANCES {
-        let seconds = |positions: &[Q]| timed(&taught(positions, tolerance).1).seconds();
+        let seconds = |positions: &[Q]| timed(&taught(positions, tolerance)).seconds();
         let least = seconds(&calm);
         let all = [measured(&calm), shaken.clone(), measured(&shaken)];
         let costs = all.map(|positions| 100.0 * (seconds(&positions) / least - 1.0));
@@ -210,12 +186,6 @@ fn encoder_noise_and_hand_tremor_cost_little_time() {
             _ => 0.5,
         };
         within("cost of noise and tremor, %", worst, bar);
-        let [noise, tremor, both] = costs;
         println!("{tolerance}: {least} s; {costs:?}");
-        rows += &format!(
-            "| {:.0} mrad | {least:.2} s | {noise:+.1} % | {tremor:+.1} % | {both:+.1} % |\n",
-            1e3 * tolerance
-        );
     }
-    table("noise").write(&rows);
 }

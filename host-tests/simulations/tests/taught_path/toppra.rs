@@ -9,7 +9,6 @@ use motion_control::reference::{GeometricPath, JointFriction, PathLimits, PathSp
 use serde::Deserialize;
 
 use crate::hand_guiding::plant::{Q, ROTORS};
-use crate::taught_path::table;
 use crate::taught_path::ur5e::{Shares, inverse_dynamics, shares};
 
 /// The output of `host-tests/oracle/toppra_paths.py`.
@@ -88,10 +87,6 @@ fn compared<const M: usize>() -> Compared {
     all
 }
 
-fn mean(x: &[f64]) -> f64 {
-    x.iter().sum::<f64>() / x.len() as f64
-}
-
 fn most(x: &[f64]) -> f64 {
     x.iter().copied().fold(f64::NEG_INFINITY, f64::max)
 }
@@ -103,11 +98,6 @@ fn least(x: &[f64]) -> f64 {
 // The limits hold between the grid points too.
 #[test]
 fn durations_agree_with_toppra_within_the_limits() {
-    let mut rows = String::from(
-        "| grid points | duration against toppra, mean | worst | greatest share of a torque's \
-         limit | of a speed's | of an acceleration's |\n\
-         |---:|---:|---:|---:|---:|---:|\n",
-    );
     let compared = [
         (51, compared::<51>()),
         (101, compared::<101>()),
@@ -115,16 +105,8 @@ fn durations_agree_with_toppra_within_the_limits() {
         (401, compared::<401>()),
     ];
     for (points, all) in &compared {
-        let [mean, worst] = [mean(&all.durations), most(&all.durations)].map(|x| 100.0 * (x - 1.0));
-        let Shares { torque, speed, acceleration } = all.most;
-        let [torque, speed, acceleration] = [torque, speed, acceleration].map(|x| 100.0 * x);
-        rows += &format!(
-            "| {points} | {mean:+.2} % | {worst:+.2} % | {torque:.2} % | {speed:.2} % | \
-             {acceleration:.2} % |\n"
-        );
         println!("{points}: {:.4?} {:?}", all.durations, all.most);
     }
-    println!("{rows}");
     let [_, _, (_, coarse), (_, fine)] = &compared;
     within("duration, 201 points", most(&coarse.durations) - 1.0, 0.025);
     within("duration, 401 points", most(&fine.durations) - 1.0, 0.01);
@@ -133,7 +115,6 @@ fn durations_agree_with_toppra_within_the_limits() {
     within("torque, 401 points", fine.most.torque - 1.0, 0.005);
     within("acceleration, 401 points", fine.most.acceleration - 1.0, 0.002);
     within("speed, 401 points", fine.most.speed - 1.0, 1e-3);
-    table("toppra").write(&rows);
 }
 
 #[test]

@@ -18,7 +18,7 @@ fn alone(joint: usize) -> FourierMotion<6> {
 fn parameters_of_resting_joints_are_named_as_undetermined() {
     let motion = alone(2);
     assert!(ARM.condition(&states(&motion, 200)) > 1e6);
-    let run = Run::new(&motion, &Parameters::off(3), Friction::Modelled);
+    let run = Run::new(&motion, &Parameters::off(3));
     let error = Batch::new(HARMONICS, TICK)
         .identify(&*ARM, &run.recorded(NOISE, 3))
         .expect_err("one joint does not show all");
@@ -96,7 +96,7 @@ fn an_arm_without_noise_is_identified() {
 #[test]
 fn an_impossible_nominal_body_is_named() {
     let Parameters { mut bodies, joints } = Parameters::nominal();
-    let found = crate::coverage::identified(&ARM, &Parameters::off(1), Friction::Modelled, 1);
+    let found = crate::coverage::identified(&ARM, &Parameters::off(1), 1);
     bodies[4] = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
     let error = found.physical(&*ARM, &bodies, &joints, 0.3);
     assert_eq!(error, Err(IdentificationError::ImpossibleBody { body: 4 }));
@@ -110,12 +110,11 @@ fn an_impossible_nominal_body_is_named() {
 #[test]
 fn the_delay_of_held_torques_matters() {
     let truth = Parameters::off(2);
-    let recording = Run::new(&CHOSEN, &truth, Friction::Modelled).recorded([0.0; 6], 2);
+    let recording = Run::new(&CHOSEN, &truth).recorded([0.0; 6], 2);
     let errors = [0.5, -0.5, -1.5].map(|ticks| {
         let batch = Batch { delay: ticks * TICK, ..Batch::new(HARMONICS, TICK) };
         let found = batch.identify(&*ARM, &recording).expect("a good motion");
-        crate::coverage::errors(&ARM, &found.base, &truth.base(), &states(&CHOSEN, 200), &[])
-            .largest
+        crate::coverage::errors(&ARM, &found.base, &truth.base(), &states(&CHOSEN, 200)).largest
     });
     assert!(3.0 * errors[0] < errors[1] && 1.5 * errors[1] < errors[2], "{errors:?}");
 }

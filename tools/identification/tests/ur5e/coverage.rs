@@ -3,19 +3,14 @@
 
 use std::sync::LazyLock;
 
-use dynamics_core::effects::{RIGID_BODY, Width};
-use dynamics_core::model::Robot;
-use dynamics_core::robots::Ur5e;
 use dynamics_core::state::State;
-use identification::{BaseModel, Batch, FourierMotion, Identified, Search};
+use identification::{Batch, FourierMotion, Identified, Search};
 
 use crate::physical::assert_possible;
 use crate::plant::*;
 use crate::setup::*;
 
 const SEEDS: u64 = 100;
-/// Arms with bristles.
-const FEW: u64 = 10;
 
 /// The outcome for one arm.
 struct Outcome {
@@ -46,21 +41,14 @@ pub struct Errors {
     pub rated: f64,
 }
 
-pub fn errors(
-    arm: &Arm,
-    found: &[f64],
-    truth: &[f64],
-    path: &[State<f64, 6, 6>],
-    more: &[[f64; 6]],
-) -> Errors {
+pub fn errors(arm: &Arm, found: &[f64], truth: &[f64], path: &[State<f64, 6, 6>]) -> Errors {
     let (mut errors, mut squares, mut full) = ([0.0_f64; 6], [0.0; 6], [0.0_f64; 6]);
-    for (k, state) in path.iter().enumerate() {
+    for state in path {
         let (found, real) = (arm.torques(found, state), ARM.torques(truth, state));
         for j in 0..6 {
-            let real = real[j] + more.get(k).map_or(0.0, |more| more[j]);
-            errors[j] = errors[j].max((found[j] - real).abs());
-            squares[j] += (found[j] - real).powi(2) / path.len() as f64;
-            full[j] = full[j].max(real.abs());
+            errors[j] = errors[j].max((found[j] - real[j]).abs());
+            squares[j] += (found[j] - real[j]).powi(2) / path.len() as f64;
+            full[j] = full[j].max(real[j].abs());
         }
     }
     let worst = |of: &dyn Fn(usize) -> f64| (0..6).map(of).fold(0.0, f64::max);
@@ -72,27 +60,22 @@ pub fn errors(
     }
 }
 
-pub fn identified(arm: &Arm, truth: &Parameters, friction: Friction, seed: u64) -> Identified<6> {
-    let run = Run::new(&CHOSEN, truth, friction);
+pub fn identified(arm: &Arm, truth: &Parameters, seed: u64) -> Identified<6> {
+    let run = Run::new(&CHOSEN, truth);
     let recording = run.recorded(NOISE, 1000 + seed);
     Batch::new(HARMONICS, TICK).identify(arm, &recording).expect("a good motion")
 }
 
-fn outcome(arm: &Arm, seed: u64, friction: Friction) -> Outcome {
+fn outcome(seed: u64) -> Outcome {
     let (truth, nominal) = (Parameters::off(seed), Parameters::nominal());
-    let found = identified(arm, &truth, friction, seed);
-    let set = (found.physical(arm, &nominal.bodies, &nominal.joints, 0.3)).expect("a good model");
+    let found = identified(&ARM, &truth, seed);
+    let set = (found.physical(&*ARM, &nominal.bodies, &nominal.joints, 0.3)).expect("a good model");
     assert_possible(&set);
     let base = truth.base();
     let (other, work) = (states(&OTHER, 500), pick_and_place());
-    let more = match friction {
-        Friction::Modelled => Vec::new(),
-        Friction::Bristles => beyond(&truth, &OTHER),
-    };
     let physical = ARM.of_all(&set.bodies, &set.joints);
-    let torques = [&nominal.base(), &found.base, &physical].map(|found| {
-        [errors(arm, found, &base, &other, &more), errors(arm, found, &base, &work, &[])]
-    });
+    let torques = [&nominal.base(), &found.base, &physical]
+        .map(|found| [errors(&ARM, found, &base, &other), errors(&ARM, found, &base, &work)]);
     let deviations = found.base.iter().zip(&base).zip(&found.deviations);
     Outcome {
         errors: deviations.map(|((found, base), deviation)| (found - base) / deviation).collect(),
@@ -104,8 +87,7 @@ fn outcome(arm: &Arm, seed: u64, friction: Friction) -> Outcome {
     }
 }
 
-static ALL: LazyLock<Vec<Outcome>> =
-    LazyLock::new(|| (0..SEEDS).map(|seed| outcome(&ARM, seed, Friction::Modelled)).collect());
+static ALL: LazyLock<Vec<Outcome>> = LazyLock::new(|| (0..SEEDS).map(outcome).collect());
 
 /// The share of errors within this many stated deviations.
 fn coverage(all: &[Outcome], deviations: f64) -> f64 {
@@ -136,7 +118,7 @@ fn the_deviations_are_those_of_coloured_noise_too() {
     let (mut inside, mut all, mut ratio) = (0, 0, 0.0);
     for seed in 0..40 {
         let truth = Parameters::off(seed);
-        let run = Run::new(&CHOSEN, &truth, Friction::Modelled);
+        let run = Run::new(&CHOSEN, &truth);
         let recordings = [run.coloured(NOISE, 0.94, seed), run.recorded(NOISE, seed)];
         let [found, white] = recordings.map(|recording| {
             let batch = Batch::new(HARMONICS, TICK);
@@ -189,48 +171,4 @@ fn the_stated_noise_is_that_of_the_torques() {
 fn the_physical_set_is_within_the_estimates_deviations() {
     let most = ALL.iter().map(|outcome| outcome.misfit).fold(0.0, f64::max);
     assert!(most < 1.0, "{most}");
-}
-
-/// No bar: bristles are not in the model.
-#[test]
-fn the_figures_of_the_page_are_those_of_these_arms() {
-    if !host_tests::page::is_wanted() {
-        return;
-    }
-    let of = |arm: &Arm| -> Vec<_> {
-        let seeds = 0..FEW;
-        (seeds.map(|seed| outcome(arm, seed, Friction::Bristles))).collect()
-    };
-    let narrow = BaseModel::new(Ur5e::MODEL, RIGID_BODY, Width::new(0.005), LIMITS);
-    let (wide, narrow) = (of(&ARM), of(&narrow));
-    let mut rows = String::from(
-        "| friction of the arm | arms | parameters within 2σ | torques by | error, RMS | largest \
-         error | of the median arm | arms within 1 % | of the rated torque |\n| --- | ---: | ---: \
-         | --- | ---: | ---: | ---: | ---: | ---: |\n",
-    );
-    for (name, all) in [
-        ("as modelled, w = 0.05 rad/s", &*ALL),
-        ("bristles, stiction; model with w = 0.05 rad/s", &wide),
-        ("bristles, stiction; model with w = 0.005 rad/s", &narrow),
-    ] {
-        let covered = 100.0 * coverage(all, 2.0);
-        for (k, by) in ["nominal model", "estimate", "physical set"].iter().enumerate() {
-            let worst = |of: &dyn Fn(&Errors) -> f64| 100.0 * most(all, |x| of(&x.torques[k][0]));
-            let mut largest: Vec<f64> = all.iter().map(|x| x.torques[k][0].largest).collect();
-            largest.sort_by(f64::total_cmp);
-            rows += &match k {
-                0 => format!("| {name} | {} | {covered:.1} % |", all.len()),
-                _ => "| | | |".to_owned(),
-            };
-            rows += &format!(
-                " {by} | {:.2} % | {:.2} % | {:.2} % | {} | {:.2} % |\n",
-                worst(&|errors| errors.rms),
-                worst(&|errors| errors.largest),
-                100.0 * largest[all.len() / 2],
-                largest.partition_point(|error| *error < 0.01),
-                worst(&|errors| errors.rated),
-            );
-        }
-    }
-    crate::table("results").write(&rows);
 }

@@ -47,20 +47,10 @@ fn the_chosen_motion_beats_100_random_ones() {
     let work = ARM.condition(&pick_and_place());
     let random = random();
     let [best, median, worst] = [random[0], random[50], random[99]];
-    let mut rows = String::from("| motion of the UR5e | condition number |\n| --- | ---: |\n");
-    for (name, condition) in [
-        ("chosen by the search", chosen),
-        ("best of 100 random series", best),
-        ("median of these", median),
-        ("worst of these", worst),
-    ] {
-        rows += &format!("| {name} | {condition:.0} |\n");
-    }
+    println!("chosen {chosen}; best {best}, median {median} and worst {worst} of random ones");
     // A joint rests: the number is one of rounding.
     assert!(work > 1e6, "{work}");
-    rows += "| pick and place, where a joint rests | above 10⁶ |\n";
-    crate::table("conditions").write(&rows);
-    assert!(chosen < 0.8 * best && best < 0.5 * median && worst > 2.0 * median, "{rows}");
+    assert!(chosen < 0.8 * best && best < 0.5 * median && worst > 2.0 * median);
 }
 
 #[test]

@@ -5,7 +5,6 @@ use motion_control::estimate::PhysicalParameters;
 use nalgebra::{DMatrix, DVector};
 
 use crate::coverage::identified;
-use crate::plant::Friction;
 use crate::setup::*;
 
 /// By the projection that firmware has, in f32 and without offsets.
@@ -31,7 +30,7 @@ fn the_physical_set_agrees_as_well_as_the_truth() {
     let mut impossible = 0;
     for seed in 0..10 {
         let truth = Parameters::off(seed);
-        let found = identified(&ARM, &truth, Friction::Modelled, seed);
+        let found = identified(&ARM, &truth, seed);
         let set = found.physical(&*ARM, &nominal.bodies, &nominal.joints, 10.0);
         let set = set.expect("a good model");
         assert_possible(&set);

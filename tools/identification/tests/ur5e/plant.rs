@@ -1,9 +1,7 @@
 //! The simulated arm in closed loop, and what is recorded of it.
 
-use dynamics_core::algorithms::{aba, rnea};
-use dynamics_core::effects::{
-    Armature, Coulomb, Effect, JointState, Lugre, RIGID_BODY, Viscous, Width,
-};
+use dynamics_core::algorithms::aba;
+use dynamics_core::effects::{Armature, Coulomb, RIGID_BODY, Viscous};
 use dynamics_core::model::{ArmModel, Robot};
 use dynamics_core::robots::Ur5e;
 use dynamics_core::spatial::SpatialInertia;
@@ -14,15 +12,6 @@ use crate::setup::*;
 
 type At = State<f64, 6, 6>;
 
-/// The friction of the arm.
-#[derive(Clone, Copy, PartialEq)]
-pub enum Friction {
-    /// The friction of the model.
-    Modelled,
-    /// Bristles, stiction, and Stribeck's effect.
-    Bristles,
-}
-
 /// Positions and torques of the recorded periods, without their noise.
 pub struct Run {
     positions: Vec<[f64; 6]>,
@@ -32,8 +21,8 @@ pub struct Run {
 impl Run {
     /// Half a minute along a motion: position and velocity feedback from encoders of 14 bits, and
     /// the nominal model ahead.
-    pub fn new(motion: &FourierMotion<6>, truth: &Parameters, friction: Friction) -> Self {
-        let mut plant = Plant::new(truth, friction, motion.at(0.0));
+    pub fn new(motion: &FourierMotion<6>, truth: &Parameters) -> Self {
+        let mut plant = Plant::new(truth, motion.at(0.0));
         let nominal = Parameters::nominal().base();
         let mut run = Self { positions: Vec::new(), torques: Vec::new() };
         let mut before = plant.encoders();
@@ -78,21 +67,6 @@ impl Run {
     }
 }
 
-/// Bristles that slide from 10⁻⁴ rad on, with the sliding friction of the model and 15 % more
-/// stiction.
-pub fn bristles(truth: &Parameters) -> Lugre<f64, 6> {
-    let of = |k: usize| truth.joints.map(|joint| joint[k]);
-    Lugre {
-        stiffness: of(1).map(|f| f / 1e-4),
-        damping: of(1).map(|f| 30.0 * f),
-        viscous: of(0),
-        sliding: of(1),
-        excess: of(1).map(|f| 0.15 * f),
-        stribeck_speed: Width::new(0.01),
-        bristle: [0.0; 6],
-    }
-}
-
 /// The bodies of an arm with these parameters.
 pub fn arm(truth: &Parameters) -> ArmModel<f64, 6> {
     let mut arm = Ur5e::MODEL;
@@ -111,19 +85,13 @@ pub fn arm(truth: &Parameters) -> ArmModel<f64, 6> {
 struct Plant {
     arm: ArmModel<f64, 6>,
     joints: [[f64; 4]; 6],
-    bristles: Option<Lugre<f64, 6>>,
     at: At,
 }
 
 impl Plant {
-    fn new(truth: &Parameters, friction: Friction, at: At) -> Self {
+    fn new(truth: &Parameters, at: At) -> Self {
         let arm = arm(truth);
-        Self {
-            arm,
-            joints: truth.joints,
-            bristles: (friction == Friction::Bristles).then(|| bristles(truth)),
-            at: State { qdd: [0.0; 6], ..at },
-        }
+        Self { arm, joints: truth.joints, at: State { qdd: [0.0; 6], ..at } }
     }
 
     fn encoders(&self) -> [f64; 6] {
@@ -135,24 +103,6 @@ impl Plant {
         let tau = std::array::from_fn(|j| tau[j] - self.joints[j][3]);
         let of = |k: usize| self.joints.map(|joint| joint[k]);
         let armature = Armature(of(2));
-        if let Some(mut bristles) = self.bristles {
-            const STEPS: usize = 40;
-            let h = TICK / STEPS as f64;
-            for _ in 0..STEPS {
-                for j in 0..6 {
-                    let at = JointState::new(self.at.q[j], self.at.qd[j]);
-                    Effect::<f64, 6, 6>::advance(&mut bristles, j, at, h);
-                }
-                let qdd = aba(&self.arm, &self.at, &tau, &(RIGID_BODY, armature, bristles));
-                let qdd = qdd.expect("an arm with mass");
-                for (j, qdd) in qdd.into_iter().enumerate() {
-                    self.at.qd[j] += h * qdd;
-                    self.at.q[j] += h * self.at.qd[j];
-                }
-            }
-            self.bristles = Some(bristles);
-            return;
-        }
         let coulomb = Coulomb { torque: of(1), width: WIDTH };
         let scene = (RIGID_BODY, armature, Viscous(of(0)), coulomb);
         let moved = |x: &[f64; 6], rate: &[f64; 6], h: f64| -> [f64; 6] {
@@ -170,28 +120,4 @@ impl Plant {
             last = (qd, qdd);
         }
     }
-}
-
-/// The friction of bristles along a motion, less that of the model with the same coefficients: at
-/// every state, after a lead.
-pub fn beyond(truth: &Parameters, motion: &FourierMotion<6>) -> Vec<[f64; 6]> {
-    const STEP: f64 = 1e-4;
-    let per_state = (PERIOD / STEP / 500.0) as usize;
-    let of = |k: usize| truth.joints.map(|joint| joint[k]);
-    let modelled = (Viscous(of(0)), Coulomb { torque: of(1), width: WIDTH });
-    let mut friction = bristles(truth);
-    let mut all = Vec::new();
-    for k in 0..2 * 500 * per_state {
-        let at = motion.at(STEP * k as f64);
-        if k >= 500 * per_state && k.is_multiple_of(per_state) {
-            let with = rnea(&Ur5e::MODEL, &at, &friction);
-            let without = rnea(&Ur5e::MODEL, &at, &modelled);
-            all.push(std::array::from_fn(|j| with[j] - without[j]));
-        }
-        for j in 0..6 {
-            let joint = JointState::new(at.q[j], at.qd[j]);
-            Effect::<f64, 6, 6>::advance(&mut friction, j, joint, STEP);
-        }
-    }
-    all
 }

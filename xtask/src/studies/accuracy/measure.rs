@@ -103,7 +103,7 @@ pub fn costs(
     let mut all = Vec::new();
     for (bin, elf) in std::iter::zip(bins, elves) {
         spinner.say(format!("running {bin} in QEMU"));
-        let rows = rows::run_for_time(tools, &meter, bin, &elf, "")?;
+        let rows = rows::run_for_time(tools, &meter, bin, &elf)?;
         all.extend(rows.into_iter().map(|row| (*bin, row)));
     }
     Ok(all)

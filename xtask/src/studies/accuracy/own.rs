@@ -93,7 +93,7 @@ fn costs(workspace: &Workspace, tools: &Tools, included: &Path) -> Result<Vec<Bi
     let elves = build_own(workspace, tools.toolchain, included, &features, &[BIN])?;
     let meter = firmware::build_meter(workspace)?;
     spinner.say(format!("running {BIN} in QEMU"));
-    let rows = elves.iter().map(|elf| rows::run_for_time(tools, &meter, BIN, elf, ""));
+    let rows = elves.iter().map(|elf| rows::run_for_time(tools, &meter, BIN, elf));
     let rows = rows.collect::<Result<Vec<_>>>()?.into_iter().flatten();
     Ok(rows.map(|row| (BIN, row)).collect())
 }

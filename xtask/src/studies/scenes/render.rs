@@ -8,14 +8,12 @@ use crate::kit::table::{Column, Table, thousands};
 use crate::studies::scenes::guided;
 use crate::studies::scenes::report::{Ablation, Errors, JointError, Report, Tracking};
 
-const BY_MANUAL: &str = "by the manual";
-
 impl Report {
     pub fn text(&self, plot: &Path) -> String {
         let ticks = thousands(self.ticks_measured as u64);
         let mut text = format!(
             "\nCost of a tick, feed-forward, {ticks} ticks ({MODEL})\n{IN_FLASH}\n\n{}",
-            self.costs(&[]).text()
+            self.costs().text()
         );
         let (memory, rustc, qemu) = (self.memory(), &self.rustc, &self.qemu);
         let memory = format!("\n{memory}\n{rustc}; {qemu}; µs at {CLOCK_MHZ} MHz\n");
@@ -43,8 +41,8 @@ impl Report {
         text + &format!("The reference reaches {speed:.2} rad/s\n{gate}Plot: {}\n", plot.display())
     }
 
-    /// For the page, with the brackets of the cycles by the parts of a tick.
-    pub fn markdown(&self, brackets: &[[u64; 2]]) -> String {
+    /// For the page.
+    pub fn markdown(&self) -> String {
         let percent = |errors: &Errors, tracking: &Tracking| {
             let share = 100.0 * errors.rms_rad / tracking.pd.rms_rad;
             format!("{} ({share:.1} %)", milli(errors.rms_rad))
@@ -73,7 +71,7 @@ impl Report {
             ticks = thousands(self.ticks_measured as u64),
             model = MODEL,
             in_flash = IN_FLASH,
-            costs = self.costs(brackets).markdown(),
+            costs = self.costs().markdown(),
             errors = table.markdown(),
             memory = self.memory(),
             rustc = self.rustc
@@ -129,29 +127,22 @@ impl Report {
         ]
     }
 
-    fn costs(&self, brackets: &[[u64; 2]]) -> Table {
-        let by_manual = |name: &str| {
-            let number = self.tick.get_index_of(name)?;
-            Some(brackets.get(number)?.map(thousands).join(" to "))
-        };
+    fn costs(&self) -> Table {
         let period = f64::from(self.period_us);
         let microseconds = |cost: &Cost| cost.cycles.max as f64 / CLOCK_MHZ;
         let of_period = format!("of {} ms", period / 1e3);
         let parts = self.tick.iter().skip(1).chain(self.tick.first());
         let parts: Vec<_> = parts.collect();
-        let columns: [Column<'_, (&String, &Cost)>; 8] = [
+        let columns: [Column<'_, (&String, &Cost)>; 7] = [
             ("phase", &|(name, _)| (*name).clone()),
             ("insn", &|(_, cost)| thousands(cost.instructions.max)),
             ("cycles", &|(_, cost)| thousands(cost.cycles.max)),
-            (BY_MANUAL, &|(name, _)| by_manual(name).unwrap_or_default()),
             (CHIPS[0], &|(_, cost)| thousands(cost.in_flash[0].max)),
             (CHIPS[1], &|(_, cost)| thousands(cost.in_flash[1].max)),
             ("µs", &|(_, cost)| format!("{:.2}", microseconds(cost))),
             (&of_period, &|(_, cost)| format!("{:.2} %", 100.0 * microseconds(cost) / period)),
         ];
-        let is_shown = |head: &str| !brackets.is_empty() || head != BY_MANUAL;
-        let columns = columns.into_iter().filter(|(head, _)| is_shown(head));
-        Table::of(&parts, &columns.collect::<Vec<_>>())
+        Table::of(&parts, &columns)
     }
 
     fn memory(&self) -> String {

@@ -171,7 +171,7 @@ fn is_feedforward(recording: &Recording, tick: usize) -> bool {
 }
 
 /// The price of the ticks with feed-forward by their parts, in the order of [`Report::tick`].
-pub fn feedforward_costs(recording: &Recording, samples: &[Sample]) -> Result<Vec<Cost>> {
+fn feedforward_costs(recording: &Recording, samples: &[Sample]) -> Result<Vec<Cost>> {
     let all = recording.ticks.max(1) as usize * recording.runs.len();
     meter::costs(samples, all, |tick| is_feedforward(recording, tick))
 }

@@ -1,4 +1,4 @@
-//! Writes the film of the README: `cargo run -p host-reports --bin film docs/film.svg`.
+//! Writes the film of the README: `cargo run -p film ../../docs/film.svg` in the laboratory.
 
 mod drawing;
 mod simulation;

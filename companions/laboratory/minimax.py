@@ -4,7 +4,7 @@
 sin r = r + r^3 P(r^2), cos r = 1 - r^2/2 + r^4 Q(r^2) on |r| <= pi/4 plus the slack that a
 reduction by rounding in f32 leaves. Coefficients come from Remez exchange in 50 digits and
 are rounded to f32 from the lowest order up, each rounding being repaired by the later ones.
-Needs mpmath (see requirements.txt).
+Needs mpmath (see host-tests/oracle/requirements.txt).
 """
 from mpmath import mp, mpf, cos, sin, pi, matrix, lu_solve
 import struct

@@ -81,6 +81,8 @@ impl<R: Real> Magnitude<R> {
         match s {
             MotionSubspace::RevoluteZ => self.second,
             MotionSubspace::PrismaticZ => self.mass,
+            MotionSubspace::Unit(0..3) => self.second,
+            MotionSubspace::Unit(_) => self.mass,
             MotionSubspace::General(s) => {
                 s.ang.dot(s.ang) * self.second + s.lin.dot(s.lin) * self.mass
             }

@@ -277,6 +277,7 @@ impl<R: Real> LinkView<'_, R> {
         match self.kind {
             Revolute | Continuous => MotionSubspace::RevoluteZ,
             Prismatic => MotionSubspace::PrismaticZ,
+            Spherical | Free => MotionSubspace::Unit(k),
             _ => MotionSubspace::General(self.column(turns, k)),
         }
     }

@@ -3,6 +3,7 @@
 use core::ops::AddAssign;
 
 use super::MotionSubspace;
+use crate::math::entry;
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::symmetric::{Symmetric, turned_back};
 use crate::spatial::{Force, Motion, SpatialInertia, Xform};
@@ -51,11 +52,29 @@ impl<R: Real> CompositeInertia<R> {
             MotionSubspace::PrismaticZ => {
                 Force::new(R::Vec3::new(y, -x, zero), R::Vec3::new(zero, zero, self.mass))
             }
+            MotionSubspace::Unit(k) => self.column(*k),
             MotionSubspace::General(s) => Force::new(
                 self.inertia.times(s.ang) + self.first_moment.cross(s.lin),
                 s.lin * self.mass - self.first_moment.cross(s.ang),
             ),
         }
+    }
+
+    /// Column k of Iᶜ as a 6 × 6 matrix.
+    #[cfg_attr(optimised, inline(always))]
+    fn column(&self, k: usize) -> Force<R> {
+        let ([x, y, z], zero) = (self.first_moment.array(), R::ZERO);
+        let Symmetric { xx, xy, xz, yy, yz, zz } = self.inertia;
+        let [ang, lin] = match k {
+            0 => [[xx, xy, xz], [zero, -z, y]],
+            1 => [[xy, yy, yz], [z, zero, -x]],
+            2 => [[xz, yz, zz], [-y, x, zero]],
+            3 => [[zero, z, -y], [self.mass, zero, zero]],
+            4 => [[-z, zero, x], [zero, self.mass, zero]],
+            _ => [[y, -x, zero], [zero, zero, self.mass]],
+        };
+        let vector = |[x, y, z]: [R; 3]| R::Vec3::new(x, y, z);
+        Force::new(vector(ang), vector(lin))
     }
 
     /// The motion m with Iᶜ m = f, RBDA (2.74): about the centre of mass, rotation and translation
@@ -179,7 +198,27 @@ impl<R: Real> ArticulatedInertia<R> {
                 Force::new(self.inertia.column_z(), row_z)
             }
             MotionSubspace::PrismaticZ => Force::new(z, self.mass.column_z()),
+            MotionSubspace::Unit(k) => self.column(*k),
             MotionSubspace::General(s) => self.times(*s),
+        }
+    }
+
+    /// Column k of Iᴬ as a 6 × 6 matrix.
+    #[cfg_attr(optimised, inline(always))]
+    fn column(&self, k: usize) -> Force<R> {
+        let [hx, hy, hz] = self.coupling.cols();
+        let row = |i: usize| {
+            let of = [hx, hy, hz].map(|column| entry(&column.array(), i));
+            R::Vec3::new(of[0], of[1], of[2])
+        };
+        let ([ix, iy, iz], [mx, my, mz]) = (self.inertia.columns(), self.mass.columns());
+        match k {
+            0 => Force::new(ix, row(0)),
+            1 => Force::new(iy, row(1)),
+            2 => Force::new(iz, row(2)),
+            3 => Force::new(hx, mx),
+            4 => Force::new(hy, my),
+            _ => Force::new(hz, mz),
         }
     }
 

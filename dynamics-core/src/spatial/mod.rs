@@ -148,6 +148,15 @@ macro_rules! vector_space {
 vector_space!(Motion, "motion");
 vector_space!(Force, "force");
 
+impl<R: Real> Force<R> {
+    /// The couple, then the force.
+    #[cfg_attr(optimised, inline(always))]
+    pub(crate) fn components(self) -> [R; 6] {
+        let ([nx, ny, nz], [fx, fy, fz]) = (self.ang.array(), self.lin.array());
+        [nx, ny, nz, fx, fy, fz]
+    }
+}
+
 impl<R: Real> Motion<R> {
     /// The k-th unit vector of M⁶.
     #[cfg_attr(optimised, inline(always))]

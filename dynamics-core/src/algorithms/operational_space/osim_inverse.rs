@@ -138,6 +138,7 @@ impl<R: Real> OsimInverse<R> {
                 let [x, y, _] = self.coupling.cols();
                 next.coupling = R::Mat3::from_cols(x, y, w.ang);
             }
+            MotionSubspace::Unit(k) => next = self.across_any(Motion::unit(*k), joint),
             MotionSubspace::General(s) => next = self.across_any(*s, joint),
         }
         next

@@ -374,7 +374,8 @@ fn values(project: &Project) -> Result<Vec<Value>, ProjectError> {
         values.push(("pins", pins));
         values.extend(board.values());
         let features = format!("features = [{}]", board.features);
-        values.push(("board_support", with(&dependency("firmware-demo/boards/support")?, &features)));
+        let support = dependency("firmware-demo/boards/support")?;
+        values.push(("board_support", with(&support, &features)));
         let parts = substitute(board.parts.expected, &values);
         values.push(("parts", parts.trim_end().to_owned()));
     }

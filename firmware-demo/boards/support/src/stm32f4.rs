@@ -8,7 +8,7 @@ use stm32f4xx_hal::pac::{IWDG, TIM2};
 use stm32f4xx_hal::prelude::*;
 use stm32f4xx_hal::rcc::Rcc;
 use stm32f4xx_hal::timer::pwm::ErasedChannel;
-use stm32f4xx_hal::timer::{CounterHz, Event, Flag, Instance, WithPwm};
+use stm32f4xx_hal::timer::{CounterHz, Event, Flag, PwmExt};
 use stm32f4xx_hal::watchdog::IndependentWatchdog;
 
 pub use stm32f4xx_hal::pac;
@@ -65,11 +65,11 @@ pub enum Channel<A, B> {
     Second(ErasedChannel<B>),
 }
 
-impl<A: Instance + WithPwm, B: Instance + WithPwm> ErrorType for Channel<A, B> {
+impl<A: PwmExt, B: PwmExt> ErrorType for Channel<A, B> {
     type Error = Infallible;
 }
 
-impl<A: Instance + WithPwm, B: Instance + WithPwm> SetDutyCycle for Channel<A, B> {
+impl<A: PwmExt, B: PwmExt> SetDutyCycle for Channel<A, B> {
     fn max_duty_cycle(&self) -> u16 {
         match self {
             Self::First(channel) => channel.max_duty_cycle(),
@@ -87,7 +87,7 @@ impl<A: Instance + WithPwm, B: Instance + WithPwm> SetDutyCycle for Channel<A, B
 
 /// The drives are set to no torque.
 #[inline(never)]
-pub fn drives<A: Instance + WithPwm, B: Instance + WithPwm, const N: usize>(
+pub fn drives<A: PwmExt, B: PwmExt, const N: usize>(
     mut drives: [Channel<A, B>; N],
 ) -> [Channel<A, B>; N] {
     for drive in &mut drives {

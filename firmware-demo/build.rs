@@ -25,7 +25,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 /// RAM from `cycle_meter::COUPLED` on stands for it, below which is the stack, and there is more of
 /// it, since a scene has the tick once for each set of effects.
 fn placement() -> Result<String, Box<dyn Error>> {
-    let board = "../tools/robot-import/template/board/nucleo-g474re/memory.x";
+    let board = "boards/nucleo-g474re/memory.x";
     println!("cargo:rerun-if-changed={board}");
     let text = fs::read_to_string(board)?.replace("{{crate_name}}", "firmware_demo");
     let text = text.replace(".text.TIM2", ".text.*marked_tick*");

@@ -1,5 +1,5 @@
-//! The scene `ur5e` in place of a project's robot: what the templates' firmware calls
-//! (`tools/robot-import/template/board`).
+//! The scene `ur5e` in place of a project's robot: what the firmware of `rtic.rs` and of the Pico 2
+//! calls, which robot-import has as templates, with the pins.
 
 use embedded_hal::digital::OutputPin;
 use embedded_hal::pwm::SetDutyCycle;
@@ -12,7 +12,7 @@ use motion_control::safety::{Detect, Detectors};
 pub use firmware_demo::scenes::ur5e::plan;
 
 /// A tick, s.
-#[allow(dead_code, reason = "one of the boards asks for it")]
+#[allow(dead_code, reason = "the Pico 2 has its period in microseconds")]
 pub const TICK: f32 = PickAndPlace::TICK;
 /// Joints.
 pub const N: usize = 6;

@@ -40,7 +40,7 @@ pub use firmware::{
 };
 pub use noise::Noise;
 pub use run::{Full, FullWithout, PdOnly, Run};
-pub use trial::{Batch, Figures, Less, PlantModel, Term, Trial};
+pub use trial::{Batch, Figures, Less, Other, PlantModel, Term, Trial};
 
 /// The data sheet of a scene: a robot of B bodies, Q position and V velocity coordinates whose last
 /// N joints are driven.

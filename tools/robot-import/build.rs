@@ -8,7 +8,14 @@ use std::path::{Path, PathBuf};
 use std::{env, fs};
 
 /// The folders of the crates of the repository that a project may use.
-const CRATES: [&str; 5] = ["c", "drivers", "dynamics-core", "motion-control", "telemetry"];
+const CRATES: [&str; 6] = [
+    "c",
+    "drivers",
+    "dynamics-core",
+    "firmware-demo/boards/support",
+    "motion-control",
+    "telemetry",
+];
 /// The files of a crate that are carried beside its sources.
 const BESIDE: [&str; 3] = ["build.rs", "Cargo.toml", "NOTATION.md"];
 /// The files of the repository that `src/project/libraries.rs` names by their place here.
@@ -53,7 +60,9 @@ fn main() -> Result<(), Box<dyn Error>> {
             }
         }
         files.sort();
-        writeln!(list, "Crate {{ folder: {name:?}, files: &[")?;
+        // A project has all of them beside each other.
+        let own = folder.file_name().unwrap_or_default().to_string_lossy();
+        writeln!(list, "Crate {{ folder: {own:?}, files: &[")?;
         for file in &files {
             let path = file.strip_prefix(&folder)?.to_string_lossy();
             let path = path.replace('\\', "/");

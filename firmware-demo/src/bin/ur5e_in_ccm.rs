@@ -3,8 +3,7 @@
 #![no_std]
 #![no_main]
 
-#[rustfmt::skip]
-#[path = "../../../tools/robot-import/template/board/stm32g4/src/fast.rs"]
+#[path = "../../boards/support/src/stm32g4/fast.rs"]
 mod fast;
 
 firmware_demo::scene_main!(ur5e::PickAndPlace, 6, 6, 6, 6);

@@ -72,13 +72,16 @@ pub struct Figures {
     pub status: Option<Status>,
 }
 
+/// A trial of another kind than those of a scene: the name of its law, and what makes it.
+pub type Other<T> = (&'static str, fn() -> T);
+
 /// A trial that is no [`Scene`](super::Scene), having no trajectory: it runs to its end in one call.
 pub trait Batch<const N: usize>: Trial<N> + Sized {
     type Outcome;
     /// The terms that the law lacks with which it is compared.
     const BASELINE: Less;
     /// A run of another kind.
-    const OTHER: Option<(&'static str, fn() -> Self)> = None;
+    const OTHER: Option<Other<Self>> = None;
 
     fn of_scene(less: Less, plant: PlantModel) -> Self;
 

@@ -19,7 +19,7 @@ use super::{
 };
 use crate::marker;
 use crate::region::{Marked, READ, TICK as WHOLE};
-use crate::scene::{Batch, Figures, Less, PlantModel, Term, Trial, limits_of};
+use crate::scene::{Batch, Figures, Less, Other, PlantModel, Term, Trial, limits_of};
 
 /// The hand, N/m and N·s/m.
 const SPRING: [f32; 2] = [2000.0, 50.0];
@@ -350,7 +350,7 @@ impl Trial<7> for Guidance {
 impl Batch<7> for Guidance {
     type Outcome = Outcome;
     const BASELINE: Less = ALL_BUT_GRAVITY;
-    const OTHER: Option<(&'static str, fn() -> Self)> = Some(("empty-hand", || Self {
+    const OTHER: Option<Other<Self>> = Some(("empty-hand", || Self {
         holds: Holds::Nothing,
         ..Self::of_scene(Less::NOTHING, PlantModel::Exact)
     }));

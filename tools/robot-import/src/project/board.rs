@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::templates::{COMMON, File, RTIC, RTIC_ON_CAN, files};
+use super::templates::{COMMON, File, RTIC, file, files};
 
 /// The framework that calls the tick.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -75,6 +75,8 @@ pub struct Board {
     chip: &'static str,
     /// The chip's HAL, as a dependency, if the framework's manifest has none.
     hal: &'static str,
+    /// The features of `board-support`, as TOML has them in a list.
+    pub(super) features: &'static str,
     /// The parts that it drives.
     pub(super) parts: Parts,
     /// The rate of the encoders' bus, if it has one.
@@ -95,12 +97,13 @@ pub static BOARDS: [Board; 4] = [
         target: "thumbv7em-none-eabihf",
         chip: "STM32F446RETx",
         hal: include_str!("../../template/board/stm32f4/hal.toml"),
+        features: "\"stm32f4\"",
         parts: SPI_AND_PWM,
         spi_rate: ", 10 MHz",
         pins: include_str!("../../template/board/nucleo-f446re/pins.md"),
         files: [
             RTIC,
-            files!["board/stm32f4": "src/chip.rs"],
+            files!["board/common": "src/board.rs"],
             files!["board/nucleo-f446re": "memory.x", "src/pins.rs"],
         ],
     },
@@ -112,13 +115,14 @@ pub static BOARDS: [Board; 4] = [
         target: "thumbv7em-none-eabihf",
         chip: "STM32G474RETx",
         hal: include_str!("../../template/board/stm32g4/hal.toml"),
+        features: "\"stm32g4\"",
         parts: SPI_AND_PWM,
         spi_rate: ", 5.3 MHz",
         pins: include_str!("../../template/board/nucleo-g474re/pins.md"),
         files: [
             RTIC,
-            files!["board/stm32g4": "src/chip.rs", "src/fast.rs"],
-            files!["board/nucleo-g474re": "memory.x", "src/pins.rs", "src/spi_and_pwm.rs"],
+            files!["board/common": "src/board.rs"],
+            files!["board/nucleo-g474re": "memory.x", "src/pins.rs"],
         ],
     },
     Board {
@@ -132,13 +136,17 @@ pub static BOARDS: [Board; 4] = [
             include_str!("../../template/board/stm32g4/hal.toml"),
             include_str!("../../template/board/can/can.toml"),
         ),
+        features: "\"can\"",
         parts: CAN,
         spi_rate: "",
         pins: include_str!("../../template/board/nucleo-g474re-can/pins.md"),
         files: [
-            RTIC_ON_CAN,
-            files!["board/nucleo-g474re": "memory.x"],
-            files!["board/nucleo-g474re-can": "src/pins.rs"],
+            RTIC,
+            files!["board/can": "src/board.rs"],
+            &[
+                file!("board/nucleo-g474re" / "memory.x"),
+                file!("board/nucleo-g474re-can" / "src/pins.rs"),
+            ],
         ],
     },
     Board {
@@ -149,6 +157,7 @@ pub static BOARDS: [Board; 4] = [
         target: "thumbv8m.main-none-eabihf",
         chip: "RP235x",
         hal: "",
+        features: "\"rp2350\"",
         parts: SPI_AND_PWM,
         spi_rate: ", 9.4 MHz",
         pins: include_str!("../../template/board/pico2/pins.md"),
@@ -157,11 +166,8 @@ pub static BOARDS: [Board; 4] = [
                 "Cargo.toml" ".liquid",
                 ".cargo/config.toml" ".liquid",
                 "memory.x",
-                "src/main.rs" ".liquid",
                 "src/firmware.rs",
                 "src/pins.rs",
-                "src/devices.rs",
-                "src/periods.rs",
             ],
             files!["board/common": "src/board.rs"],
             &[],

@@ -2,9 +2,8 @@
 //! library for C.
 //!
 //! The templates are in `template/rust`, which is one of `cargo generate` as well, `template/c` and
-//! `template/board`; the header of C is that of the crate `dynamics-c`. A placeholder is replaced by
-//! text, nothing else: no condition, no loop. Lines of a board's files are left out if they are for
-//! joints that the robot does not have.
+//! `template/board`. A placeholder is replaced by text, nothing else: no condition, no loop. Lines of a
+//! board's files are left out if they are for joints that the robot does not have.
 
 mod board;
 mod choice;
@@ -116,7 +115,10 @@ impl Library {
     /// A dependency on the crate in this folder of the repository, as a value of TOML.
     fn dependency(&self, folder: &str) -> Result<String, ProjectError> {
         match self {
-            Self::Copy => Ok(format!("{{ path = \"{}/{folder}\" }}", libraries::FOLDER)),
+            Self::Copy => {
+                let own = folder.rsplit('/').next().unwrap_or_default();
+                Ok(format!("{{ path = \"{}/{own}\" }}", libraries::FOLDER))
+            }
             Self::Registry => Ok(format!("{{ version = \"{VERSION}\" }}")),
             Self::Path(path) => {
                 let path = match folder {
@@ -347,7 +349,7 @@ fn values(project: &Project) -> Result<Vec<Value>, ProjectError> {
         ("dynamics_c", dependency("c")?),
         ("motion_control", dependency("motion-control")?),
         ("joint_drivers", dependency("drivers")?),
-        ("machine_link", optional(&dependency("telemetry")?)),
+        ("machine_link", with(&dependency("telemetry")?, "optional = true")),
         ("robot", robot.type_name.clone()),
         ("effect_names", names),
         ("effect_types", types),
@@ -371,15 +373,18 @@ fn values(project: &Project) -> Result<Vec<Value>, ProjectError> {
         let pins = substitute(&of_joints(board.pins, robot.v), &values);
         values.push(("pins", pins));
         values.extend(board.values());
+        let features = format!("features = [{}]", board.features);
+        let support = dependency("firmware-demo/boards/support")?;
+        values.push(("board_support", with(&support, &features)));
         let parts = substitute(board.parts.expected, &values);
         values.push(("parts", parts.trim_end().to_owned()));
     }
     Ok(values)
 }
 
-/// A dependency that only a feature uses.
-fn optional(dependency: &str) -> String {
-    dependency.trim_end_matches(" }").to_owned() + ", optional = true }"
+/// A dependency with a further key.
+fn with(dependency: &str, key: &str) -> String {
+    format!("{}, {key} }}", dependency.trim_end_matches(" }"))
 }
 
 /// The text with each `{{placeholder}}` replaced by its value; values are not searched for further

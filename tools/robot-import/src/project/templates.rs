@@ -1,5 +1,6 @@
 //! The files of the templates. The suffix `.liquid`, which `cargo generate` removes, keeps Cargo
-//! from reading manifests with placeholders.
+//! from reading manifests with placeholders. A file that is compiled elsewhere in the repository is a
+//! symbolic link there: the package of the program has its text.
 
 /// A file of a template.
 #[derive(Debug)]
@@ -69,10 +70,7 @@ pub(super) const C: &[File] = &[
     file!("c" / "example/host.c"),
     file!("c" / "example/arm.cmake"),
     file!("c" / "example/link.ld"),
-    File {
-        path: "include/{{crate_name}}.h",
-        text: include_str!("../../../../c/include/dynamics.h.liquid"),
-    },
+    file!("c" / "include/{{crate_name}}.h" ".liquid"),
 ];
 
 /// The files that all projects for boards have, some of them from the simulated project.
@@ -85,6 +83,7 @@ pub(super) const COMMON: &[File] = &[
     file!("board/common" / "rust-toolchain.toml" ".liquid"),
     file!("board/common" / "src/lib.rs"),
     file!("board/common" / "src/log.rs"),
+    file!("board/common" / "src/main.rs" ".liquid"),
 ];
 
 /// Firmware for a board's chip under RTIC.
@@ -92,21 +91,6 @@ pub(super) const RTIC: &[File] = &[
     file!("board/rtic" / "Cargo.toml" ".liquid"),
     file!("board/rtic" / ".cargo/config.toml" ".liquid"),
     file!("board/rtic" / "src/firmware.rs"),
-    file!("board/rtic" / "src/devices.rs"),
-    file!("board/common" / "src/board.rs"),
-    file!("board/common" / "src/main.rs" ".liquid"),
-];
-
-/// Firmware for an STM32G4 under RTIC, with drives on CAN.
-pub(super) const RTIC_ON_CAN: &[File] = &[
-    file!("board/rtic" / "Cargo.toml" ".liquid"),
-    file!("board/rtic" / ".cargo/config.toml" ".liquid"),
-    file!("board/rtic" / "src/firmware.rs"),
-    file!("board/can" / "src/board.rs"),
-    file!("board/can" / "src/main.rs" ".liquid"),
-    file!("board/stm32g4" / "src/chip.rs"),
-    file!("board/stm32g4" / "src/fast.rs"),
-    file!("board/stm32g4" / "src/can.rs"),
 ];
 
 /// The constants of C that templates define or use, without the prefix that the project's name is

@@ -160,7 +160,7 @@ fn a_project_of_a_program_from_crates_io_names_its_version() {
         assert!(!files.iter().any(|(path, _)| path.contains("libraries/") || path == "Cargo.lock"));
         let (_, manifest) = files.iter().find(|file| file.0 == "Cargo.toml").expect("a manifest");
         assert!(!manifest.contains("path = \"libraries"), "{manifest}");
-        let line = format!("\nmotion-control = {{ version = \"{VERSION}\" }}\n");
+        let line = format!("\ndynamics-core = {{ version = \"{VERSION}\" }}\n");
         assert!(manifest.contains(&line), "{manifest}");
     }
 }

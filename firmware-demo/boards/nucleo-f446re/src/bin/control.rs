@@ -8,17 +8,7 @@ mod board;
 #[cfg(target_arch = "arm")]
 // Formatted as users' files are.
 #[rustfmt::skip]
-#[path = "../../../../../tools/robot-import/template/board/stm32f4/src/chip.rs"]
-mod chip;
-#[cfg(target_arch = "arm")]
-// Formatted as users' files are.
-#[rustfmt::skip]
-#[path = "../../../../../tools/robot-import/template/board/rtic/src/devices.rs"]
-mod devices;
-#[cfg(target_arch = "arm")]
-// Formatted as users' files are.
-#[rustfmt::skip]
-#[path = "../../../../../tools/robot-import/template/board/rtic/src/firmware.rs"]
+#[path = "../../../rtic.rs"]
 mod firmware;
 #[cfg(target_arch = "arm")]
 #[path = "../../../silent.rs"]
@@ -26,7 +16,7 @@ mod log;
 #[cfg(target_arch = "arm")]
 // Formatted as users' files are.
 #[rustfmt::skip]
-#[path = "../../../../../tools/robot-import/template/board/nucleo-f446re/src/pins.rs"]
+#[path = "../pins.rs"]
 mod pins;
 
 #[cfg(target_arch = "arm")]

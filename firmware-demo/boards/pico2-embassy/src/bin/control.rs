@@ -8,12 +8,7 @@ mod board;
 #[cfg(target_arch = "arm")]
 // Formatted as users' files are.
 #[rustfmt::skip]
-#[path = "../../../../../tools/robot-import/template/board/pico2/src/devices.rs"]
-mod devices;
-#[cfg(target_arch = "arm")]
-// Formatted as users' files are.
-#[rustfmt::skip]
-#[path = "../../../../../tools/robot-import/template/board/pico2/src/firmware.rs"]
+#[path = "../firmware.rs"]
 mod firmware;
 #[cfg(target_arch = "arm")]
 #[path = "../../../silent.rs"]
@@ -21,13 +16,11 @@ mod log;
 #[cfg(target_arch = "arm")]
 // Formatted as users' files are.
 #[rustfmt::skip]
-#[path = "../../../../../tools/robot-import/template/board/pico2/src/pins.rs"]
+#[path = "../pins.rs"]
 mod pins;
 
 #[cfg(target_arch = "arm")]
 use panic_halt as _;
-#[cfg(target_arch = "arm")]
-use pico2_embassy::periods;
 
 #[cfg(not(target_arch = "arm"))]
 fn main() {}

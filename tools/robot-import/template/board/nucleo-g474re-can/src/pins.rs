@@ -1,5 +1,6 @@
 //! The connections: this is the one file with pins and clocks.
 
+use board_support::stm32g4::can::Bus;
 use stm32g4xx_hal::gpio::{AF9, Input, Output, PA5, PA11, PA12, PB10, PC13};
 use stm32g4xx_hal::pac::{IWDG, Peripherals, TIM2};
 use stm32g4xx_hal::prelude::*;
@@ -8,7 +9,8 @@ use stm32g4xx_hal::rcc::{Config, PllConfig, PllMDiv, PllNMul, PllRDiv, PllSrc, R
 use stm32g4xx_hal::time::RateExtU32;
 
 use crate::board::{self, Joints};
-use crate::can::Bus;
+
+pub use board_support::stm32g4 as chip;
 
 /// A high level holds the joints.
 pub type Brake = PB10<Output>;

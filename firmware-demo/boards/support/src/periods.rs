@@ -25,10 +25,7 @@ pub struct Periods {
 impl Periods {
     /// The count 0 in the period of this moment.
     pub fn starting(now: Moment) -> Self {
-        Self {
-            start: now.start(),
-            count: 0,
-        }
+        Self { start: now.start(), count: 0 }
     }
 
     /// The count at a moment at most half an hour after the last [`advance`](Self::advance).
@@ -36,16 +33,12 @@ impl Periods {
         // Both readings are rounded, and the slice may have begun a period between them: their
         // difference is near a multiple of the period.
         let passed = now.start().wrapping_sub(self.start);
-        self.count
-            .wrapping_add(passed.wrapping_add(PERIOD / 2) / PERIOD)
+        self.count.wrapping_add(passed.wrapping_add(PERIOD / 2) / PERIOD)
     }
 
     /// Counts on from this moment.
     pub fn advance(&mut self, now: Moment) {
-        *self = Self {
-            start: now.start(),
-            count: self.count(now),
-        };
+        *self = Self { start: now.start(), count: self.count(now) };
     }
 }
 

@@ -27,20 +27,12 @@ struct Chip {
     came: Deque<FdFrame, FRAMES>,
 }
 
-static CHIP: Mutex<RefCell<Chip>> = Mutex::new(RefCell::new(Chip {
-    can: None,
-    to_send: Deque::new(),
-    came: Deque::new(),
-}));
+static CHIP: Mutex<RefCell<Chip>> =
+    Mutex::new(RefCell::new(Chip { can: None, to_send: Deque::new(), came: Deque::new() }));
 
 /// Calls a function while no interrupt is served: nobody else has the chip then.
 fn with_chip<T>(call: impl FnOnce(&mut Chip) -> T) -> Option<T> {
-    free(|cs| {
-        CHIP.borrow(cs)
-            .try_borrow_mut()
-            .ok()
-            .map(|mut chip| call(&mut chip))
-    })
+    free(|cs| CHIP.borrow(cs).try_borrow_mut().ok().map(|mut chip| call(&mut chip)))
 }
 
 /// The bus of the drives.
@@ -87,9 +79,7 @@ impl Can for Bus {
     }
 
     fn receive(&mut self) -> nb::Result<FdFrame, ErrorKind> {
-        with_chip(|chip| chip.came.pop_front())
-            .flatten()
-            .ok_or(nb::Error::WouldBlock)
+        with_chip(|chip| chip.came.pop_front()).flatten().ok_or(nb::Error::WouldBlock)
     }
 }
 

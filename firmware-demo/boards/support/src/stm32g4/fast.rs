@@ -3,6 +3,8 @@
 //! It runs before any code of Rust, since start-up calls some of these functions as well.
 
 core::arch::global_asm!(
+    // Without the section there is nothing to copy.
+    ".weak __sfast_text, __efast_text, __sifast_text",
     ".section .text.__pre_init, \"ax\", %progbits",
     ".global __pre_init",
     ".type __pre_init, %function",

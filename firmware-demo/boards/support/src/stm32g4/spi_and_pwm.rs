@@ -34,10 +34,12 @@ impl pwm::ErrorType for Channel {
 }
 
 impl SetDutyCycle for Channel {
+    #[inline]
     fn max_duty_cycle(&self) -> u16 {
         self.1
     }
 
+    #[inline]
     fn set_duty_cycle(&mut self, duty: u16) -> Result<(), Infallible> {
         // SAFETY: every duty is one for this register, which nothing else writes.
         self.0.write(|w| unsafe { w.ccr().bits(duty.into()) });
@@ -49,6 +51,7 @@ impl SetDutyCycle for Channel {
 pub struct Bus(SPI1);
 
 impl Bus {
+    /// The bus on its pins.
     pub fn new(spi: SPI1, pins: impl Pins<SPI1>, rcc: &mut Rcc) -> Self {
         // A 32nd of the clock: a 16th is beyond the 10 MHz of the encoders.
         let rate = rcc.clocks.apb2_clk / 32;
@@ -56,6 +59,7 @@ impl Bus {
     }
 
     /// Sends a byte, and returns the one that comes meanwhile.
+    #[inline]
     fn exchange(&mut self, byte: u8) -> Result<u8, ErrorKind> {
         self.0.dr8().write(|w| w.dr().set(byte));
         loop {
@@ -93,6 +97,7 @@ impl SpiBus for Bus {
         Ok(())
     }
 
+    #[inline]
     fn transfer_in_place(&mut self, words: &mut [u8]) -> Result<(), ErrorKind> {
         for word in words {
             *word = self.exchange(*word)?;
@@ -100,6 +105,7 @@ impl SpiBus for Bus {
         Ok(())
     }
 
+    #[inline]
     fn flush(&mut self) -> Result<(), ErrorKind> {
         while self.0.sr().read().bsy().bit() {}
         Ok(())

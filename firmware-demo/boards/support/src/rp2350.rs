@@ -18,6 +18,7 @@ fn bit(pin: &Peri<'static, impl Pin>) -> u32 {
     1 << (pin.pin() % 32)
 }
 
+/// An output.
 #[derive(Debug)]
 pub struct Line {
     bit: u32,
@@ -38,11 +39,13 @@ impl digital::ErrorType for Line {
 }
 
 impl OutputPin for Line {
+    #[inline]
     fn set_low(&mut self) -> Result<(), Infallible> {
         pac::SIO.gpio_out(0).value_clr().write_value(self.bit);
         Ok(())
     }
 
+    #[inline]
     fn set_high(&mut self) -> Result<(), Infallible> {
         pac::SIO.gpio_out(0).value_set().write_value(self.bit);
         Ok(())
@@ -69,12 +72,14 @@ impl digital::ErrorType for Select {
 }
 
 impl OutputPin for Select {
+    #[inline]
     fn set_low(&mut self) -> Result<(), Infallible> {
         self.0.set_low()?;
         cortex_m::asm::delay(Self::CYCLES);
         Ok(())
     }
 
+    #[inline]
     fn set_high(&mut self) -> Result<(), Infallible> {
         self.0.set_high()
     }
@@ -94,6 +99,8 @@ impl Button {
         button
     }
 
+    /// Whether the button is pressed.
+    #[inline]
     pub fn is_pressed(&self) -> bool {
         pac::SIO.gpio_in(0).read() & self.bit == 0
     }
@@ -120,10 +127,12 @@ impl duty::ErrorType for Channel {
 }
 
 impl SetDutyCycle for Channel {
+    #[inline]
     fn max_duty_cycle(&self) -> u16 {
         self.0.top().read().top()
     }
 
+    #[inline]
     fn set_duty_cycle(&mut self, duty: u16) -> Result<(), Infallible> {
         self.0.cc().modify(|compare| compare.set_a(duty));
         Ok(())

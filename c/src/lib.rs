@@ -98,3 +98,16 @@ fn status_of(compute: impl FnOnce() -> Result<(), i32>) -> i32 {
         Err(status) => status,
     }
 }
+
+impl<L: Library<N, TOOL, POINTS>, const N: usize, const TOOL: usize, const POINTS: usize>
+    Exports<L, N, TOOL, POINTS>
+{
+    /// Fails to compile if the header reserves too few bytes for an object.
+    pub const FITS: () = {
+        let () = Self::CONTROLLER_FITS;
+        assert!(size_of::<goal::Goal<L, N>>() <= numbers::GOAL_BYTES(N, POINTS));
+        assert!(size_of::<goal::GoalChange<L, N>>() <= numbers::GOAL_CHANGE_BYTES(N, POINTS));
+        assert!(size_of::<thermal::Thermal<L, N>>() <= numbers::THERMAL_BYTES(N, POINTS));
+        assert!(size_of::<tip::Tip<L, N>>() <= numbers::TIP_BYTES(N, POINTS));
+    };
+}

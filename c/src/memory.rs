@@ -5,9 +5,6 @@ use core::mem::MaybeUninit;
 use core::ptr::NonNull;
 
 use crate::control::Control;
-use crate::goal::{Goal, GoalChange};
-use crate::thermal::Thermal;
-use crate::tip::Tip;
 use crate::{Exports, Library, Named, numbers, status};
 
 /// The mark of an object of this size: a word that zeros, random bytes and the objects of other
@@ -72,14 +69,10 @@ impl<L: Library<N, TOOL, POINTS>, const N: usize, const TOOL: usize, const POINT
 {
     /// The bytes that the header reserves for a controller.
     pub const CONTROLLER_BYTES: usize = numbers::CONTROLLER_BYTES(N, POINTS);
-    /// Fails to compile if the header reserves too few bytes.
-    pub const FITS: () = {
+    /// Fails to compile if the header reserves too few bytes for it.
+    pub(crate) const CONTROLLER_FITS: () = {
         assert!(size_of::<Slot<L, N, TOOL, POINTS>>() <= Self::CONTROLLER_BYTES);
         assert!(align_of::<Slot<L, N, TOOL, POINTS>>() <= align_of::<u64>());
-        assert!(size_of::<Goal<L, N>>() <= numbers::GOAL_BYTES(N, POINTS));
-        assert!(size_of::<GoalChange<L, N>>() <= numbers::GOAL_CHANGE_BYTES(N, POINTS));
-        assert!(size_of::<Thermal<L, N>>() <= numbers::THERMAL_BYTES(N, POINTS));
-        assert!(size_of::<Tip<L, N>>() <= numbers::TIP_BYTES(N, POINTS));
     };
 }
 

@@ -7,6 +7,7 @@ mod report;
 mod robots;
 mod target;
 mod tools;
+mod ways;
 
 use std::process::Command;
 use std::thread;

@@ -56,7 +56,8 @@ fn named(module: &Names, source: &str, sources: &Files<String>) -> Vec<Names> {
     let (tokens, mut all) = (tokens(source), Vec::new());
     let mut rest = tokens.as_slice();
     while let [first, after @ ..] = rest {
-        let child = || sources.contains_key(&[module.as_slice(), &[first.clone()]].concat());
+        let child =
+            || sources.contains_key(&[module.as_slice(), std::slice::from_ref(first)].concat());
         let start = match first.as_str() {
             _ if after.first().is_none_or(|next| next != "·") => None,
             "crate" => Some(Vec::new()),

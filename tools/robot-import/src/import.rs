@@ -252,7 +252,7 @@ pub fn import(args: &Args, today: &str) -> Result<Imported> {
     let of_file = |topic, text| Advice { topic, line: 0, name: name.clone(), text };
     let mut own = advice(&robot, &selected, &tree);
     // The motors of a machine with loops share what its joints need.
-    own.extend(needless_torque(&tree, &checked).filter(|_| closed.is_empty()));
+    own.extend(needless_torque(&tree, &checked.samples).filter(|_| closed.is_empty()));
     own.extend(plausible(&tree, &name));
     let left_out = notes.iter().cloned();
     own.extend(left_out.map(|note| of_file(Topic::LeftOut, note)));

@@ -9,7 +9,6 @@ mod compute;
 
 use dynamics_core::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, ModelError};
 
-use crate::advice::numbers::{Advise, NumberAdvice};
 use crate::description::{Kind, shortened};
 use crate::error::{Problem, Result};
 use crate::limits::MOST_COORDINATES;
@@ -42,7 +41,7 @@ pub enum AnyModel {
 #[derive(Debug)]
 #[cfg_attr(not(feature = "program"), allow(dead_code, reason = "the program computes with them"))]
 pub struct Sized<const N: usize, const Q: usize> {
-    exact: Model<f64, N, Q, N>,
+    pub(crate) exact: Model<f64, N, Q, N>,
     rounded: Model<f32, N, Q, N>,
     /// The number of ball joints that fill it up.
     balls: usize,
@@ -68,15 +67,6 @@ impl AnyModel {
                 .into());
             }
         })
-    }
-
-    /// The numbers that look like another unit, or ask more of the motors than they have.
-    pub fn advice(&self) -> Vec<NumberAdvice> {
-        match self {
-            Self::Small(model) => model.exact.advice().collect(),
-            Self::Middle(model) => model.exact.advice().collect(),
-            Self::Large(model) => model.exact.advice().collect(),
-        }
     }
 }
 

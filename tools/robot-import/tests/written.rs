@@ -7,8 +7,6 @@ mod parallelogram;
 #[rustfmt::skip]
 #[path = "robots/driven_loop.rs"]
 mod driven_loop;
-#[rustfmt::skip]
-
 use std::path::Path;
 
 use dynamics_core::algorithms::rnea;

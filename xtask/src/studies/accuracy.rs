@@ -147,7 +147,7 @@ pub fn check(bench: &Bench<'_>) -> Result<String> {
     let (workspace, tools) = (bench.workspace, bench.tools()?);
     let recorded = recorded::read(workspace)?;
     let proven = proven::check(&recorded)?;
-    let generated = printed::measure(workspace, tools)?;
+    let generated = measure::printed(workspace, tools)?;
     let kept = printed::check(&generated, &recorded)?;
     Ok(format!("{kept} configurations as promised; {proven} with a proven error"))
 }

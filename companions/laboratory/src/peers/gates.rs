@@ -16,13 +16,11 @@ use crate::peers::build::Workshop;
 use crate::peers::report::{GATES, Row};
 use crate::peers::robots::Robot;
 use crate::peers::target::{self, Way};
+use crate::peers::ways::{ALGORITHMS, INSIDE, ROBOTS, WAYS};
 use crate::rtl::Build;
 use crate::rtl::row::{self, Row as Counted, Said};
 use crate::rtl::simulator::Simulators;
 
-/// The robots of the image `gates`.
-pub const ROBOTS: [&str; 5] = ["ur5e", "panda", "iiwa14", "xarm7", "a1"];
-pub const ALGORITHMS: [&str; 3] = ["rnea", "crba", "aba"];
 const BIN: &str = "gates-peers";
 /// The time limit of a program in QEMU.
 const LIMIT: Duration = Duration::from_secs(300);
@@ -30,26 +28,10 @@ const COMPILER: &str = "riscv64-unknown-elf-gcc";
 /// Functions begin at words, as ours do in this image and in `gates`.
 const COMMON: &str = "-c -march=rv32imfc -mabi=ilp32f -falign-functions=4 -O3 -frename-registers";
 
-/// Ways to compile the C, by the beginnings of their symbols' ends. Its functions are one block,
-/// which the compiler by itself orders without regard to the number of registers: that takes up to a
-/// third more cycles than the best of these.
-pub const WAYS: [(&str, &str); 7] = [
-    ("p", "-fsched-pressure"),
-    ("pr", "-fsched-pressure -DRESTRICT=restrict"),
-    ("pt", "-fsched-pressure -fno-tree-ter"),
-    ("p7", "-fsched-pressure -mtune=sifive-7-series"),
-    ("p7r", "-fsched-pressure -mtune=sifive-7-series -DRESTRICT=restrict"),
-    ("n", "-fno-schedule-insns"),
-    ("n7", "-fno-schedule-insns -mtune=sifive-7-series"),
-];
-
 /// Whether a product and a sum become one instruction: the end of the symbols and of the names of
 /// peers, what says so to the compiler of the C, and how ours is built.
 const ARITHMETICS: [(&str, &str, Build); 2] =
     [("fused", "fast", Build::Fused), ("separate", "off", Build::Scheduled)];
-
-/// The end of the name of a peer that computes sines itself.
-pub const INSIDE: &str = ", sines inside";
 
 /// Runs the C, each robot's in an image, and the images of the study `rtl`.
 ///

@@ -5,7 +5,7 @@ use serde::Deserialize;
 use xtask::kit::table::{Table, thousands};
 
 use crate::page::Part;
-use crate::peers::gates::{self, INSIDE, WAYS};
+use crate::peers::ways::{self, INSIDE, WAYS};
 use crate::peers::{ALGORITHMS, GRADIENT};
 
 /// The processor that runs xtask.
@@ -38,7 +38,7 @@ pub struct Row {
     /// Modelled cycles on the target, counted ones on the gates, with sines and cosines computed
     /// before.
     pub cycles: Option<u64>,
-    /// How C was compiled for the gates: one of [`gates::WAYS`].
+    /// How C was compiled for the gates: one of [`WAYS`].
     #[serde(skip)]
     pub way: String,
     /// Instructions and literals of the function and what it calls; not known on the host.
@@ -153,7 +153,7 @@ impl Report {
         let parts = [
             ("target", section("Cortex-M4F", ON_TARGET, &|a| self.on_target(a), &ALGORITHMS)),
             ("ways", list(&ways)),
-            ("gates", section("CV32E40P", ON_GATES, &|a| self.on_gates(a), &gates::ALGORITHMS)),
+            ("gates", section("CV32E40P", ON_GATES, &|a| self.on_gates(a), &ways::ALGORITHMS)),
             ("host", section("Host", ON_HOST, &|a| self.on_host(a), &on_host)),
             ("builds", self.build_times().markdown()),
             ("versions", list(&self.versions)),
@@ -213,7 +213,7 @@ impl Report {
         };
         let mut lines: Vec<&Row> = self.of(GATES[0], algorithm).collect();
         lines.sort_by_key(|line| {
-            let robot = gates::ROBOTS.iter().position(|robot| *robot == line.robot);
+            let robot = ways::ROBOTS.iter().position(|robot| *robot == line.robot);
             (robot, line.peer.ends_with(INSIDE), line.peer.contains("separate"))
         });
         Table::of(

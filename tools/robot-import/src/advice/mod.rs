@@ -6,10 +6,12 @@ use std::f64::consts::PI;
 
 use serde::Serialize;
 
-#[cfg(feature = "program")]
-use crate::check::Checked;
+use self::numbers::{Advise, NumberAdvice};
 use crate::description::{Description, Format, Joint, Kind, Mimic};
 use crate::inertia::MassProperties;
+use crate::model::AnyModel;
+#[cfg(feature = "program")]
+use crate::model::Motion;
 pub use crate::physical::TOLERANCE;
 use crate::physical::{impossible, sentence};
 use crate::selection::{Role, Selected};
@@ -65,6 +67,17 @@ pub const FAR_GYRATION: f64 = 2.0;
 /// The longest time for a joint's range at its limit of speed without a word, s.
 const SLOWEST: f64 = 600.0;
 
+impl AnyModel {
+    /// The numbers that look like another unit, or ask more of the motors than they have.
+    pub fn advice(&self) -> Vec<NumberAdvice> {
+        match self {
+            Self::Small(model) => model.exact.advice().collect(),
+            Self::Middle(model) => model.exact.advice().collect(),
+            Self::Large(model) => model.exact.advice().collect(),
+        }
+    }
+}
+
 /// The largest ratio of a limit to the torque that a robot needs that passes without a word: legs
 /// that carry a body need more than when they hang from it.
 #[cfg(feature = "program")]
@@ -74,10 +87,10 @@ const MOST_LIMIT: f64 = 30.0;
 /// of which each joint's is compared with its limit; none if the limit of one joint, the most
 /// loaded, is near enough.
 #[cfg(feature = "program")]
-pub fn needless_torque(tree: &Tree, checked: &Checked) -> Option<Advice> {
+pub fn needless_torque(tree: &Tree, samples: &[(Motion, Vec<f64>)]) -> Option<Advice> {
     let mut most = vec![0.0_f64; tree.coordinates()[1]];
     let (mut speed, mut acceleration) = (0.0_f64, 0.0_f64);
-    for (motion, torque) in &checked.samples {
+    for (motion, torque) in samples {
         for (most, torque) in most.iter_mut().zip(torque) {
             *most = most.max(torque.abs());
         }
@@ -112,7 +125,7 @@ pub fn needless_torque(tree: &Tree, checked: &Checked) -> Option<Advice> {
              joint's limit is nearer to its need, so that a safety gate with these limits never \
              acts. State what the drive can do, or may, in `effort` of <limit> (`forcerange` or \
              `ctrlrange` of an MJCF), or in `torque` of the written file.",
-            checked.samples.len(),
+            samples.len(),
         ),
     })
 }

@@ -122,3 +122,11 @@ pub fn errors(
     shell::capture(build.env(PRINTED, printed))?;
     shell::capture(these.built(workspace, bin).args(words))
 }
+
+/// The generated code, measured for host and target.
+pub fn printed(workspace: &Workspace, tools: &Tools) -> Result<Vec<Point>> {
+    let file = printed::write(workspace)?;
+    let rows = costs(workspace, tools, &[QUICK_BIN], Some(&file))?;
+    let lines = errors(workspace, &SHARED, (QUICK_BIN, &file), &[])?;
+    join::join(&Host::read(&lines)?, &rows)
+}

@@ -3,13 +3,10 @@
 
 use std::path::PathBuf;
 
-use super::join::{Host, join};
 use super::point::{Kind, Point};
 use super::robot::Robot;
-use super::{code, measure, page, recorded};
+use super::{code, page, recorded};
 use crate::kit::error::{Result, check, refuse_if};
-use crate::kit::host_bin::SHARED;
-use crate::kit::setup::Tools;
 use crate::kit::workspace::{self, Workspace};
 
 /// The variable that says to the bins `accuracy_quick` where the file is.
@@ -68,14 +65,6 @@ fn wrapped(point: &Point, way: &str, code: &str, joints: &str) -> String {
     let values =
         [("WAY", way), ("AXES", &axes), ("AHEAD_BY", ahead), ("JOINTS", joints), ("CODE", code)];
     code::filled(template, &values)
-}
-
-/// The generated code, measured for host and target.
-pub fn measure(workspace: &Workspace, tools: &Tools) -> Result<Vec<Point>> {
-    let file = write(workspace)?;
-    let rows = measure::costs(workspace, tools, &[QUICK_BIN], Some(&file))?;
-    let lines = measure::errors(workspace, &SHARED, (QUICK_BIN, &file), &[])?;
-    join(&Host::read(&lines)?, &rows)
 }
 
 /// Fails unless all generated code costs and errs as is promised of the points that it was chosen

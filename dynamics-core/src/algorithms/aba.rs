@@ -131,6 +131,9 @@ where
                 break;
             };
             let (mut ia, mut pa, mut pivots) = (body.ia, body.pa, PivotCheck::of(body.magnitude));
+            // Iᵃ of a joint that turns freely, whose zeros about z are exact: their rounding errors
+            // would be those of all that a small body carries.
+            let mut free = None;
             for (k, joint) in link.coordinates().enumerate().rev() {
                 let s = link.subspace(turns, k);
                 let mut u_a = ia.along(&s);
@@ -143,8 +146,13 @@ where
                         let tau = transmitted(effects, joint, at, tau);
                         let u = tau - joint_torque(effects, &link, state, joint) - s.dot(pa);
                         let d_inv = R::ONE / d;
+                        let revolute = matches!(s, MotionSubspace::RevoluteZ);
                         u_a = with_rotor(effects, &link, u_a);
-                        ia = ia.minus_outer(u_a, d_inv);
+                        if revolute && effects.inertia(joint).is_none() {
+                            free = Some(ia.free_about_z(u_a, d_inv));
+                        } else {
+                            ia = ia.minus_outer(u_a, d_inv);
+                        }
                         pa += u_a * (u * d_inv);
                         (d_inv, u)
                     }
@@ -158,8 +166,12 @@ where
                 let _ = self.factors.push(JointFactor { u_a, d_inv, u });
             }
             if let Some(parent) = inner.get_mut(link.parent) {
-                pa += ia.times(body.c); // Iᵃ c, after the update of `ia`
-                parent.ia += ia.at_parent(&body.x);
+                let (ia_c, ia) = match free {
+                    Some(ia) => (ia.times_across(body.c), ia.at_parent(&body.x)),
+                    None => (ia.times(body.c), ia.at_parent(&body.x)),
+                };
+                pa += ia_c;
+                parent.ia += ia;
                 parent.magnitude += body.magnitude.at_parent(body.x.pos);
                 parent.pa += body.x.transpose_mul(pa);
             }

@@ -198,7 +198,7 @@ impl<R: Real, const V: usize> MovingGoal<R, V> {
     /// Haschke, Weitnauer & Ritter (2008); Berscheid & Kröger, "Jerk-limited real-time trajectory
     /// generation with arbitrary target states" (2021), whose durations are compared.
     pub fn set(&mut self, tick: u32, goal: &[R; V]) -> Result<u32, GoalError> {
-        if self.joints.iter().zip(goal).all(|([.., end], q)| end.q == *q) {
+        if self.goes_to(goal) {
             return Ok(tick.max(self.ticks()));
         }
         let state = self.at(tick);
@@ -228,6 +228,10 @@ impl<R: Real, const V: usize> MovingGoal<R, V> {
     /// The duration of the motion since the goal has moved, s.
     pub fn seconds(&self) -> R {
         self.seconds
+    }
+
+    fn goes_to(&self, goal: &[R; V]) -> bool {
+        self.joints.iter().zip(goal).all(|([.., end], q)| end.q == *q)
     }
 
     fn plan(&mut self, tick: u32, from: &State<R, V, V>, goal: &[R; V]) -> Result<u32, GoalError> {

@@ -45,7 +45,9 @@ pub struct GoalChange<R, const V: usize> {
     from: State<R, V, V>,
     goal: [R; V],
     joints: [(Start<R>, Fastest<R>); V],
-    /// The motion of this round, and its limits.
+    /// The motion of this round, and its limits. The one that is under way is the first to be
+    /// sampled if its goal is set again.
+    again: bool,
     motion: MovingGoal<R, V>,
     limits: [JerkLimits<R>; V],
     torque: [R; V],
@@ -90,7 +92,8 @@ impl<R: Real> Knot<R> {
 }
 
 impl<R: Real, const V: usize> MovingGoal<R, V> {
-    /// Moves the goal as [`Self::set`], with torques within `torque`, N·m or N.
+    /// Moves the goal as [`Self::set`], with torques within `torque`, N·m or N. The motion to a goal
+    /// that is set again goes on if it keeps them.
     ///
     /// `inverse_dynamics` returns the torques of a state with all that acts on the arm, friction as
     /// well: [`Engine::rnea`](dynamics_core::Engine::rnea). The limits leave what the feedback needs.
@@ -167,19 +170,28 @@ impl<R: Real, const V: usize> MovingGoal<R, V> {
             return Err(GoalError::Torque { joint });
         }
         let is_limited = torque.iter().any(|limit| limit.is_finite());
+        let again = self.goes_to(goal);
+        let last = if is_limited { GoalChange::<R, V>::STEPS } else { V + 2 };
         let joints = core::array::from_fn(|j| (self.joint(j, &from, goal), Fastest::UNKNOWN));
         Ok(GoalChange {
             start,
             from,
             goal: *goal,
             joints,
+            again,
             motion: *self,
             limits: self.limits,
             torque: *torque,
             shares: [R::ONE; 2],
             left: [R::ONE; 2],
-            step: usize::from(!is_limited),
-            last: if is_limited { GoalChange::<R, V>::STEPS } else { V + 2 },
+            step: if is_limited {
+                0
+            } else if again {
+                last
+            } else {
+                1
+            },
+            last,
             round: 0,
             joint: 0,
         })
@@ -198,7 +210,7 @@ impl<R: Real, const V: usize> MovingGoal<R, V> {
             return Err(GoalError::Missed);
         }
         *self = MovingGoal { limits: self.limits, ..change.motion };
-        Ok(Some(self.ticks()))
+        Ok(Some(tick.max(self.ticks())))
     }
 }
 
@@ -241,6 +253,9 @@ impl<R: Real, const V: usize> GoalChange<R, V> {
             None if self.step == 0 => {
                 for (limit, tau) in self.torque.iter_mut().zip(inverse_dynamics(&self.from)) {
                     *limit = tau.abs().clamped(*limit, *limit * R::from_f64(BETWEEN));
+                }
+                if self.again {
+                    self.step = V + 1;
                 }
             }
             None => match self.joints.get_mut(self.step - 1) {
@@ -292,7 +307,9 @@ impl<R: Real, const V: usize> GoalChange<R, V> {
                 time.unwrap_or(end)
             }
         };
-        let state = self.motion.state(time);
+        // A motion that goes on is sampled from here on.
+        let now = real::<R>(self.start.saturating_sub(self.motion.start)) * self.motion.tick;
+        let state = self.motion.state(if time > now { time } else { now });
         let torques = inverse_dynamics(&state);
         let mut limits = torques.iter().zip(&self.torque);
         if limits.all(|(tau, limit)| tau.abs() <= *limit) {

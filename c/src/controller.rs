@@ -102,6 +102,8 @@ fn number(of: Fault) -> (i32, i32) {
         Fault::Brake => (fault::BRAKE, None),
         Fault::External => (fault::EXTERNAL, None),
         Fault::Hot { joint } => (fault::HOT, Some(joint)),
+        Fault::LostTurn { joint } => (fault::LOST_TURN, Some(joint)),
+        Fault::LimitCycle { joint } => (fault::LIMIT_CYCLE, Some(joint)),
         _ => (fault::OTHER, None),
     };
     (number, joint.map_or(-1, |joint| joint as i32))
@@ -133,6 +135,8 @@ fn fault_of<const N: usize>(number: i32, joint: i32) -> Option<Fault> {
         fault::REFERENCE => Fault::Reference { joint: joint? },
         fault::NOT_READY => Fault::NotReady { joint: joint? },
         fault::HOT => Fault::Hot { joint: joint? },
+        fault::LOST_TURN => Fault::LostTurn { joint: joint? },
+        fault::LIMIT_CYCLE => Fault::LimitCycle { joint: joint? },
         _ => return None,
     })
 }

@@ -15,6 +15,8 @@ pub trait Declared<R: Real, const B: usize, const V: usize>: Effect<R, B, V> {
     const GRAVITIES: usize = Self::GRAVITY_FIELD.gravities;
     /// The environment exerts a wrench on some body.
     const WRENCH: bool = Self::EXTERNAL_WRENCH.is_some;
+    /// All that the effect adds has derivatives that are known.
+    const HAS_DERIVATIVES: bool = Self::EXTERNAL_WRENCH.allows(Self::DIFFERENTIABLE);
     /// A wrench reads the body's velocity.
     const BODY_VELOCITY: bool = Self::EXTERNAL_WRENCH.reads_velocity;
     /// A wrench reads the body's pose.

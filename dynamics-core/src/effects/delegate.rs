@@ -153,7 +153,7 @@ macro_rules! delegate_effect {
             const ELASTICITY: bool = ($on)
                 & (false $(| <$inner as $crate::effects::Effect<$R, $B, $V>>::ELASTICITY)*);
             const DIFFERENTIABLE: bool = !(($on) & ($slopes))
-                | (true $(& <$inner as $crate::effects::Effect<$R, $B, $V>>::DIFFERENTIABLE)*);
+                | (true $(& <$inner as $crate::effects::Declared<$R, $B, $V>>::HAS_DERIVATIVES)*);
             const ONCE: $crate::effects::Once = $crate::effects::Once::forwarded(
                 $on,
                 &[$(<$inner as $crate::effects::Effect<$R, $B, $V>>::ONCE),*],

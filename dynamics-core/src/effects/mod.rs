@@ -205,7 +205,21 @@ pub trait Effect<R: Real, const B: usize, const V: usize>: Sized {
     const ELASTICITY: bool = false;
     /// What the effect adds has derivatives that are known: of what `torque` adds, those of
     /// `slopes`. A scene with an effect of which this is false does not compile where derivatives
-    /// of dynamics are computed; [`Frozen`] counts it as constant. A wrench on a body has none.
+    /// of dynamics are computed; [`Frozen`] counts it as constant. A wrench on a body has none, so
+    /// that an effect with one does not compile there, whatever it says:
+    ///
+    /// ```compile_fail,E0080
+    /// use dynamics_core::algorithms::rnea_derivatives;
+    /// use dynamics_core::effects::{Effect, hook};
+    /// use dynamics_core::{model::Robot, robots::Ur5e, state::State};
+    /// struct Wind;
+    /// impl<const B: usize, const V: usize> Effect<f64, B, V> for Wind {
+    ///     const DIFFERENTIABLE: bool = true;
+    ///     const EXTERNAL_WRENCH: hook::Wrench<Self, f64> =
+    ///         hook::Wrench::of_velocity(|_, _, at, fx| fx.lin -= at.velocity.lin);
+    /// }
+    /// let by = rnea_derivatives(&Ur5e::MODEL, &State::at([0.0; 6]), &Wind);
+    /// ```
     const DIFFERENTIABLE: bool = false;
     /// A scene may contain this effect once: a scene with two does not compile. Any number of times
     /// for an effect of one's own, unless it takes this constant from one of the library, such as

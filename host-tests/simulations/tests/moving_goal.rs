@@ -19,7 +19,7 @@ use crate::common::Rng;
 
 const TICK: f32 = 1e-3;
 /// The delay of a change that is spread over ticks.
-const SPREAD: u32 = 6;
+const SPREAD: u32 = 7;
 
 /// The output of `host-tests/oracle/moving_goals.py`.
 #[derive(Deserialize)]
@@ -277,11 +277,12 @@ struct Within {
     steps: u32,
 }
 
-/// Goals at random ticks, from rest and on the way, each with four steps of its search in a tick.
-fn goals_within_torques(goals: u32) -> Within {
+/// Goals at random ticks, from rest and on the way, each with 16 steps of its search in a tick: so
+/// far around a position, and with friction so wide.
+fn goals_within_torques(goals: u32, around: f64, width: f32) -> Within {
     let limits = [JerkLimits { velocity: 3.0, acceleration: 20.0, jerk: 400.0 }; 6];
     let torque = [60.0, 100.0, 60.0, 15.0, 15.0, 15.0];
-    let friction = Coulomb { torque: [5.0, 5.0, 4.0, 1.0, 1.0, 1.0], width: Width::f32(0.02) };
+    let friction = Coulomb { torque: [5.0, 5.0, 4.0, 1.0, 1.0, 1.0], width: Width::f32(width) };
     let armature = Armature([0.9, 0.9, 0.9, 0.25, 0.25, 0.25]);
     let effects = (RIGID_BODY, armature, friction, Viscous([4.0, 4.0, 4.0, 1.0, 1.0, 1.0]));
     let torques = |state: &State<f32, 6, 6>| Engine::<Ur5e>::rnea(state, &effects);
@@ -291,15 +292,15 @@ fn goals_within_torques(goals: u32) -> Within {
     };
     let (mut rng, home) = (Rng::new(51), [0.0, -1.57, 1.57, -1.57, -1.57, 0.0]);
     let mut motion = MovingGoal::try_new(&home, limits, TICK).unwrap();
-    let (mut seen, mut tick, delay) = (Within::default(), 0, 150);
+    let (mut seen, mut tick, delay) = (Within::default(), 0, 153);
     for _ in 0..goals {
-        let (start, goal) = (tick + delay, home.map(|q| q + rng.within(1.2) as f32));
+        let (start, goal) = (tick + delay, home.map(|q| q + rng.within(around) as f32));
         seen.within = seen.within.max(most(&motion, tick..start));
         let mut change = motion.begin_within(start, &goal, &torque).unwrap();
         let (mut steps, mut found) = (0, Ok(false));
         for now in tick..start {
             assert_eq!(motion.take(now, &change), Ok(None));
-            for _ in 0..4 {
+            for _ in 0..16 {
                 steps += u32::from(found == Ok(false));
                 found = change.step(torques);
             }
@@ -328,11 +329,13 @@ fn goals_within_torques(goals: u32) -> Within {
 
 #[test]
 fn random_goals_keep_limits_of_torque() {
-    let seen = goals_within_torques(5_000);
-    assert!(seen.within < 1.02 && seen.refused < 30, "{seen:?}");
-    assert!(seen.steps <= GoalChange::<f32, 6>::MOST_STEPS, "{seen:?}");
-    // Without the limits of torque they are exceeded.
-    assert!(seen.without > 1.9 && seen.beyond > 2_500, "{seen:?}");
+    for (goals, around, width) in [(3_000, 1.2, 0.02), (1_000, 3.0, 0.02), (1_000, 2.5, 0.002)] {
+        let seen = goals_within_torques(goals, around, width);
+        assert!(seen.within < 1.02 && seen.refused < goals / 100, "{seen:?}");
+        assert!(seen.steps <= GoalChange::<f32, 6>::MOST_STEPS, "{seen:?}");
+        // Without the limits of torque they are exceeded.
+        assert!(seen.without > 1.9 && seen.beyond > goals / 2, "{seen:?}");
+    }
 }
 
 /// Gravity alone is beyond a limit on the way, and a joint that is fast cannot brake.

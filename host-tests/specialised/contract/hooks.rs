@@ -53,7 +53,7 @@ impl<R: Real, const FLAGS: u32, const B: usize, const V: usize> Effect<R, B, V> 
     const ACCELERATIONS: bool = has(FLAGS, ACCELERATIONS);
     const VELOCITY_PRODUCTS: bool = has(FLAGS, VELOCITY_PRODUCTS);
     const ELASTICITY: bool = has(FLAGS, ELASTICITY);
-    const DIFFERENTIABLE: bool = !has(FLAGS, FIELD);
+    const DIFFERENTIABLE: bool = !has(FLAGS, FIELD) & !has(FLAGS, WRENCH);
     const ONCE: Once =
         if has(FLAGS, ONCE) { <Viscous<R, V> as Effect<R, B, V>>::ONCE } else { Once::NONE };
     const EXTERNAL_WRENCH: hook::Wrench<Self, R> =
@@ -291,7 +291,8 @@ fn observed<R: Real, E: Effect<R, 6, 3> + Debug>(scene: &E) -> Vec<f64> {
     let hooks = [
         format!("{:?}", E::GRAVITY_FIELD),
         format!("{:?}", E::BASE),
-        format!("{:?}", E::EXTERNAL_WRENCH),
+        // A wrench is that of the effect itself, or of an inner one.
+        format!("{:?}", E::EXTERNAL_WRENCH).replace("is_own: true", "is_own: false"),
         format!("{:?}", E::ADDED_INERTIA),
         format!("{:?}", E::ROTOR),
         format!("{:?}", E::LOAD_FRICTION),

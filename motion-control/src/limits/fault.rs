@@ -71,6 +71,13 @@ pub enum Fault {
         /// The joint.
         joint: usize,
     },
+    /// The torque swings from one limit to the other; see
+    /// [`Saturation`](crate::safety::Saturation).
+    #[doc(alias = "chatter")]
+    LimitCycle {
+        /// The joint.
+        joint: usize,
+    },
     /// The reference moved further in a tick than the joint can; see
     /// [`ReferenceStep`](crate::safety::ReferenceStep).
     Reference {
@@ -159,6 +166,7 @@ impl fmt::Display for FaultText<'_> {
             Fault::Limits { joint } => (joint, "one of its limits is invalid"),
             Fault::Frozen { joint } => (joint, "its encoder is frozen"),
             Fault::Saturated { joint } => (joint, "its torque is at its limit for too long"),
+            Fault::LimitCycle { joint } => (joint, "its torque swings from limit to limit"),
             Fault::Reference { joint } => (joint, "its reference jumped"),
             Fault::NotReady { joint } => (joint, "its drive is not ready"),
             Fault::Drive { joint } => (joint, "its drive rejected the torque command"),

@@ -57,6 +57,7 @@ impl Fault {
                 Reaction::ControlledStop
             }
             Self::Saturated { .. }
+            | Self::LimitCycle { .. }
             | Self::Drive { .. }
             | Self::Limits { .. }
             | Self::Model

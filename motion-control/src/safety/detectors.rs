@@ -153,7 +153,8 @@ impl<R: Real> Encoder<R> {
     }
 }
 
-/// Detects torques that stay at their limits.
+/// Detects torques that stay at their limits, or swing from one to the other: the limit cycle of
+/// gains that are too great, whatever its period.
 ///
 /// A held arm is decelerated with q̈ = −λ q̇: choose
 /// [`decay_rate`](crate::motion::MotionControllerConfig::decay_rate) such that this torque is below
@@ -164,27 +165,51 @@ impl<R: Real> Encoder<R> {
 /// let mut saturation = Saturation::new([10.0_f32], 2);
 /// let faults = [10.0, 10.0, 10.0, -9.0].map(|torque| saturation.check(&[torque]).err());
 /// assert_eq!(faults, [None, None, Some(Fault::Saturated { joint: 0 }), None]);
+/// let cycle = (0..20).map(|tick| [[10.0], [1.0], [-10.0], [-1.0]][tick % 4]);
+/// let fault = cycle.map(|torque| saturation.check(&torque)).find(Result::is_err);
+/// assert_eq!(fault, Some(Err(Fault::LimitCycle { joint: 0 })));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Saturation<R, const V: usize> {
     limit: [R; V],
     ticks: u32,
-    saturated: [u32; V],
-    /// Whether one of these is not zero.
+    joints: [Excess; V],
+    /// Whether one of these is not that of a torque below its limit.
     counts: bool,
 }
 
+/// A torque at its limits.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Excess {
+    /// The ticks at one of them until now.
+    at_limit: u32,
+    /// The ticks since it was at one, and whether that was the upper one.
+    since: u32,
+    upper: bool,
+    /// The changes from one to the other.
+    swings: u32,
+}
+
+impl Excess {
+    const NONE: Self = Self { at_limit: 0, since: u32::MAX, upper: false, swings: 0 };
+    /// The swings that are no motion's.
+    const MOST: u32 = 8;
+    /// A longer time between two swings, in times that at a limit, is that of a motion.
+    const APART: u32 = 4;
+}
+
 impl<R: Real, const V: usize> Saturation<R, V> {
-    /// A detector that reports torques of |τ| ≥ `limit` (N·m, N) for longer than `ticks` ticks.
+    /// A detector that reports torques of |τ| ≥ `limit` (N·m, N) for longer than `ticks` ticks, and
+    /// the eighth swing in a row from limit to limit that took less than four times as long.
     pub const fn new(limit: [R; V], ticks: u32) -> Self {
-        Self { limit, ticks, saturated: [0; V], counts: false }
+        Self { limit, ticks, joints: [Excess::NONE; V], counts: false }
     }
 
     /// Counts the torques of a command.
     ///
     /// # Errors
     /// [`Fault::Saturated`] names the first joint, in each tick until its torque is below the
-    /// limit.
+    /// limit; [`Fault::LimitCycle`], until it no longer swings.
     #[inline(always)]
     pub fn check(&mut self, torque: &[R; V]) -> Result<(), Fault> {
         // Not `any`: joints need not wait for each other's verdict.
@@ -197,20 +222,33 @@ impl<R: Real, const V: usize> Saturation<R, V> {
         Ok(())
     }
 
-    /// Counts the torques of a tick in which one is at its limit, or that follows one.
+    /// Counts the torques of a tick in which one is at its limit, or that follows it.
     #[cold]
     #[inline(never)]
     fn count(&mut self, torque: &[R; V]) -> Result<(), Fault> {
         self.counts = false;
-        let mut fault = Ok(());
+        let (mut fault, apart) = (Ok(()), Excess::APART.saturating_mul(self.ticks));
         let limits = torque.iter().zip(&self.limit);
-        for (joint, (count, (torque, &limit))) in self.saturated.iter_mut().zip(limits).enumerate()
-        {
-            let at_limit = torque.abs() >= limit;
-            *count = if at_limit { count.saturating_add(1) } else { 0 };
-            self.counts |= at_limit;
-            if *count > self.ticks {
+        for (joint, (excess, (&torque, &limit))) in self.joints.iter_mut().zip(limits).enumerate() {
+            if torque.abs() >= limit {
+                let upper = torque > R::ZERO;
+                let swings = excess.since <= apart && upper != excess.upper;
+                excess.swings += u32::from(swings && excess.swings < Excess::MOST);
+                (excess.since, excess.upper) = (0, upper);
+                excess.at_limit = excess.at_limit.saturating_add(1);
+            } else {
+                excess.at_limit = 0;
+                excess.since = excess.since.saturating_add(1);
+            }
+            if excess.since > apart {
+                *excess = Excess::NONE;
+                continue;
+            }
+            self.counts = true;
+            if excess.at_limit > self.ticks {
                 fault = fault.and(Err(Fault::Saturated { joint }));
+            } else if excess.swings == Excess::MOST {
+                fault = fault.and(Err(Fault::LimitCycle { joint }));
             }
         }
         fault

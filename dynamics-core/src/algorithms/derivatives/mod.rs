@@ -49,8 +49,9 @@ where
          of links that bend are not computed: use `Armature`, `Viscous` and `Coulomb`"
     );
     assert!(
-        E::DIFFERENTIABLE,
+        E::HAS_DERIVATIVES,
         "an effect of the scene has no derivatives: `Frozen(effect)` counts it as constant, and an \
-         effect of one's own whose `slopes` are all it has sets `DIFFERENTIABLE`"
+         effect of one's own whose `slopes` are all it has sets `DIFFERENTIABLE`, one with a wrench \
+         not"
     );
 }

@@ -19,6 +19,8 @@ pub struct Wrench<E, R: Real> {
     of_velocity: Option<AddWrench<E, R, BodyVelocity<R>>>,
     of_state: Option<AddWrench<E, R, BodyState<R>>>,
     pub(in crate::effects) is_some: bool,
+    /// It is not that of an inner effect.
+    is_own: bool,
     pub(in crate::effects) reads_pose: bool,
     pub(in crate::effects) reads_velocity: bool,
 }
@@ -31,25 +33,32 @@ impl<E, R: Real> Wrench<E, R> {
         of_velocity: None,
         of_state: None,
         is_some: false,
+        is_own: false,
         reads_pose: false,
         reads_velocity: false,
     };
 
     /// A wrench that depends on nothing but the effect.
     pub const fn constant(add: fn(&E, usize, &mut Force<R>)) -> Self {
-        Self { constant: Some(add), is_some: true, ..Self::NONE }
+        Self { constant: Some(add), is_some: true, is_own: true, ..Self::NONE }
     }
 
     /// A wrench that depends on the body's pose relative to the base: the coordinate transform from
     /// the base to the body's frame, its origin in base coordinates, m.
     pub const fn of_pose(add: fn(&E, usize, &Xform<R>, &mut Force<R>)) -> Self {
-        Self { of_pose: Some(add), is_some: true, reads_pose: true, ..Self::NONE }
+        Self { of_pose: Some(add), is_some: true, is_own: true, reads_pose: true, ..Self::NONE }
     }
 
     /// A wrench that depends on the body's velocity (which does not switch the velocity products
     /// on).
     pub const fn of_velocity(add: fn(&E, usize, &BodyVelocity<R>, &mut Force<R>)) -> Self {
-        Self { of_velocity: Some(add), is_some: true, reads_velocity: true, ..Self::NONE }
+        Self {
+            of_velocity: Some(add),
+            is_some: true,
+            is_own: true,
+            reads_velocity: true,
+            ..Self::NONE
+        }
     }
 
     /// A wrench that depends on the body's pose and velocity.
@@ -57,10 +66,18 @@ impl<E, R: Real> Wrench<E, R> {
         Self {
             of_state: Some(add),
             is_some: true,
+            is_own: true,
             reads_pose: true,
             reads_velocity: true,
             ..Self::NONE
         }
+    }
+
+    /// Whether an effect with this wrench has derivatives that are known, if it says so: those of a
+    /// wrench of its own are not.
+    #[doc(hidden)]
+    pub const fn allows(&self, differentiable: bool) -> bool {
+        differentiable & !self.is_own
     }
 
     #[doc(hidden)]

@@ -3,7 +3,7 @@ use Reaction::{ControlledStop, RideThrough, TorqueOff};
 
 /// Every fault, its reaction, and its text after the joint, if it has one.
 #[rustfmt::skip]
-const FAULTS: [(Fault, Reaction, &str); 23] = [
+const FAULTS: [(Fault, Reaction, &str); 24] = [
     (Fault::Encoder { joint: 3 }, RideThrough, "joint 3: its encoder reports an error"),
     (Fault::Stale, RideThrough, "no measurement of this tick"),
     (Fault::Unfinished, RideThrough, "the tick before got no torque"),
@@ -21,6 +21,7 @@ const FAULTS: [(Fault, Reaction, &str); 23] = [
     (Fault::Hot { joint: 3 }, ControlledStop, "joint 3: its motor is too hot"),
     (Fault::LostTurn { joint: 3 }, ControlledStop, "joint 3: its encoder can have lost a turn"),
     (Fault::Saturated { joint: 3 }, TorqueOff, "joint 3: its torque is at its limit for too long"),
+    (Fault::LimitCycle { joint: 3 }, TorqueOff, "joint 3: its torque swings from limit to limit"),
     (Fault::Drive { joint: 3 }, TorqueOff, "joint 3: its drive rejected the torque command"),
     (Fault::Limits { joint: 3 }, TorqueOff, "joint 3: one of its limits is invalid"),
     (Fault::Model, TorqueOff, "the model is invalid"),

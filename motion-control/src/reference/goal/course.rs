@@ -82,6 +82,8 @@ impl<R: Real> Fastest<R> {
 const NEAR: f64 = 0.02;
 /// Steps of the search for a velocity, which only has to be below the root.
 const STEPS: usize = 7;
+/// The ratio of velocities over which these steps do not find the root.
+const FAR: f64 = 64.0;
 /// Steps of the search for the velocity of a slower motion.
 const SLOWER_STEPS: usize = 3;
 /// Steps of the search on which the place of the end depends.
@@ -169,10 +171,10 @@ impl<R: Real> Start<R> {
 
     #[inline(always)]
     pub(super) fn fastest(&self) -> Fastest<R> {
-        let JerkLimits { velocity, jerk, .. } = self.limits;
+        let JerkLimits { velocity, acceleration, jerk } = self.limits;
         let [j_inv, _] = self.inverse;
         let half = R::from_f64(0.5);
-        let most = self.changes(velocity);
+        let (mut top, mut most) = (velocity, self.changes(velocity));
         let mut found = (velocity, most);
         if most.length > self.length {
             // The velocity at which the acceleration has ended by one jerk.
@@ -184,6 +186,17 @@ impl<R: Real> Start<R> {
             if least.length > self.length {
                 return self.of_one_sign(level);
             }
+            // A way without a limit of jerk, to the velocity c and back, is shorter: (c² − v²)/a. The
+            // search begins there if the limit of velocity is far above.
+            let v = if level > self.v { positive_part(level) } else { positive_part(self.v) };
+            let way = self.length - self.rest + v * acceleration * j_inv;
+            let nearer = root(v * v + acceleration * way);
+            if nearer * R::from_f64(FAR) < velocity {
+                let changes = self.changes(nearer);
+                if changes.length >= self.length {
+                    (top, most) = (nearer, changes);
+                }
+            }
             // The root of the length beyond rest is nearly linear in p, c = v₀ + (p² − a₀²/2)/j.
             let base = self.v - half * self.a * self.a * j_inv;
             let p = |c: R| root(positive_part(jerk * (c - base)));
@@ -192,7 +205,7 @@ impl<R: Real> Start<R> {
             let goal = beyond(self.length);
             let end = |c: R, changes: Changes<R>| (p(c), beyond(changes.length) - goal, changes);
             let lowest = if level > R::ZERO { level } else { R::ZERO };
-            let ends = [end(lowest, least), end(velocity, most)];
+            let ends = [end(lowest, least), end(top, most)];
             let (p, changes) = below(ends, STEPS, R::from_f64(2.0 * NEAR) * goal, |p| {
                 let square = p * p;
                 let first = self.change_by(R::ONE, [square, p], [self.v, self.a], c(square));
@@ -200,7 +213,7 @@ impl<R: Real> Start<R> {
                 (beyond(changes.length) - goal, changes)
             });
             found = (c(p * p), changes);
-            if found.0 <= R::ZERO {
+            if (found.0 <= R::ZERO) | (found.1.time <= R::ZERO) {
                 // The goal is where the joint comes to rest at once.
                 return self.of_one_sign(level);
             }

@@ -90,6 +90,14 @@ fn rest_to_rest_takes_the_time_of_the_closed_forms() {
     let cruising = |d: f64| d / v + v / a + a / j;
     let accelerating = |d: f64| a / j + (a * a / (j * j) + 4.0 * d / a).sqrt();
     let jerking = |d: f64| (32.0 * d / j).cbrt();
+    // A limit of velocity that is far away makes no motion slower.
+    for d in [1e-6, 1e-3] {
+        let limits = JerkLimits { velocity: 1000.0, ..LIMITS };
+        let mut goal = MovingGoal::try_new(&[0.2], [limits], 1e-3).unwrap();
+        goal.set(0, &[0.2 - d]).unwrap();
+        let ratio = goal.seconds() / jerking(d);
+        assert!((1.0..1.05).contains(&ratio), "{d}: {ratio}");
+    }
     for (d, expected) in [(3.0, cruising(3.0)), (0.3, accelerating(0.3)), (0.05, jerking(0.05))] {
         let mut goal = MovingGoal::try_new(&[0.2], [LIMITS], 1e-3).unwrap();
         goal.set(0, &[0.2 - d]).unwrap();

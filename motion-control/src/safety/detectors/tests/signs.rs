@@ -42,13 +42,43 @@ fn torques_of_both_signs_saturate_and_the_first_joint_is_named() {
                 assert_eq!(saturation.check(&torque), fault, "{torque:?}");
                 assert_eq!(saturation.check(&torque), fault, "{torque:?}");
                 let below = torque.map(|torque| 0.999 * torque);
-                assert_eq!(saturation.check(&below), Ok(()), "{torque:?}");
+                for _ in 0..5 {
+                    assert_eq!(saturation.check(&below), Ok(()), "{torque:?}");
+                }
                 assert_eq!(saturation, Saturation::new(limits, 1));
             }
         }
     }
     let mut none = Saturation::new([1.0_f64], 0);
     assert_eq!(none.check(&[1.0]), Err(Fault::Saturated { joint: 0 }));
+}
+
+/// The first tick with a fault of torques that are at a limit for so many ticks, and then between
+/// the limits for so many.
+fn swings(at_limit: usize, between: usize) -> Option<(usize, Fault)> {
+    let mut saturation = Saturation::new([5.0_f64, 10.0], 3);
+    let half = at_limit + between;
+    (0..40 * half).find_map(|tick| {
+        let side = if tick / half % 2 == 0 { 1.0 } else { -1.0 };
+        let torque = if tick % half < at_limit { side * 10.0 } else { side * 9.0 };
+        saturation.check(&[0.0, torque]).err().map(|fault| (tick, fault))
+    })
+}
+
+#[test]
+fn swings_from_limit_to_limit_are_a_fault_whatever_their_period() {
+    for (at_limit, between) in [(1, 1), (2, 1), (3, 5), (1, 12)] {
+        let fault = Fault::LimitCycle { joint: 1 };
+        assert_eq!(swings(at_limit, between), Some((8 * (at_limit + between), fault)));
+    }
+    // Slower ones are those of a motion, and a torque that stays at its limits is another fault.
+    assert_eq!(swings(1, 13), None);
+    for at_limit in [1, 4] {
+        assert_eq!(swings(at_limit, 0), Some((3, Fault::Saturated { joint: 1 })));
+    }
+    // Torques that are at one limit again and again do not swing.
+    let mut saturation = Saturation::new([10.0_f64], 3);
+    assert!((0..100).all(|tick| saturation.check(&[[10.0, 9.0][tick % 2]]).is_ok()));
 }
 
 #[test]

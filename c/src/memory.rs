@@ -2,7 +2,7 @@
 
 use core::marker::PhantomData;
 use core::mem::MaybeUninit;
-use core::ptr::NonNull;
+use core::ptr::{self, NonNull};
 
 use crate::control::Control;
 use crate::{Exports, Library, Named, numbers, status};
@@ -12,6 +12,85 @@ use crate::{Exports, Library, Named, numbers, status};
 const fn magic<L: Named>(size: usize) -> u64 {
     (L::HASH ^ size as u64) | 1
 }
+
+/// An argument as C passes it: a number, or a pointer, which may be null.
+pub trait Argument: Sized {
+    /// C's type.
+    type Raw: Copy;
+
+    /// Whether it may be read. An unaligned access is a fault of some processors, and undefined in
+    /// Rust on all.
+    fn is_aligned(raw: Self::Raw) -> bool;
+
+    /// # Safety
+    /// A pointer is null, or aligned and otherwise as the header describes it.
+    unsafe fn of(raw: Self::Raw) -> Self;
+
+    /// As C would pass it.
+    fn raw(self) -> Self::Raw;
+}
+
+impl<T> Argument for Option<&T> {
+    type Raw = *const T;
+
+    #[inline(always)]
+    fn is_aligned(raw: *const T) -> bool {
+        raw.is_aligned()
+    }
+
+    #[inline(always)]
+    unsafe fn of(raw: *const T) -> Self {
+        // SAFETY: the caller's.
+        unsafe { raw.as_ref() }
+    }
+
+    fn raw(self) -> *const T {
+        self.map_or(ptr::null(), ptr::from_ref)
+    }
+}
+
+impl<T> Argument for Option<&mut T> {
+    type Raw = *mut T;
+
+    #[inline(always)]
+    fn is_aligned(raw: *mut T) -> bool {
+        raw.is_aligned()
+    }
+
+    #[inline(always)]
+    unsafe fn of(raw: *mut T) -> Self {
+        // SAFETY: the caller's.
+        unsafe { raw.as_mut() }
+    }
+
+    fn raw(self) -> *mut T {
+        self.map_or(ptr::null_mut(), ptr::from_mut)
+    }
+}
+
+/// Numbers, and a handle, which looks at its pointer itself: a command is written without it.
+macro_rules! as_it_is {
+    ($($type:ty)*) => {$(
+        impl Argument for $type {
+            type Raw = Self;
+
+            #[inline(always)]
+            fn is_aligned(_: Self) -> bool {
+                true
+            }
+
+            #[inline(always)]
+            unsafe fn of(raw: Self) -> Self {
+                raw
+            }
+
+            fn raw(self) -> Self {
+                self
+            }
+        }
+    )*};
+}
+as_it_is!(i32 u32 usize f32 Option<Handle>);
 
 /// An object in memory of C's: the first word says whether there is one.
 #[repr(C)]

@@ -249,6 +249,10 @@ fn c_example(trial: &Trial, expected: &str) {
     eprintln!("{}", costs.join("\n"));
     let check = trial.run("make", &[&out, "check"]);
     assert_eq!(check.lines().last(), Some("no panic"));
+    let sizes = trial.run("make", &[&out, "sizes"]);
+    let advice = sizes.lines().find(|line| line.ends_with("_config_advice")).expect("a size");
+    let bytes: u32 = advice.split(' ').next().and_then(|of| of.parse().ok()).expect("a number");
+    assert!(bytes < 21_000, "the header says some 20 kB\n{sizes}");
     let host = trial.run("make", &[&out, "host"]);
     assert_eq!(host.lines().last(), Some("good"), "{host}");
     trial.run("cargo", &["fmt", "--check"]);

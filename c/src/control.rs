@@ -282,7 +282,7 @@ pub(crate) struct Control<L, const N: usize, const TOOL: usize, const POINTS: us
     config: Limits<N>,
     tool: Option<Tool>,
     measured: Option<Result<[f32; N], Fault>>,
-    /// Whether the last tick had a measurement.
+    /// Whether the last tick had a measurement, of an arm that is stopped.
     knows_position: bool,
     library: PhantomData<L>,
 }
@@ -484,7 +484,6 @@ impl<L: Library<N, TOOL, POINTS>, const N: usize, const TOOL: usize, const POINT
             self.left_out();
         }
         self.source.is_fresh = false;
-        self.knows_position = matches!(&measured, Ok(q) if check::inputs([q]).is_ok());
         let Self { controller, source, gains, tool, .. } = self;
         let law = |reference: &State<N>, estimate: &Estimate<f32, N>| {
             let mut torque =
@@ -494,7 +493,11 @@ impl<L: Library<N, TOOL, POINTS>, const N: usize, const TOOL: usize, const POINT
             }
             torque
         };
-        controller.tick(measured.as_ref().map_err(|&fault| fault), source, law)
+        let command = controller.tick(measured.as_ref().map_err(|&fault| fault), source, law);
+        if self.is_stopped() {
+            self.knows_position = matches!(&measured, Ok(q) if check::inputs([q]).is_ok());
+        }
+        command
     }
 
     /// A tick without its reference is a fault that is bridged for a while, by a reference that

@@ -37,8 +37,8 @@ fn of_sizes(sizes: &[(&str, usize)]) -> String {
 }
 
 /// Whether a compiler accepts a program with the header; nothing without a compiler.
-fn compiles(compiler: &[&str], program: &str) -> Option<bool> {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("header-{N}-{}", compiler[1]));
+fn compiles(name: &str, compiler: &[&str], program: &str) -> Option<bool> {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}-{N}-{}", compiler[1]));
     std::fs::create_dir_all(&folder).expect("a folder");
     std::fs::write(folder.join("arm.h"), header()).expect("written");
     let program = format!("#include \"arm.h\"\n{program}");
@@ -77,9 +77,9 @@ fn the_header_has_the_sizes_of_the_library() {
         ("heat", size_of::<Heat>()),
     ];
     for compiler in [["cc", "-std=c11", "-xc"], ["c++", "-std=c++17", "-xc++"]] {
-        assert_ne!(compiles(&compiler, &of_sizes(&sizes)), Some(false), "{compiler:?}");
+        assert_ne!(compiles("sizes", &compiler, &of_sizes(&sizes)), Some(false), "{compiler:?}");
         sizes[0].1 += 4;
-        assert_ne!(compiles(&compiler, &of_sizes(&sizes)), Some(true), "{compiler:?}");
+        assert_ne!(compiles("sizes", &compiler, &of_sizes(&sizes)), Some(true), "{compiler:?}");
         sizes[0].1 -= 4;
     }
 }
@@ -90,11 +90,11 @@ fn a_status_that_nobody_looks_at_is_a_warning() {
     let used = "float x[ARM_JOINTS]; int32_t f(void) { return arm_gravity(x, x); }\n";
     let ignored = "float x[ARM_JOINTS]; void f(void) { arm_gravity(x, x); }\n";
     for compiler in [["cc", "-std=c11", "-xc"], ["c++", "-std=c++17", "-xc++"]] {
-        assert_ne!(compiles(&compiler, used), Some(false), "{compiler:?}");
-        assert_ne!(compiles(&compiler, ignored), Some(true), "{compiler:?}");
+        assert_ne!(compiles("status", &compiler, used), Some(false), "{compiler:?}");
+        assert_ne!(compiles("status", &compiler, ignored), Some(true), "{compiler:?}");
         let [name, standard, language] = compiler;
         let off = [name, standard, language, "-DARM_NODISCARD="];
-        assert_ne!(compiles(&off, ignored), Some(false), "{compiler:?}");
+        assert_ne!(compiles("status", &off, ignored), Some(false), "{compiler:?}");
     }
     let header = header();
     let others: Vec<_> = header.lines().filter(|line| line.starts_with("int32_t ")).collect();

@@ -448,3 +448,31 @@ impl Display for Advice {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{AdvisedJoint, Short};
+
+    /// The formatting of floats has the same text of every f32.
+    #[test]
+    fn a_number_has_the_text_of_the_formatting_of_floats() {
+        let usual = |x: f64| match x.abs() {
+            _ if (x as f32) == (x as i32) as f32 => format!("{x:.0}"),
+            1e-3..0.1 => format!("{x:.4}"),
+            0.1..10.0 => format!("{x:.2}"),
+            10.0..100.0 => format!("{x:.1}"),
+            100.0..1e7 => format!("{x:.0}"),
+            _ => format!("{x:.1e}"),
+        };
+        let numbers = [0.125, 0.375, 99.96, 9.996e8, 9.96e-5, 1e-38, 1e7, 2.5e7, 162.5, 163.5];
+        let random = (0..200_000_u32).map(|k| f32::from_bits(k.wrapping_mul(0x9e37_79b9)));
+        for x in random.chain(numbers).flat_map(|x| [x, -x]).map(f64::from) {
+            assert_eq!(Short(x).to_string(), usual(x));
+        }
+        for (x, text) in [(f64::NAN, "NaN"), (f64::INFINITY, "inf"), (-f64::INFINITY, "-inf")] {
+            assert_eq!(Short(x).to_string(), text);
+        }
+        let joint = AdvisedJoint { number: 3, body: Some("elbow") };
+        assert_eq!(joint.to_string(), "joint 3 (`elbow`)");
+    }
+}

@@ -478,7 +478,7 @@ fn two_robots_in_c() {
     let code = code.replace("my_arm", "left_arm").replace("MY_ARM", "LEFT_ARM");
     let file = program.join("guide.c");
     fs::write(&file, code).unwrap_or_else(|error| panic!("{error}"));
-    let line = "-std=c11 -Wall -Wextra -Werror -Iinclude -fsyntax-only program/guide.c";
+    let line = "-std=c11 -Wall -Wextra -Werror -Iinclude -c program/guide.c -o guide.o";
     left.run("cc", &line.split(' ').collect::<Vec<_>>());
     // The example of each project is such a program, too.
     right.run(

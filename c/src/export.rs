@@ -178,6 +178,7 @@ macro_rules! functions {
         $prefix:literal $($name:ident($($argument:ident $(: $pointer:ty)? $(= $number:ty)?),*);)*
     ) => {
         /// The functions with C's pointers.
+        #[allow(clippy::useless_transmute, reason = "numbers are passed as they are")]
         pub mod raw {
             use super::*;
             $(
@@ -201,16 +202,18 @@ macro_rules! functions {
                     extern "C" fn of($($argument: $($number)? $(Option<$pointer>)?),*) -> i32 {
                         Exports::$name($($argument),*)
                     }
-                    // SAFETY: they are aligned; what else a pointer has to be is in the header.
-                    of($(unsafe { $crate::Argument::of($argument) }),*)
+                    // SAFETY: null is `None`; they are aligned, and what else a pointer has to be is in
+                    // the header.
+                    unsafe { of($(core::mem::transmute($argument)),*) }
                 }
             )*
         }
         $(
             #[doc = concat!("`", $prefix, "_", stringify!($name), "` for callers in Rust.")]
+            #[allow(clippy::useless_transmute, reason = "numbers are passed as they are")]
             pub fn $name($($argument: $($number)? $(Option<$pointer>)?),*) -> i32 {
                 // SAFETY: references are whole, aligned objects.
-                unsafe { raw::$name($($crate::Argument::raw($argument)),*) }
+                unsafe { raw::$name($(core::mem::transmute($argument)),*) }
             }
         )*
     };

@@ -2,7 +2,7 @@
 
 use core::marker::PhantomData;
 use core::mem::MaybeUninit;
-use core::ptr::{self, NonNull};
+use core::ptr::NonNull;
 
 use crate::control::Control;
 use crate::{Exports, Library, Named, numbers, status};
@@ -14,20 +14,16 @@ const fn magic<L: Named>(size: usize) -> u64 {
 }
 
 /// An argument as C passes it: a number, or a pointer, which may be null.
-pub trait Argument: Sized {
-    /// C's type.
+pub trait Argument {
+    /// C's type, of the same bits.
     type Raw: Copy;
 
     /// Whether it may be read. An unaligned access is a fault of some processors, and undefined in
     /// Rust on all.
-    fn is_aligned(raw: Self::Raw) -> bool;
-
-    /// # Safety
-    /// A pointer is null, or aligned and otherwise as the header describes it.
-    unsafe fn of(raw: Self::Raw) -> Self;
-
-    /// As C would pass it.
-    fn raw(self) -> Self::Raw;
+    #[inline(always)]
+    fn is_aligned(_: Self::Raw) -> bool {
+        true
+    }
 }
 
 impl<T> Argument for Option<&T> {
@@ -36,16 +32,6 @@ impl<T> Argument for Option<&T> {
     #[inline(always)]
     fn is_aligned(raw: *const T) -> bool {
         raw.is_aligned()
-    }
-
-    #[inline(always)]
-    unsafe fn of(raw: *const T) -> Self {
-        // SAFETY: the caller's.
-        unsafe { raw.as_ref() }
-    }
-
-    fn raw(self) -> *const T {
-        self.map_or(ptr::null(), ptr::from_ref)
     }
 }
 
@@ -56,41 +42,17 @@ impl<T> Argument for Option<&mut T> {
     fn is_aligned(raw: *mut T) -> bool {
         raw.is_aligned()
     }
-
-    #[inline(always)]
-    unsafe fn of(raw: *mut T) -> Self {
-        // SAFETY: the caller's.
-        unsafe { raw.as_mut() }
-    }
-
-    fn raw(self) -> *mut T {
-        self.map_or(ptr::null_mut(), ptr::from_mut)
-    }
 }
 
-/// Numbers, and a handle, which looks at its pointer itself: a command is written without it.
-macro_rules! as_it_is {
-    ($($type:ty)*) => {$(
-        impl Argument for $type {
-            type Raw = Self;
-
-            #[inline(always)]
-            fn is_aligned(_: Self) -> bool {
-                true
-            }
-
-            #[inline(always)]
-            unsafe fn of(raw: Self) -> Self {
-                raw
-            }
-
-            fn raw(self) -> Self {
-                self
-            }
-        }
-    )*};
+/// It looks at its pointer itself: a command is written without it.
+impl Argument for Option<Handle> {
+    type Raw = Self;
 }
-as_it_is!(i32 u32 usize f32 Option<Handle>);
+
+macro_rules! numbers {
+    ($($number:ty)*) => {$( impl Argument for $number { type Raw = Self; } )*};
+}
+numbers!(i32 u32 usize f32);
 
 /// An object in memory of C's: the first word says whether there is one.
 #[repr(C)]

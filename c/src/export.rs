@@ -197,13 +197,13 @@ macro_rules! functions {
                     if !is_aligned {
                         return $crate::status::MEMORY;
                     }
-                    // Only as arguments of a function, which is inlined, do references say that outputs
-                    // overlap nothing: without it some functions take 70 instructions more.
+                    // Only as arguments of a function, which is inlined, do references say that
+                    // outputs overlap nothing: without it some take 70 instructions more.
                     extern "C" fn of($($argument: $($number)? $(Option<$pointer>)?),*) -> i32 {
                         Exports::$name($($argument),*)
                     }
-                    // SAFETY: null is `None`; they are aligned, and what else a pointer has to be is in
-                    // the header.
+                    // SAFETY: null is `None`; they are aligned, and what else a pointer has to be
+                    // is in the header.
                     unsafe { of($(core::mem::transmute($argument)),*) }
                 }
             )*

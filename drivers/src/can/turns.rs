@@ -19,6 +19,8 @@ const LOST: u32 = u32::MAX;
 /// No drive is back after so few ticks without a reply: its start takes longer than a few frames
 /// that are lost.
 const FEW: u32 = 3;
+/// The bits of a turn's fraction.
+const FRACTION: u32 = 40;
 /// The most by which two places that are one differ, turns.
 const SAME: f32 = 2e-4;
 
@@ -36,8 +38,10 @@ pub(crate) struct ShaftTurns {
     /// After so much the count begins again, and how often it did since the drive's start.
     period: f32,
     wraps: f32,
+    /// The turns of a wrap, in units of 2⁻⁴⁰.
+    per_wrap: i64,
     /// These wraps within a turn, of a joint on a circle, whose angle does not grow with them.
-    within: f64,
+    within: f32,
     /// What the count lacks beside whole turns, of a drive that begins in a part of one.
     shift: f32,
     /// The last count, and the same with its wraps.
@@ -70,6 +74,11 @@ impl ShaftTurns {
             turn_offset: None,
             period,
             wraps: 0.0,
+            per_wrap: if period.is_finite() {
+                (period as f64 / TAU * (1_i64 << FRACTION) as f64 + 0.5) as i64
+            } else {
+                0
+            },
             within: 0.0,
             shift: 0.0,
             last: None,
@@ -128,7 +137,7 @@ impl ShaftTurns {
 
     /// The same, but for whole turns on a circle.
     fn phase(&self, count: f32) -> f32 {
-        if self.within == 0.0 { self.with_wraps(count) } else { count + self.within as f32 }
+        if self.within == 0.0 { self.with_wraps(count) } else { count + self.within }
     }
 
     fn half(&self) -> f32 {
@@ -150,12 +159,13 @@ impl ShaftTurns {
     fn set_wraps(&mut self, wraps: f32) {
         let before = core::mem::replace(&mut self.wraps, wraps);
         let is_counted = self.mapping.turns_of_circle().is_some();
-        if (self.mapping.is_circle() || is_counted) && self.period.is_finite() {
-            let turns = |wraps: f32| f64::from(wraps) * f64::from(self.period) / TAU;
-            let whole = |wraps: f32| turns(wraps) as i64;
-            self.within = (turns(wraps) - whole(wraps) as f64) * TAU;
+        if self.mapping.is_circle() || is_counted {
+            // In integers: a tick has no f64.
+            let [turns, before] = [wraps, before].map(|wraps| self.per_wrap * (wraps as i64));
+            let part = (turns >> (FRACTION - 32)) as u32;
+            self.within = part as f32 * (self.turn / 4_294_967_296.0);
             if is_counted {
-                let added = (whole(wraps) - whole(before)) as f32;
+                let added = ((turns >> FRACTION) - (before >> FRACTION)) as f32;
                 self.turn_offset = self.turn_offset.map(|offset| offset + added);
             }
         }

@@ -130,7 +130,10 @@ fn a_bus_says_what_came_in_place_of_a_position() {
 /// A drive's answer to a query: the registers of a DM4310, but for one.
 fn answer(query: &FdFrame, other: Option<(u8, f32)>) -> FdFrame {
     let &[id, 0, 0x33, register, 0, 0, 0, 0] = query.data() else { panic!("{query:?}") };
-    let own = [12.5, 30.0, 10.0][usize::from(register - damiao::PMAX)];
+    let own = match register {
+        damiao::MODE => f32::from_bits(1),
+        _ => [12.5, 30.0, 10.0][usize::from(register - damiao::PMAX)],
+    };
     let other = other.filter(|(of, _)| *of == register);
     let [b0, b1, b2, b3] = other.map_or(own, |(_, value)| value).to_le_bytes();
     standard(0x10, &[id, 0, 0x33, register, b0, b1, b2, b3])
@@ -168,8 +171,8 @@ impl CanJoint for Within {
 }
 
 #[test]
-fn no_drive_of_a_bus_is_enabled_before_the_scales_of_all_are_right() {
-    use damiao::{PMAX, TMAX, VMAX};
+fn no_drive_of_a_bus_is_enabled_before_the_scales_and_modes_of_all_are_right() {
+    use damiao::{MODE, PMAX, TMAX, VMAX};
     let numbered = |id: u8| Damiao::new(id, 0x10, damiao::DM4310, 5.0, identity()).unwrap();
     let drives = [numbered(1), numbered(2)].map(Within);
     let joints = CanJoints::new(Outbox::<FdFrame, 2>::new(), drives);
@@ -185,14 +188,21 @@ fn no_drive_of_a_bus_is_enabled_before_the_scales_of_all_are_right() {
         assert_eq!(queried(), numbered(1).read_register(PMAX).unwrap());
     }
     joints.receive(&standard(0x10, &[1, 0, 0x33, VMAX, 0, 0, 0xf0, 0x41]));
-    for (joint, register) in
-        [(0, PMAX), (0, VMAX), (0, TMAX), (1, PMAX), (1, VMAX), (1, TMAX), (1, TMAX)]
-    {
+    // Velocity and position: the mode of a drive that was left in it.
+    let left = (MODE, f32::from_bits(2));
+    let registers = [PMAX, VMAX, TMAX, TMAX, MODE, MODE];
+    let of_first = [PMAX, VMAX, TMAX, MODE].map(|register| (0, register));
+    for (joint, register) in of_first.into_iter().chain(registers.map(|register| (1, register))) {
         let asked = joints.enable();
-        // The last one was wrong: it is asked for anew, and may have been set meanwhile.
-        let again = asked == at(1, CanError::Scale(TMAX));
+        // One that was wrong is asked for anew, and may have been set meanwhile.
+        let wrong = [at(1, CanError::Scale(TMAX)), at(1, CanError::Mode(2))];
+        let again = wrong.contains(&asked);
         assert!(again || asked == at(joint, missing(register)), "{asked:?}");
-        let other = ((joint, register, again) == (1, TMAX, false)).then_some((TMAX, 12.0));
+        let other = match (joint, register, again) {
+            (1, TMAX, false) => Some((TMAX, 12.0)),
+            (1, MODE, false) => Some(left),
+            _ => None,
+        };
         let answer = answer(&queried(), other);
         // Twice, as no drive does: it counts once.
         [answer; 2].iter().for_each(|answer| joints.receive(answer));

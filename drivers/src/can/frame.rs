@@ -59,6 +59,8 @@ pub enum CanError {
     Range,
     /// The node has another scale than expected in this register.
     Scale(u8),
+    /// The node is in another control mode than that of the commands, of this number.
+    Mode(u8),
     /// The node refused to read or write a register.
     Register {
         /// The number of the register.
@@ -115,6 +117,7 @@ impl fmt::Display for CanError {
             }
             Self::Range => out.write_str("the position is at the end of its scale"),
             Self::Scale(register) => write!(out, "register {register} has another scale"),
+            Self::Mode(mode) => write!(out, "the node is in another control mode, {mode}"),
             Self::Register { register, code } => {
                 write!(out, "the node refused register {register:#05x} with {code}")
             }

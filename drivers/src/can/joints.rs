@@ -69,6 +69,8 @@ struct Network<Bus, Joint, const V: usize> {
     /// Why there is none: nothing has come since the last tick, or what has.
     positions: [Result<f32, CanError>; V],
     delivers: [Result<(), CanError>; V],
+    /// Why joints had no position in the last reading that failed.
+    unread: [Result<(), CanError>; V],
     /// The joint behind the one that took the last frame: replies mostly come in order.
     next: usize,
 }
@@ -77,7 +79,8 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> CanJoints<Bus, Joint, V> {
     /// The joints, of which none has reported yet.
     pub const fn new(bus: Bus, joints: [Joint; V]) -> Self {
         let (positions, delivers) = ([Err(CanError::NoReply); V], [Ok(()); V]);
-        Self(RefCell::new(Network { bus, joints, positions, delivers, next: 0 }))
+        let unread = delivers;
+        Self(RefCell::new(Network { bus, joints, positions, delivers, unread, next: 0 }))
     }
 
     /// Takes a joint to be at `position` rad or m, which ends [`CanError::LostTurn`]: the next
@@ -94,6 +97,13 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> CanJoints<Bus, Joint, V> {
     /// of [`JointEncoders::read`].
     pub fn errors(&self) -> [Result<(), CanError>; V] {
         self.0.try_borrow().map_or([Err(CanError::Full); V], |network| network.delivers)
+    }
+
+    /// Why each joint had no position in the last reading that failed, whose error is that of the
+    /// first of them: which of them are silent tells a drive from a cable.
+    #[cold]
+    pub fn unread(&self) -> [Result<(), CanError>; V] {
+        self.0.try_borrow().map_or([Err(CanError::Full); V], |network| network.unread)
     }
 
     /// Clears the faults of a joint. Call it between two ticks; with an [`Outbox`], take its frame
@@ -115,6 +125,7 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> CanJoints<Bus, Joint, V> {
         self.request(joint, Joint::set_zero)
     }
 
+    #[cold]
     fn request(
         &self,
         joint: usize,
@@ -139,15 +150,15 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> CanJoints<Bus, Joint, V> {
     /// A joint of your own around a drive implements `AsRef` of it, and passes
     /// [`CanJoint::learn`] on to it.
     ///
-    /// Drives that have registers of their scale are asked for them first, one register in each
-    /// call, which is to be made in tick after tick until it succeeds: seven drives of Damiao take
-    /// 21 calls. A drive whose scale is not the one of this program delivers no torque, and neither
-    /// do the others.
+    /// Drives that have registers of their scale and their mode are asked for them first, one
+    /// register in each call, which is to be made in tick after tick until it succeeds: seven drives
+    /// of Damiao take 28 calls. A drive whose scale or mode is not the one of this program delivers
+    /// no torque, and neither do the others.
     ///
     /// # Errors
     /// [`CanError::Missing`] is the register that was asked for, [`CanError::Scale`] the one that
-    /// has another scale, for which the drive is asked anew. Else the first joint whose frame was
-    /// not sent.
+    /// has another scale, [`CanError::Mode`] another mode, for which the drive is asked anew. Else
+    /// the first joint whose frame was not sent.
     ///
     /// ```
     /// # use embedded_can::{Frame, StandardId};
@@ -173,8 +184,8 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> CanJoints<Bus, Joint, V> {
     {
         let full = JointError { joint: 0, error: CanError::Full };
         let mut state = self.0.try_borrow_mut().map_err(|_| full)?;
-        let mut scales = state.joints.iter().map(|joint| joint.as_ref().scale()).enumerate();
-        let unknown = scales.find_map(|(joint, scale)| Some((joint, scale.err()?)));
+        let mut all = state.joints.iter().map(|joint| joint.as_ref().unchecked()).enumerate();
+        let unknown = all.find_map(|(joint, unchecked)| Some((joint, unchecked.err()?)));
         let Some((joint, (register, error))) = unknown else {
             return state.send(&[(); V], |joint, ()| joint.as_ref().enable());
         };
@@ -347,10 +358,14 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> JointEncoders<V> for &CanJoints<
         let Ok(mut state) = self.0.try_borrow_mut() else {
             return Err(first(CanError::Full));
         };
-        let received = state.receive().map_err(first);
+        let received = state.receive();
+        if let Err(error) = received {
+            state.unread = [Err(error); V];
+        }
         let mut positions = [0.0; V];
-        let mut failed = received;
-        let Network { positions: reported, joints, .. } = &mut *state;
+        let mut failed = received.map_err(first);
+        let Network { positions: reported, joints, unread, .. } = &mut *state;
+        let mut is_first = received.is_ok();
         let reported = positions.iter_mut().zip(reported).zip(joints);
         for (joint, ((position, reported), of)) in reported.enumerate() {
             // After an error of the bus, too: a position counts in one tick alone.
@@ -358,6 +373,12 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> JointEncoders<V> for &CanJoints<
                 Ok(reported) => *position = reported,
                 Err(error) => {
                     of.missed(1);
+                    if mem::take(&mut is_first) {
+                        *unread = [Ok(()); V];
+                    }
+                    if let Some(unread) = unread.get_mut(joint).filter(|_| received.is_ok()) {
+                        *unread = Err(error);
+                    }
                     failed = failed.and(Err(JointError { joint, error }));
                 }
             }

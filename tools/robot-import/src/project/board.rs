@@ -36,6 +36,8 @@ pub(super) struct Parts {
     scales: &'static str,
     /// The constant of the directions of the measurements.
     signs: &'static str,
+    /// The crates of the project's bench on this computer, if it has one, from its folder.
+    pub bench: &'static [(&'static str, &'static str)],
 }
 
 /// Encoders on SPI, and drives whose input is a PWM.
@@ -46,6 +48,7 @@ const SPI_AND_PWM: Parts = Parts {
     adapt: "encoders and drives: kinds, zeros, directions, torque at a duty of 100 %",
     scales: include_str!("../../template/board/common/scales.md"),
     signs: "`ENCODERS`",
+    bench: &[],
 };
 
 /// Drives in MIT mode, which measure their joints.
@@ -56,6 +59,11 @@ const CAN: Parts = Parts {
     adapt: "the drives: their kind, numbers, scales, zeros, directions",
     scales: include_str!("../../template/board/can/scales.md"),
     signs: "`DRIVES`",
+    bench: &[
+        ("dynamics-core", "dynamics-core"),
+        ("joint-drivers", "drivers"),
+        ("motion-control", "motion-control"),
+    ],
 };
 
 /// A board with the framework of its firmware.
@@ -142,7 +150,17 @@ pub static BOARDS: [Board; 4] = [
         pins: include_str!("../../template/board/nucleo-g474re-can/pins.md"),
         files: [
             RTIC,
-            files!["board/can": "src/board.rs"],
+            files!["board/can":
+                "src/board.rs",
+                "src/board/bus.rs",
+                "bench/Cargo.toml" ".liquid",
+                "bench/.cargo/config.toml",
+                "bench/tests/main.rs" ".liquid",
+                "bench/tests/arm.rs",
+                "bench/tests/damiao_bus.rs",
+                "bench/tests/law.rs",
+                "bench/tests/mistakes.rs",
+            ],
             &[
                 file!("board/nucleo-g474re" / "memory.x"),
                 file!("board/nucleo-g474re-can" / "src/pins.rs"),

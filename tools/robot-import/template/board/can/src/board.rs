@@ -4,16 +4,26 @@
 //! `joint-drivers` has further drives in MIT mode (`mit::robstride`, `mit::cubemars`), and moteus
 //! and ODrive: all that implement `CanJoint`.
 
+use core::mem::{replace, take};
+
+use dynamics_core::model::Robot;
 use embedded_can::nb::Can;
 use embedded_hal::digital::OutputPin;
 use joint_drivers::can::CanError;
 use joint_drivers::mit::Scale;
-use joint_drivers::mit::damiao::{DM4310, Damiao};
-use joint_drivers::{CanJoints, ControlLoop, Direction, EncoderMapping, JointError};
-use motion_control::{law::Gains, motion::PreviousTick, safety::Detect};
+use joint_drivers::mit::damiao::{DM4310, DM4340, DM6006, DM8006, DM8009, Damiao};
+use joint_drivers::{
+    CanJoints, ControlLoop, Direction, DriveFault, DriveFaultKind, EncoderMapping, JointError,
+};
+use motion_control::limits::{Mode, Status};
+use motion_control::motion::{PreviousTick, ResetError};
+use motion_control::{law::Gains, safety::Detect};
 
 use crate::control::{Measured, controller, encoder_mappings};
-use crate::scene;
+use crate::say::Line;
+use crate::scene::{self, Arm};
+
+pub mod bus;
 
 pub use crate::control::{FeedForward as Law, Found, SetupError, detectors, gains};
 pub use crate::scene::{Motion, N, TICK};
@@ -22,8 +32,22 @@ pub use crate::scene::{Motion, N, TICK};
 pub type Drive = Damiao;
 
 /// The motor of each joint: the greatest position, velocity and torque of its counts, which are the
-/// registers PMAX, VMAX and TMAX of the drive.
-pub const SCALES: [Scale; N] = [DM4310; N];
+/// registers PMAX, VMAX and TMAX of the drive. Here it is the weakest motor that has the joint's
+/// torque in the description: write down yours, such as `[DM4340, DM4340, DM4310]`.
+pub const SCALES: [Scale; N] = {
+    let (mut scales, mut joint) = ([DM4310; N], 0);
+    while joint < N {
+        scales[joint] = match Arm::MODEL.links[joint].limits.torque {
+            ..=10.0 => DM4310,
+            ..=20.0 => DM6006,
+            ..=28.0 => DM4340,
+            ..=40.0 => DM8006,
+            _ => DM8009,
+        };
+        joint += 1;
+    }
+    scales
+};
 /// The angle that the drive of each joint reads at the joint's zero, rad. Its range is in
 /// `scene.rs`.
 pub const ZERO: [f32; N] = [0.0; N];
@@ -98,13 +122,143 @@ pub fn on_brake<Bus: Can, Brake: OutputPin, D: Detect<f32, N>>(
 }
 
 /// Lets the drives deliver torque: that of the last command, which is zero on the brake. Returns
-/// whether they do: the first calls, one in each tick, ask them for their scales.
+/// whether all do, without an error: the first calls, one in each tick, clear the errors that a
+/// drive keeps, and ask the drives for their scales and modes.
 ///
 /// # Errors
-/// [`SetupError::Can`]: a drive has another scale than [`SCALES`], or has no frame.
-pub fn enable<Bus: Can>(drives: &mut &'static Joints<Bus>) -> Result<bool, SetupError> {
-    match drives.enable() {
-        Err(error) if matches!(error.error, CanError::Missing(_)) => Ok(false),
-        enabled => enabled.map(|()| true).map_err(SetupError::Can),
+/// The drive that has another scale than [`SCALES`] or another mode, or has no frame.
+pub fn enable<Bus: Can>(drives: &Joints<Bus>) -> Result<bool, JointError<CanError>> {
+    let has_failed = |state: &Result<(), CanError>| {
+        state.is_err_and(|error| error.kind() == DriveFaultKind::Failed)
+    };
+    if let Some(joint) = drives.errors().iter().position(has_failed) {
+        return drives.clear_errors(joint).map(|()| false);
+    }
+    drives.enable()?;
+    Ok(drives.errors().iter().all(Result::is_ok))
+}
+
+/// Says what is wrong on the bus, and starts a robot on its brake while the button is pressed.
+#[derive(Debug)]
+pub struct Operator {
+    /// The first tick of this second, and in how many since then each joint had no position.
+    since: u32,
+    unread: [u8; N],
+    /// Ticks for which the same drive has not done what the button asks for.
+    waited: u32,
+    last: Option<JointError<CanError>>,
+    advice: bool,
+    torques: [f32; N],
+}
+
+/// Ticks of a second, and so many of them until a silence or a wait is said.
+const SECOND: u32 = (1.0 / TICK) as u32;
+const FEW: u8 = 3;
+const LONG: u32 = SECOND / 10;
+
+impl Operator {
+    pub fn new(motion: &Motion) -> Self {
+        Self {
+            since: 0,
+            unread: [0; N],
+            waited: 0,
+            last: None,
+            advice: true,
+            torques: scene::limits(motion).torque,
+        }
+    }
+
+    /// After a tick that is not one of full operation; why the robot does not start.
+    #[cold]
+    #[inline(never)]
+    pub fn tick<Bus: Can, Brake: OutputPin, D: Detect<f32, N>>(
+        &mut self,
+        now: u32,
+        status: &Status,
+        control: &mut Control<Bus, Brake, D>,
+        motion: &Motion,
+        is_pressed: bool,
+        mut say: impl FnMut(Line),
+    ) -> Option<ResetError> {
+        if take(&mut self.advice) {
+            bus::advice(&self.torques, &mut say);
+        }
+        let drives: &Joints<Bus> = *control.encoders();
+        let (failed, sent) = (control.encoder_error().is_some(), control.drive_error());
+        self.readings(now, drives, failed, sent, &mut say);
+        let states = drives.errors();
+        for (joint, state) in states.into_iter().enumerate() {
+            match state {
+                Ok(()) => {}
+                // The button has not enabled it yet.
+                Err(CanError::NotReady) if matches!(status.mode, Mode::Stopped) => {}
+                Err(error) => say(bus::line(JointError { joint, error })),
+            }
+        }
+        if !is_pressed {
+            self.waited = 0;
+            return None;
+        }
+        match enable(drives) {
+            Ok(true) => return control.reset(motion).err(),
+            // An error of this kind may last: the drive is asked again.
+            Err(error) if !matches!(error.error, CanError::Missing(_)) => say(bus::line(error)),
+            other => {
+                let not_ready = || states.iter().position(|state| *state == Err(CanError::NotReady));
+                let of = |joint| JointError { joint, error: CanError::NotReady };
+                let waits = other.err().or_else(|| not_ready().map(of));
+                let is_same = replace(&mut self.last, waits) == waits && waits.is_some();
+                self.waited = if is_same { self.waited.saturating_add(1) } else { 0 };
+                if let Some(waits) = waits.filter(|_| self.waited > LONG) {
+                    say(bus::line(waits));
+                }
+            }
+        }
+        None
+    }
+
+    /// Says which joints have no position, a few times in a second.
+    fn readings<Bus: Can>(
+        &mut self,
+        now: u32,
+        drives: &Joints<Bus>,
+        has_failed: bool,
+        sent: Option<JointError<&CanError>>,
+        say: &mut impl FnMut(Line),
+    ) {
+        if now.wrapping_sub(self.since) >= SECOND {
+            (self.since, self.unread) = (now, [0; N]);
+        }
+        if !has_failed {
+            return;
+        }
+        let unread = drives.unread();
+        for (count, unread) in self.unread.iter_mut().zip(&unread) {
+            *count = count.saturating_add(unread.is_err().into());
+        }
+        let silent = self.unread.map(|count| count >= FEW);
+        if !silent.contains(&true) {
+            return;
+        }
+        // Without room none of the joints behind it is heard.
+        let is_of_bus = |sent: &JointError<&CanError>| {
+            let is_it = matches!(sent.error, CanError::Full | CanError::Bus(_));
+            is_it && silent.iter().skip(sent.joint).all(|&silent| silent)
+        };
+        if let Some(JointError { joint, error: &error }) = sent.filter(is_of_bus) {
+            say(bus::line(JointError { joint, error }));
+        }
+        let heard = silent.iter().rposition(|&silent| !silent).map_or(0, |last| last + 1);
+        let is_none = |joint: usize| unread[joint] == Err(CanError::NoReply);
+        let is_cut = N - heard > 1 && (heard..N).all(is_none);
+        if is_cut {
+            say(if heard == 0 { bus::SILENT } else { bus::broken(heard) });
+        }
+        let one_by_one = 0..if is_cut { heard } else { N };
+        for joint in one_by_one.filter(|&joint| silent[joint]) {
+            if let Err(error) = unread[joint] {
+                say(bus::line(JointError { joint, error }));
+            }
+        }
     }
 }

@@ -5,12 +5,14 @@
 //! `JointDrive`.
 
 use embedded_hal::{digital::OutputPin, pwm::SetDutyCycle, spi::SpiDevice};
-use joint_drivers::as5047p::As5047p;
+use joint_drivers::as5047p::{As5047p, FrameError};
 use joint_drivers::h_bridge::{FullScale, LockedAntiphase};
 use joint_drivers::{ControlLoop, Direction, EncoderType};
-use motion_control::{law::Gains, safety::Detect};
+use motion_control::limits::Status;
+use motion_control::{law::Gains, motion::ResetError, safety::Detect};
 
 use crate::control::{Measured, controller, encoder_mappings};
+use crate::say::Line;
 use crate::scene;
 
 pub use crate::control::{FeedForward as Law, Found, SetupError, detectors, gains};
@@ -60,12 +62,45 @@ pub fn plan(place: &mut Motion) -> Result<(), SetupError> {
     planned.map(|motion| *place = motion)
 }
 
-/// The drives have an input of their own that enables them, which belongs to the emergency stop.
-///
-/// # Errors
-/// None.
-pub fn enable<Encoders>(_: &mut Encoders) -> Result<bool, SetupError> {
-    Ok(true)
+/// Says what is wrong with the devices, and starts a robot on its brake while the button is pressed.
+/// Of the drives nothing is known: their enable input belongs to the emergency stop.
+#[derive(Debug)]
+pub struct Operator;
+
+impl Operator {
+    pub const fn new(_: &Motion) -> Self {
+        Self
+    }
+
+    /// After a tick that is not one of full operation; why the robot does not start.
+    #[cold]
+    #[inline(never)]
+    pub fn tick<Spi: SpiDevice, Pwm: SetDutyCycle, Brake: OutputPin, D: Detect<f32, N>>(
+        &mut self,
+        _: u32,
+        _: &Status,
+        control: &mut Control<Spi, Pwm, Brake, D>,
+        motion: &Motion,
+        is_pressed: bool,
+        mut say: impl FnMut(Line),
+    ) -> Option<ResetError> {
+        if let Some(failed) = control.encoder_error() {
+            say(match failed.error {
+                FrameError::LostTurn => Line::of(
+                    failed.joint,
+                    "its encoder may have turned unseen",
+                    "stand it at its home and restart the board, or place_near of its encoder",
+                ),
+                _ => Line::of(
+                    failed.joint,
+                    "its encoder does not answer, or its frame is wrong",
+                    "its supply, its select and the wires of the bus; a magnet that is too far away",
+                ),
+            });
+        }
+        let refused = || control.reset(motion).err();
+        is_pressed.then(refused).flatten()
+    }
 }
 
 /// The loop of a robot that stands on its brake until `reset`.

@@ -1,0 +1,200 @@
+//! The mistakes that people make, and what the log says of each within two seconds: the joint, what
+//! was seen, what to do. The guide's page of motors on CAN has those that nothing can see.
+
+use dynamics_core::effects::{Coriolis, Gravity, Inertia};
+use embedded_can::ErrorKind;
+use joint_drivers::JointError;
+use joint_drivers::can::CanError;
+use motion_control::limits::Mode;
+
+use crate::arm::Bench;
+use crate::damiao_bus::{Drive, Wire};
+use crate::robot::board::{SCALES, bus};
+use crate::robot::scene::{self, JOINTS, N, TICK};
+
+/// The joint of the mistakes.
+const J: usize = N / 2;
+
+/// A mistake, the joint that is named, if it is one, and words of what is seen and what to do.
+type Mistake = (&'static str, fn(&mut Bench), Option<usize>, [&'static str; 2]);
+
+fn drive(bench: &Bench, change: impl FnOnce(&mut Drive)) {
+    change(&mut bench.wire.borrow_mut().drives[J]);
+}
+
+fn wire(bench: &Bench, change: impl FnOnce(&mut Wire)) {
+    change(&mut bench.wire.borrow_mut());
+}
+
+/// An error that a drive reports, and whether its cause lasts.
+fn fails(bench: &Bench, error: u8, lasts: bool) {
+    drive(bench, |drive| (drive.error, drive.error_lasts) = (error, lasts));
+}
+
+/// Mistakes that are there when the board starts. The arm stays on its brake.
+const BEFORE: &[Mistake] = &[
+    ("no supply", |b| wire(b, |w| w.drives.iter_mut().for_each(|d| d.supply(false))), None, ["no drive answers", "supply"]),
+    ("another bit rate", |b| wire(b, |w| w.error = Some(ErrorKind::Acknowledge)), Some(0), ["acknowledges", "1 Mbit/s"]),
+    ("no cable at all", |b| wire(b, |w| w.reaches = Some(0)), None, ["no drive answers", "cable"]),
+    ("a cable that ends early", |b| wire(b, |w| w.reaches = Some(J)), Some(J), ["all behind it", "cable"]),
+    ("a drive without supply", |b| drive(b, |d| d.supply(false)), Some(J), ["does not answer", "supply"]),
+    ("another number", |b| drive(b, |d| (d.number, d.host) = (14, 0x1e)), Some(J), ["does not answer", "ESC_ID"]),
+    ("two drives of one number", |b| drive(b, |d| (d.number, d.host) = (J as u8, 0x10 + J as u16)), Some(J), ["does not answer", "second drive"]),
+    ("the factory's MST_ID", |b| drive(b, |d| d.host = 0), Some(J), ["none of them from its drive", "MST_ID"]),
+    ("another maker's drive", |b| { drive(b, |d| d.supply(false)); wire(b, |w| w.foreign = 1); }, Some(J), ["none of them from its drive", "ESC_ID"]),
+    ("another PMAX", |b| drive(b, |d| d.scale.position = 12.566), Some(J), ["PMAX", "SCALES"]),
+    ("another VMAX", |b| drive(b, |d| d.scale.velocity *= 1.5), Some(J), ["VMAX", "48 V"]),
+    ("another TMAX", |b| drive(b, |d| d.scale.torque *= 2.8), Some(J), ["TMAX", "motor of this joint"]),
+    ("another control mode", |b| drive(b, |d| d.mode = 2), Some(J), ["control mode", "register 10"]),
+    ("no terminator", |b| wire(b, |w| w.destroys = 2), None, ["not always", "terminators"]),
+    ("three places for frames", |b| wire(b, |w| w.places = 3), Some(3), ["no room", "fewer places"]),
+    ("another program's frames", |b| wire(b, |w| w.foreign = 200), Some(0), ["more frames", "another board"]),
+    ("zero never set", |b| drive(b, |d| d.zero += 2.5), Some(J), ["no start", "zero"]),
+    ("zero off by 0.7 rad", |b| drive(b, |d| d.zero += 0.7), Some(J), ["no start", "zero"]),
+    ("far from home", |b| b.state.q[J] += 0.5, Some(J), ["no start", "move it"]),
+    ("a motor that is still hot", |b| fails(b, 0xc, true), Some(J), ["motor is too hot", "cool"]),
+];
+
+/// Mistakes of a robot that runs.
+const RUNNING: &[Mistake] = &[
+    ("a hot motor", |b| fails(b, 0xc, true), Some(J), ["motor is too hot", "cool"]),
+    ("a hot drive", |b| fails(b, 0xb, true), Some(J), ["drive is too hot", "cool"]),
+    ("too much load", |b| fails(b, 0xe, false), Some(J), ["overloaded", "button"]),
+    ("too much current", |b| fails(b, 0xa, false), Some(J), ["current", "button"]),
+    ("a supply that takes nothing back", |b| fails(b, 0x8, false), Some(J), ["too much voltage", "brake resistor"]),
+    ("a weak supply", |b| fails(b, 0x9, false), Some(J), ["too little voltage", "limit of current"]),
+    ("the watchdog of a drive", |b| fails(b, 0xd, false), Some(J), ["missed its commands", "register 9"]),
+    ("a drive that another program disables", |b| drive(b, |d| d.is_enabled = false), Some(J), ["not enabled", "another program"]),
+    ("a drive that loses its supply", |b| drive(b, |d| d.supply(false)), Some(J), ["does not answer", "supply"]),
+    ("a supply that comes back", |b| { drive(b, |d| d.supply(false)); drive(b, |d| d.supply(true)); }, Some(J), ["not enabled", "supply came back"]),
+    ("a cable that breaks", |b| wire(b, |w| w.reaches = Some(J)), Some(J), ["all behind it", "plug"]),
+    ("the emergency stop of the supply", |b| wire(b, |w| w.drives.iter_mut().for_each(|d| d.supply(false))), None, ["no drive answers", "supply"]),
+    ("bus off", |b| wire(b, |w| w.error = Some(ErrorKind::Other)), Some(0), ["off the bus", "120 Ω"]),
+    ("frames that are destroyed", |b| wire(b, |w| w.error = Some(ErrorKind::Crc)), Some(0), ["destroyed", "ends"]),
+    ("ticks that are late", |b| b.is_late = true, None, ["longer than its period", "opt-level"]),
+];
+
+fn is_said(bench: &Bench, joint: Option<usize>, words: [&str; 2]) -> bool {
+    bench.lines.iter().any(|line| {
+        let text = line.to_string();
+        let name = joint.map(|joint| format!("joint {} `{}`: ", joint + 1, JOINTS[joint]));
+        name.is_none_or(|name| text.starts_with(&name))
+            && line.seen.contains(words[0])
+            && line.remedy.contains(words[1])
+    })
+}
+
+/// No line is said twice in two seconds.
+fn is_brief(bench: &Bench) -> bool {
+    let lines = || bench.said.iter().enumerate().filter(|(_, said)| said.1.contains(": "));
+    lines().all(|(at, (time, text))| {
+        let again = lines().filter(|(other, said)| *other > at && said.1 == *text);
+        again.into_iter().all(|(_, (then, _))| then - time > 1.99)
+    })
+}
+
+fn check(bench: &Bench, (name, _, joint, words): &Mistake) -> Option<String> {
+    let is_right = is_said(bench, *joint, *words) && is_brief(bench);
+    (!is_right).then(|| format!("{name}: {:#?}", bench.said))
+}
+
+#[test]
+fn mistakes_before_the_start_are_named_and_the_arm_stays_on_its_brake() {
+    if N < 4 {
+        return;
+    }
+    let mut unnamed = Vec::new();
+    for mistake in BEFORE {
+        let mut bench = Bench::new();
+        mistake.1(&mut bench);
+        bench.run(0.1, false);
+        let starts = bench.start();
+        bench.run(0.9, false);
+        unnamed.extend(check(&bench, mistake));
+        assert!(!starts, "{}: {:#?}", mistake.0, bench.said);
+    }
+    assert!(unnamed.is_empty(), "{}", unnamed.join("\n"));
+}
+
+#[test]
+fn mistakes_of_a_robot_that_runs_are_named() {
+    if N < 4 {
+        return;
+    }
+    let mut unnamed = Vec::new();
+    for mistake in RUNNING {
+        let mut bench = Bench::new();
+        bench.run(0.1, false);
+        assert!(bench.start(), "{:#?}", bench.said);
+        bench.run(0.3, false);
+        bench.lines.clear();
+        mistake.1(&mut bench);
+        bench.run(1.9, false);
+        unnamed.extend(check(&bench, mistake));
+    }
+    assert!(unnamed.is_empty(), "{}", unnamed.join("\n"));
+}
+
+#[test]
+fn without_a_mistake_nothing_is_said_and_the_arm_follows_its_motion() {
+    let mut bench = Bench::new();
+    bench.run(0.1, false);
+    let advice = bench.lines.len();
+    assert!(bench.start(), "{:#?}", bench.said);
+    bench.run(bench.motion.ticks() as f32 * TICK + 0.5, false);
+    let status = bench.status.expect("ticks");
+    assert_eq!((status.mode, status.fault), (Mode::Full, None), "{:#?}", bench.said);
+    assert_eq!(bench.lines.len(), advice, "{:#?}", bench.said);
+    for (q, home) in bench.state.q.iter().zip(scene::home()) {
+        assert!((q - home).abs() < 0.02, "{:?}", bench.state.q);
+    }
+}
+
+/// No Full while a drive reports an error: the start clears it first.
+#[test]
+fn the_start_clears_the_errors_that_drives_keep() {
+    let mut bench = Bench::new();
+    fails(&bench, 0xd, false);
+    bench.run(0.1, false);
+    assert!(is_said(&bench, Some(J), ["missed its commands", "button"]), "{:#?}", bench.said);
+    assert!(bench.start(), "{:#?}", bench.said);
+    assert_eq!(bench.wire.borrow().drives[J].error, 0);
+    bench.run(0.5, false);
+    assert_eq!(bench.status.map(|status| status.mode), Some(Mode::Full), "{:#?}", bench.said);
+    // A cause that lasts: the arm stays on its brake, without flicker.
+    fails(&bench, 0xc, true);
+    bench.run(0.2, false);
+    let changes = bench.said.len();
+    bench.run(1.0, true);
+    assert_eq!(bench.status.map(|status| status.mode), Some(Mode::Stopped));
+    assert!(bench.said.len() < changes + 5, "{:#?}", bench.said);
+}
+
+#[test]
+fn the_start_says_what_the_description_has_too_much_of_or_lacks() {
+    let mut bench = Bench::new();
+    bench.run(0.01, false);
+    let weak = |torques: [f32; N]| {
+        let mut weak = Vec::new();
+        bus::advice(&torques, |line| {
+            let is_it = line.seen.contains("above its motor's greatest");
+            weak.extend(line.joint.filter(|_| is_it && line.remedy.contains("SCALES")));
+        });
+        weak
+    };
+    let of_motors = SCALES.map(|scale| scale.torque);
+    assert_eq!(weak(of_motors), []);
+    let stronger = |joint| if joint == J { 1.1 } else { 1.0 };
+    assert_eq!(weak(core::array::from_fn(|joint| stronger(joint) * of_motors[joint])), [J]);
+    let [has_rotor, has_friction] = bus::terms(&scene::EFFECTS);
+    let is_bare = !(has_rotor && has_friction);
+    assert_eq!(is_said(&bench, None, ["the description has no", "EFFECTS"]), is_bare);
+    assert_eq!(bus::terms(&(Gravity::EARTH, Inertia, Coriolis)), [false; 2]);
+}
+
+/// A drive that lost its turns: its joint's range has to be longer than a turn for it.
+#[test]
+fn a_lost_turn_says_how_it_is_found_again() {
+    let line = bus::line(JointError { joint: J, error: CanError::LostTurn });
+    assert!(line.seen.contains("lost its turns") && line.remedy.contains("home"), "{line}");
+}

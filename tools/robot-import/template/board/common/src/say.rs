@@ -10,7 +10,7 @@ use crate::board::SetupError;
 use crate::scene::{JOINTS, N, TICK};
 
 /// Ticks on the brake from one list of positions to the next, and from a line to its repetition.
-const POSITIONS: u32 = (1.0 / TICK) as u32;
+const POSITIONS: u32 = (0.5 / TICK) as u32;
 const AGAIN: u32 = (2.0 / TICK) as u32;
 
 /// What was seen, and what to do.
@@ -146,7 +146,7 @@ fn of_fault(fault: Fault) -> Option<Line> {
         Fault::LimitCycle { joint } => Line::of(
             joint,
             "its torque swings from limit to limit",
-            "gains too high, or in another unit: those of control.rs are per inertia, 1/s² and 1/s, not N·m/rad",
+            "gains too high or in another unit (those of control.rs are per inertia, 1/s² and 1/s, not N·m/rad), or two drives swapped",
         ),
         Fault::Reference { joint } => {
             Line::of(joint, "its reference jumped", "the motion in scene.rs, or an own reference")

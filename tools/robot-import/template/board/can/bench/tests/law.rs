@@ -7,7 +7,7 @@ use motion_control::estimate::Estimate;
 use motion_control::law::Gains;
 use motion_control::limits::Mode;
 
-use crate::arm::Bench;
+use crate::arm::{Bench, is_whole};
 use crate::robot::board::{self, Motion};
 use crate::robot::scene::{self, Arm, N, TICK, home};
 
@@ -33,6 +33,9 @@ impl Law<N> for Hang {
 
 #[test]
 fn the_arm_hangs_still_under_its_weight() {
+    if !is_whole() {
+        return;
+    }
     let motion = Box::leak(Box::new(Motion::REST));
     board::plan(motion).unwrap_or_else(|error| panic!("{error}"));
     // N·m·s/rad: a share of each joint's inertia, 1/s. The detectors would expect it to follow.
@@ -48,4 +51,20 @@ fn the_arm_hangs_still_under_its_weight() {
     for (q, home) in bench.state.q.iter().zip(home()) {
         assert!((q - home).abs() < 0.1, "{:?}", bench.state.q);
     }
+}
+
+/// The gains of the project are per inertia: in N·m·s/rad they are far too high.
+#[test]
+fn gains_in_another_unit_are_named() {
+    if !is_whole() {
+        return;
+    }
+    let motion = Box::leak(Box::new(Motion::REST));
+    board::plan(motion).unwrap_or_else(|error| panic!("{error}"));
+    let detectors = board::detectors(motion);
+    let mut bench = Bench::with(motion, board::gains(), detectors);
+    for _ in 0..(2.0 / TICK) as u32 {
+        bench.tick::<Hang>(motion, true);
+    }
+    assert!(bench.lines.iter().any(|line| line.remedy.contains("in another unit")), "{:#?}", bench.said);
 }

@@ -115,7 +115,8 @@ pub fn line(JointError { joint, error }: JointError<CanError>) -> Line {
         CanError::Missing(number) | CanError::Fault(number) => Some(number),
         _ => None,
     };
-    Line { number, ..Line::of(joint, seen, remedy) }
+    let joint = Some(joint).filter(|_| !matches!(error, CanError::Bus(_)));
+    Line { joint, seen, number, remedy }
 }
 
 /// What the description lacks, or has more of than the motors: these are its limits of torque.

@@ -18,6 +18,7 @@ mod law;
 mod turns;
 
 use super::can::{classic, extended, standard};
+pub(crate) use super::damiao_bus::{Drive, decoded};
 use super::{identity, near_zero};
 
 type Sent = Result<FdFrame, CanError>;
@@ -129,14 +130,13 @@ fn a_bus_says_what_came_in_place_of_a_position() {
 
 /// A drive's answer to a query: the registers of a DM4310, but for one.
 fn answer(query: &FdFrame, other: Option<(u8, f32)>) -> FdFrame {
-    let &[id, 0, 0x33, register, 0, 0, 0, 0] = query.data() else { panic!("{query:?}") };
-    let own = match register {
-        damiao::MODE => f32::from_bits(1),
-        _ => [12.5, 30.0, 10.0][usize::from(register - damiao::PMAX)],
-    };
-    let other = other.filter(|(of, _)| *of == register);
-    let [b0, b1, b2, b3] = other.map_or(own, |(_, value)| value).to_le_bytes();
-    standard(0x10, &[id, 0, 0x33, register, b0, b1, b2, b3])
+    let mut drive = Drive { host: 0x10, ..Drive::new(query.data()[0], damiao::DM4310) };
+    match other {
+        Some((damiao::MODE, mode)) => drive.mode = mode.to_bits(),
+        Some((damiao::TMAX, torque)) => drive.scale.torque = torque,
+        _ => {}
+    }
+    drive.take(query).expect("an answer")
 }
 
 /// A joint around a drive.
@@ -475,20 +475,6 @@ fn identities_limits_and_scales_outside_their_ranges_are_refused() {
             assert_eq!(Damiao::new(1, 0, scale, 1.0, identity()).err(), Some(CanError::NotFinite));
         }
     }
-}
-
-/// The command of a drive as it decodes it, in f64.
-pub(crate) fn decoded(frame: &FdFrame, scale: &Scale) -> [f64; 5] {
-    let [d0, d1, d2, d3, d4, d5, d6, d7] = frame.data().try_into().unwrap();
-    let both = |high: u8, low: u8| f64::from(u16::from(high) << 8 | u16::from(low));
-    let signed = |count: f64, most: f32, last: f64| (2.0 * count / last - 1.0) * f64::from(most);
-    [
-        signed(both(d0, d1), scale.position, 65535.0),
-        signed(both(d2 >> 4, d2 << 4 | d3 >> 4), scale.velocity, 4095.0),
-        both(d3 & 0x0f, d4) / 4095.0 * f64::from(scale.kp),
-        both(d5 >> 4, d5 << 4 | d6 >> 4) / 4095.0 * f64::from(scale.kd),
-        signed(both(d6 & 0x0f, d7), scale.torque, 4095.0),
-    ]
 }
 
 #[test]

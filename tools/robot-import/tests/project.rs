@@ -340,7 +340,7 @@ fn the_bench_of_drives_on_can() {
     let board = Board::find("nucleo-g474re-can", None).expect("a board");
     let trial = Trial::new("on-bench", robot, Kind::Board(board));
     let said = trial.run("sh", &["-c", "cd bench && cargo test"]);
-    assert!(said.contains("test result: ok. 8 passed"), "{said}");
+    assert!(said.contains("test result: ok. 9 passed"), "{said}");
     trial.run("cargo", &["fmt", "--all", "--check"]);
 }
 

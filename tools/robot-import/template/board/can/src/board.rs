@@ -185,7 +185,7 @@ impl Operator {
         }
         let drives: &Joints<Bus> = *control.encoders();
         let (failed, sent) = (control.encoder_error().is_some(), control.drive_error());
-        self.readings(now, drives, failed, sent, &mut say);
+        let is_heard = self.readings(now, drives, failed, sent, &mut say);
         let states = drives.errors();
         for (joint, state) in states.into_iter().enumerate() {
             match state {
@@ -195,7 +195,7 @@ impl Operator {
                 Err(error) => say(bus::line(JointError { joint, error })),
             }
         }
-        if !is_pressed {
+        if !is_pressed || !is_heard {
             self.waited = 0;
             return None;
         }
@@ -217,7 +217,7 @@ impl Operator {
         None
     }
 
-    /// Says which joints have no position, a few times in a second.
+    /// Says which joints had no position a few times in this second, and returns whether none had.
     fn readings<Bus: Can>(
         &mut self,
         now: u32,
@@ -225,20 +225,18 @@ impl Operator {
         has_failed: bool,
         sent: Option<JointError<&CanError>>,
         say: &mut impl FnMut(Line),
-    ) {
+    ) -> bool {
         if now.wrapping_sub(self.since) >= SECOND {
             (self.since, self.unread) = (now, [0; N]);
         }
-        if !has_failed {
-            return;
-        }
         let unread = drives.unread();
-        for (count, unread) in self.unread.iter_mut().zip(&unread) {
+        for (count, unread) in self.unread.iter_mut().zip(&unread).filter(|_| has_failed) {
             *count = count.saturating_add(unread.is_err().into());
         }
         let silent = self.unread.map(|count| count >= FEW);
-        if !silent.contains(&true) {
-            return;
+        let is_heard = !silent.contains(&true);
+        if is_heard || !has_failed {
+            return is_heard;
         }
         // Without room none of the joints behind it is heard.
         let is_of_bus = |sent: &JointError<&CanError>| {
@@ -249,6 +247,11 @@ impl Operator {
             say(bus::line(JointError { joint, error }));
         }
         let heard = silent.iter().rposition(|&silent| !silent).map_or(0, |last| last + 1);
+        // Heard now, and not before.
+        if (0..N).any(|joint| silent[joint] && unread[joint].is_ok()) {
+            say(bus::LOSSY);
+            return false;
+        }
         let is_none = |joint: usize| unread[joint] == Err(CanError::NoReply);
         let is_cut = N - heard > 1 && (heard..N).all(is_none);
         if is_cut {
@@ -260,5 +263,6 @@ impl Operator {
                 say(bus::line(JointError { joint, error }));
             }
         }
+        false
     }
 }

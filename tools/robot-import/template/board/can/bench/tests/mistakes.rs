@@ -46,7 +46,7 @@ const BEFORE: &[Mistake] = &[
     ("another VMAX", |b| drive(b, |d| d.scale.velocity *= 1.5), Some(J), ["VMAX", "48 V"]),
     ("another TMAX", |b| drive(b, |d| d.scale.torque *= 2.8), Some(J), ["TMAX", "motor of this joint"]),
     ("another control mode", |b| drive(b, |d| d.mode = 2), Some(J), ["control mode", "register 10"]),
-    ("no terminator", |b| wire(b, |w| w.destroys = 2), None, ["not always", "terminators"]),
+    ("no terminator", |b| wire(b, |w| w.destroys = 2), None, ["answers are lost", "120 Ω"]),
     ("three places for frames", |b| wire(b, |w| w.places = 3), Some(3), ["no room", "fewer places"]),
     ("another program's frames", |b| wire(b, |w| w.foreign = 200), None, ["more frames", "another board"]),
     ("zero never set", |b| drive(b, |d| d.zero += 2.5), Some(J), ["no start", "zero"]),
@@ -203,6 +203,34 @@ fn the_start_says_what_the_description_has_too_much_of_or_lacks() {
     let is_bare = !(has_rotor && has_friction);
     assert_eq!(is_said(&bench, None, ["the description has no", "EFFECTS"]), is_bare);
     assert_eq!(bus::terms(&(Gravity::EARTH, Inertia, Coriolis)), [false; 2]);
+}
+
+/// The guide's table of what nothing can see: one that is seen some day has to leave it.
+#[test]
+fn what_nothing_can_see_starts_without_a_word() {
+    if !is_usual() || !is_whole() {
+        return;
+    }
+    let unseen: [(&str, fn(&mut Bench)); 3] = [
+        ("zero off by 0.1 rad", |b| drive(b, |d| d.zero += 0.1)),
+        // Its zero was set where it is.
+        ("mounted in reverse", |b| {
+            let home = f64::from(scene::home()[J]);
+            // The drive still reads home.
+            let way = b.directions[J];
+            b.directions[J] = -way;
+            drive(b, |d| d.zero -= 2.0 * way * home);
+        }),
+        ("no watchdog", |b| drive(b, |d| d.timeout = 0.0)),
+    ];
+    let mut clean = Bench::new();
+    clean.run(0.1, false);
+    for (name, make) in unseen {
+        let mut bench = Bench::new();
+        make(&mut bench);
+        bench.run(0.1, false);
+        assert!(bench.start() && bench.lines == clean.lines, "{name}: {:#?}", bench.said);
+    }
 }
 
 /// A drive that lost its turns: its joint's range has to be longer than a turn for it.

@@ -18,6 +18,12 @@ pub const SILENT: Line = Line::of_all(
     "their supply, the cable, 1 Mbit/s in board and drives, 120 Ω at both ends, CAN_H and CAN_L swapped",
 );
 
+/// Drives answer now and then.
+pub const LOSSY: Line = Line::of_all(
+    "some answers are lost, and others come",
+    "120 Ω at both ends and nowhere else, ground, a plug, two drives of one number",
+);
+
 /// This joint and those behind it do not answer.
 pub const fn broken(joint: usize) -> Line {
     Line::of(
@@ -33,8 +39,8 @@ pub fn line(JointError { joint, error }: JointError<CanError>) -> Line {
     const CLEAR: &str = "the button clears this error";
     let (seen, remedy) = match error {
         CanError::NoReply => (
-            "its drive does not answer, or not always",
-            "its number (ESC_ID), a second drive of its number, its plug and supply, another maker's drive; if it is another joint each time, the terminators",
+            "its drive does not answer",
+            "its number (ESC_ID), a second drive of its number, its plug and supply, another maker's drive",
         ),
         CanError::Identifier => ("frames came, none of them from its drive", NUMBER),
         CanError::Full => (

@@ -341,7 +341,7 @@ fn the_bench_of_drives_on_can() {
     let trial = Trial::new("on-bench", robot, Kind::Board(board));
     let said = trial.run("sh", &["-c", "cd bench && cargo test"]);
     assert!(said.contains("test result: ok. 9 passed"), "{said}");
-    trial.run("cargo", &["fmt", "--all", "--check"]);
+    trial.run("sh", &["-c", "cargo fmt --check && cd bench && cargo fmt --check"]);
 }
 
 /// A mistake in a call is named before the robot is read, and nothing else is.

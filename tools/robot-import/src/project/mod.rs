@@ -383,7 +383,10 @@ fn values(project: &Project) -> Result<Vec<Value>, ProjectError> {
             Ok(format!("{name} = {value}\n"))
         };
         let bench: Result<String, ProjectError> = board.parts.bench.iter().map(of_bench).collect();
-        values.push(("bench", format!("{}embedded-can = \"0.4.1\"\nembedded-hal = \"1.0.0\"\nnb = \"1.1.0\"", bench?)));
+        values.push((
+            "bench",
+            format!("{}embedded-can = \"0.4.1\"\nembedded-hal = \"1.0.0\"\nnb = \"1.1.0\"", bench?),
+        ));
         let members = if board.parts.bench.is_empty() { "" } else { "members = [\"bench\"]\n" };
         values.push(("members", members.to_owned()));
         let parts = substitute(board.parts.expected, &values);

@@ -204,7 +204,8 @@ impl Operator {
             // An error of this kind may last: the drive is asked again.
             Err(error) if !matches!(error.error, CanError::Missing(_)) => say(bus::line(error)),
             other => {
-                let not_ready = || states.iter().position(|state| *state == Err(CanError::NotReady));
+                let not_ready =
+                    || states.iter().position(|state| *state == Err(CanError::NotReady));
                 let of = |joint| JointError { joint, error: CanError::NotReady };
                 let waits = other.err().or_else(|| not_ready().map(of));
                 let is_same = replace(&mut self.last, waits) == waits && waits.is_some();

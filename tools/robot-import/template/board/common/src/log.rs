@@ -46,7 +46,9 @@ pub fn print(said: Said<'_>) {
             match (line.joint, line.number) {
                 (None, None) => warn!("{}: {}", line.seen, line.remedy),
                 (None, Some(number)) => warn!("{} ({}): {}", line.seen, number, line.remedy),
-                (Some(_), None) => warn!("joint {} `{}`: {}: {}", joint, name, line.seen, line.remedy),
+                (Some(_), None) => {
+                    warn!("joint {} `{}`: {}: {}", joint, name, line.seen, line.remedy)
+                }
                 (Some(_), Some(number)) => {
                     warn!("joint {} `{}`: {} ({}): {}", joint, name, line.seen, number, line.remedy)
                 }

@@ -123,11 +123,9 @@ fn of_fault(fault: Fault) -> Option<Line> {
             "it is outside its range",
             "move it back by hand; if it is not there, its zero or its direction in board.rs is wrong",
         ),
-        Fault::Jump { joint } => Line::of(
-            joint,
-            "its position jumped",
-            "lost frames, or a loose encoder or shaft",
-        ),
+        Fault::Jump { joint } => {
+            Line::of(joint, "its position jumped", "lost frames, or a loose encoder or shaft")
+        }
         Fault::Speed { joint } => Line::of(
             joint,
             "it is faster than its limit",
@@ -151,10 +149,14 @@ fn of_fault(fault: Fault) -> Option<Line> {
         Fault::Reference { joint } => {
             Line::of(joint, "its reference jumped", "the motion in scene.rs, or an own reference")
         }
-        Fault::Torque { joint } => {
-            Line::of(joint, "its law gave no number", "the law in control.rs, or the robot in robot.rs")
+        Fault::Torque { joint } => Line::of(
+            joint,
+            "its law gave no number",
+            "the law in control.rs, or the robot in robot.rs",
+        ),
+        Fault::Hot { joint } => {
+            Line::of(joint, "its motor is too hot", "let it cool, and load it less")
         }
-        Fault::Hot { joint } => Line::of(joint, "its motor is too hot", "let it cool, and load it less"),
         Fault::Missed | Fault::Overrun => Line::of_all(
             "a tick took longer than its period",
             "build with opt-level 1 or more, do less in the tick, keep other interrupts short",
@@ -181,9 +183,10 @@ pub fn of_refusal(reason: ResetError) -> Line {
             "no start: it is outside its range",
             "move it back by hand; if it is not there, its zero or its direction in board.rs is wrong",
         ),
-        ResetError::NoMeasurement => {
-            Line::of_all("no start: not every joint has a position", "the line of that joint says why")
-        }
+        ResetError::NoMeasurement => Line::of_all(
+            "no start: not every joint has a position",
+            "the line of that joint says why",
+        ),
         ResetError::Contact => Line::of_all("no start: something touches the arm", "remove it"),
         _ => Line::of_all("no start: the arm is not stopped", "wait until it stands"),
     }
@@ -192,14 +195,18 @@ pub fn of_refusal(reason: ResetError) -> Line {
 /// The robot stays on its brake for good.
 pub fn of_setup(error: &SetupError) -> Line {
     match error {
-        SetupError::Motion(_) => Line::of_all("impossible: the motion", "home, away and motion in scene.rs"),
+        SetupError::Motion(_) => {
+            Line::of_all("impossible: the motion", "home, away and motion in scene.rs")
+        }
         SetupError::Limits(_) => Line::of_all("impossible: a limit", "limits in scene.rs"),
         SetupError::Encoder(error) => Line::of(
             error.joint,
             "impossible: how its encoder is mounted",
             "ZERO in board.rs, encoder_ratios and encoder_ranges in scene.rs",
         ),
-        SetupError::Drive(_) => Line::of_all("impossible: the full scale of a drive", "full_scale in board.rs"),
+        SetupError::Drive(_) => {
+            Line::of_all("impossible: the full scale of a drive", "full_scale in board.rs")
+        }
         SetupError::Can(error) => Line::of(
             error.joint,
             "impossible: the number, the scale or the torque of its drive",

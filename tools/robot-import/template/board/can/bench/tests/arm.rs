@@ -14,7 +14,9 @@ use motion_control::reference::Reference;
 use motion_control::safety::Detect;
 
 use crate::damiao_bus::{Bus, Drive, Wire};
-use crate::robot::board::{self, bus, Control, DRIVES, Devices, Found, Motion, Operator, SCALES, ZERO};
+use crate::robot::board::{
+    self, Control, DRIVES, Devices, Found, Motion, Operator, SCALES, ZERO, bus,
+};
 use crate::robot::say::{Line, Memory, Said, of_refusal};
 use crate::robot::scene::{Arm, EFFECTS, Effects, N, TICK, home};
 use joint_drivers::Direction;
@@ -140,7 +142,11 @@ impl<D: Detect<f32, N>> Bench<D> {
     }
 
     /// A tick of the firmware, as in `firmware.rs`, and of the arm.
-    pub fn tick<L: Law<N>>(&mut self, reference: &impl Reference<f32, N>, is_pressed: bool) -> Mode {
+    pub fn tick<L: Law<N>>(
+        &mut self,
+        reference: &impl Reference<f32, N>,
+        is_pressed: bool,
+    ) -> Mode {
         self.count += 1;
         let (begun, late) = (self.count, u32::from(self.is_late));
         self.count += late;
@@ -165,14 +171,10 @@ impl<D: Detect<f32, N>> Bench<D> {
         if status.mode != Mode::Full || status.fault.is_some() {
             let is_pressed = status.mode == Mode::Stopped && is_pressed;
             let (operator, log) = (&mut self.operator, &mut self.log);
-            let refused = operator.tick(
-                begun,
-                &status,
-                &mut self.control,
-                self.motion,
-                is_pressed,
-                |line| log.say(line, print),
-            );
+            let refused =
+                operator.tick(begun, &status, &mut self.control, self.motion, is_pressed, |line| {
+                    log.say(line, print)
+                });
             if let Some(reason) = refused {
                 self.log.say(of_refusal(reason), print);
             }

@@ -66,5 +66,9 @@ fn gains_in_another_unit_are_named() {
     for _ in 0..(2.0 / TICK) as u32 {
         bench.tick::<Hang>(motion, true);
     }
-    assert!(bench.lines.iter().any(|line| line.remedy.contains("in another unit")), "{:#?}", bench.said);
+    assert!(
+        bench.lines.iter().any(|line| line.remedy.contains("in another unit")),
+        "{:#?}",
+        bench.said
+    );
 }

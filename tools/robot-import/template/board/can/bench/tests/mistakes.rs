@@ -33,22 +33,85 @@ fn fails(bench: &Bench, error: u8, lasts: bool) {
 
 /// Mistakes that are there when the board starts. The arm stays on its brake.
 const BEFORE: &[Mistake] = &[
-    ("no supply", |b| wire(b, |w| w.drives.iter_mut().for_each(|d| d.supply(false))), None, ["no drive answers", "supply"]),
-    ("another bit rate", |b| wire(b, |w| w.error = Some(ErrorKind::Acknowledge)), None, ["acknowledges", "1 Mbit/s"]),
+    (
+        "no supply",
+        |b| wire(b, |w| w.drives.iter_mut().for_each(|d| d.supply(false))),
+        None,
+        ["no drive answers", "supply"],
+    ),
+    (
+        "another bit rate",
+        |b| wire(b, |w| w.error = Some(ErrorKind::Acknowledge)),
+        None,
+        ["acknowledges", "1 Mbit/s"],
+    ),
     ("no cable at all", |b| wire(b, |w| w.reaches = Some(0)), None, ["no drive answers", "cable"]),
-    ("a cable that ends early", |b| wire(b, |w| w.reaches = Some(J)), Some(J), ["all behind it", "cable"]),
-    ("a drive without supply", |b| drive(b, |d| d.supply(false)), Some(J), ["does not answer", "supply"]),
-    ("another number", |b| drive(b, |d| (d.number, d.host) = (14, 0x1e)), Some(J), ["does not answer", "ESC_ID"]),
-    ("two drives of one number", |b| drive(b, |d| (d.number, d.host) = (J as u8, 0x10 + J as u16)), Some(J), ["does not answer", "second drive"]),
-    ("the factory's MST_ID", |b| drive(b, |d| d.host = 0), Some(J), ["none of them from its drive", "MST_ID"]),
-    ("another maker's drive", |b| { drive(b, |d| d.supply(false)); wire(b, |w| w.foreign = 1); }, Some(J), ["none of them from its drive", "ESC_ID"]),
+    (
+        "a cable that ends early",
+        |b| wire(b, |w| w.reaches = Some(J)),
+        Some(J),
+        ["all behind it", "cable"],
+    ),
+    (
+        "a drive without supply",
+        |b| drive(b, |d| d.supply(false)),
+        Some(J),
+        ["does not answer", "supply"],
+    ),
+    (
+        "another number",
+        |b| drive(b, |d| (d.number, d.host) = (14, 0x1e)),
+        Some(J),
+        ["does not answer", "ESC_ID"],
+    ),
+    (
+        "two drives of one number",
+        |b| drive(b, |d| (d.number, d.host) = (J as u8, 0x10 + J as u16)),
+        Some(J),
+        ["does not answer", "second drive"],
+    ),
+    (
+        "the factory's MST_ID",
+        |b| drive(b, |d| d.host = 0),
+        Some(J),
+        ["none of them from its drive", "MST_ID"],
+    ),
+    (
+        "another maker's drive",
+        |b| {
+            drive(b, |d| d.supply(false));
+            wire(b, |w| w.foreign = 1);
+        },
+        Some(J),
+        ["none of them from its drive", "ESC_ID"],
+    ),
     ("another PMAX", |b| drive(b, |d| d.scale.position = 12.566), Some(J), ["PMAX", "SCALES"]),
     ("another VMAX", |b| drive(b, |d| d.scale.velocity *= 1.5), Some(J), ["VMAX", "48 V"]),
-    ("another TMAX", |b| drive(b, |d| d.scale.torque *= 2.8), Some(J), ["TMAX", "motor of this joint"]),
-    ("another control mode", |b| drive(b, |d| d.mode = 2), Some(J), ["control mode", "register 10"]),
+    (
+        "another TMAX",
+        |b| drive(b, |d| d.scale.torque *= 2.8),
+        Some(J),
+        ["TMAX", "motor of this joint"],
+    ),
+    (
+        "another control mode",
+        |b| drive(b, |d| d.mode = 2),
+        Some(J),
+        ["control mode", "register 10"],
+    ),
     ("no terminator", |b| wire(b, |w| w.destroys = 2), None, ["answers are lost", "120 Ω"]),
-    ("three places for frames", |b| wire(b, |w| w.places = 3), Some(3), ["no room", "fewer places"]),
-    ("another program's frames", |b| wire(b, |w| w.foreign = 200), None, ["more frames", "another board"]),
+    (
+        "three places for frames",
+        |b| wire(b, |w| w.places = 3),
+        Some(3),
+        ["no room", "fewer places"],
+    ),
+    (
+        "another program's frames",
+        |b| wire(b, |w| w.foreign = 200),
+        None,
+        ["more frames", "another board"],
+    ),
     ("zero never set", |b| drive(b, |d| d.zero += 2.5), Some(J), ["no start", "zero"]),
     ("zero off by 0.7 rad", |b| drive(b, |d| d.zero += 0.7), Some(J), ["no start", "zero"]),
     ("far from home", |b| b.state.q[J] += 0.5, Some(J), ["no start", "move it"]),
@@ -61,24 +124,74 @@ const RUNNING: &[Mistake] = &[
     ("a hot drive", |b| fails(b, 0xb, true), Some(J), ["drive is too hot", "cool"]),
     ("too much load", |b| fails(b, 0xe, false), Some(J), ["overloaded", "button"]),
     ("too much current", |b| fails(b, 0xa, false), Some(J), ["current", "button"]),
-    ("a supply that takes nothing back", |b| fails(b, 0x8, false), Some(J), ["too much voltage", "brake resistor"]),
-    ("a weak supply", |b| fails(b, 0x9, false), Some(J), ["too little voltage", "limit of current"]),
-    ("the watchdog of a drive", |b| fails(b, 0xd, false), Some(J), ["missed its commands", "register 9"]),
-    ("a drive that another program disables", |b| drive(b, |d| d.is_enabled = false), Some(J), ["not enabled", "another program"]),
-    ("a drive that loses its supply", |b| drive(b, |d| d.supply(false)), Some(J), ["does not answer", "supply"]),
-    ("a supply that comes back", |b| { drive(b, |d| d.supply(false)); drive(b, |d| d.supply(true)); }, Some(J), ["not enabled", "supply came back"]),
+    (
+        "a supply that takes nothing back",
+        |b| fails(b, 0x8, false),
+        Some(J),
+        ["too much voltage", "brake resistor"],
+    ),
+    (
+        "a weak supply",
+        |b| fails(b, 0x9, false),
+        Some(J),
+        ["too little voltage", "limit of current"],
+    ),
+    (
+        "the watchdog of a drive",
+        |b| fails(b, 0xd, false),
+        Some(J),
+        ["missed its commands", "register 9"],
+    ),
+    (
+        "a drive that another program disables",
+        |b| drive(b, |d| d.is_enabled = false),
+        Some(J),
+        ["not enabled", "another program"],
+    ),
+    (
+        "a drive that loses its supply",
+        |b| drive(b, |d| d.supply(false)),
+        Some(J),
+        ["does not answer", "supply"],
+    ),
+    (
+        "a supply that comes back",
+        |b| {
+            drive(b, |d| d.supply(false));
+            drive(b, |d| d.supply(true));
+        },
+        Some(J),
+        ["not enabled", "supply came back"],
+    ),
     ("a brake that stays closed", |b| b.is_held = true, None, ["does not move", "brake is closed"]),
-    ("a cable that breaks", |b| wire(b, |w| w.reaches = Some(J)), Some(J), ["all behind it", "plug"]),
-    ("the emergency stop of the supply", |b| wire(b, |w| w.drives.iter_mut().for_each(|d| d.supply(false))), None, ["no drive answers", "supply"]),
+    (
+        "a cable that breaks",
+        |b| wire(b, |w| w.reaches = Some(J)),
+        Some(J),
+        ["all behind it", "plug"],
+    ),
+    (
+        "the emergency stop of the supply",
+        |b| wire(b, |w| w.drives.iter_mut().for_each(|d| d.supply(false))),
+        None,
+        ["no drive answers", "supply"],
+    ),
     ("bus off", |b| wire(b, |w| w.error = Some(ErrorKind::Other)), None, ["off the bus", "120 Ω"]),
-    ("frames that are destroyed", |b| wire(b, |w| w.error = Some(ErrorKind::Crc)), None, ["destroyed", "ends"]),
+    (
+        "frames that are destroyed",
+        |b| wire(b, |w| w.error = Some(ErrorKind::Crc)),
+        None,
+        ["destroyed", "ends"],
+    ),
     ("ticks that are late", |b| b.is_late = true, None, ["longer than its period", "opt-level"]),
 ];
 
 /// Whether the mistakes can be made: joints enough, and one in the middle that turns.
 fn is_usual() -> bool {
     let limits = scene::described_limits()[J];
-    N > 3 && scene::encoder_ratios()[J] == 1.0 && (2.0..6.28).contains(&(limits.upper - limits.lower))
+    N > 3
+        && scene::encoder_ratios()[J] == 1.0
+        && (2.0..6.28).contains(&(limits.upper - limits.lower))
 }
 
 fn is_said(bench: &Bench, joint: Option<usize>, words: [&str; 2]) -> bool {

@@ -47,9 +47,7 @@ pub fn line(JointError { joint, error }: JointError<CanError>) -> Line {
             "the bus has no room for its command",
             "no drive takes a frame (supply, cable, bit rate), or the board's queue has fewer places than there are joints",
         ),
-        CanError::Bus(ErrorKind::Acknowledge) => {
-            ("no drive acknowledges a frame", SILENT.remedy)
-        }
+        CanError::Bus(ErrorKind::Acknowledge) => ("no drive acknowledges a frame", SILENT.remedy),
         CanError::Bus(ErrorKind::Overrun) => (
             "more frames came than a tick can take",
             "another board or program sends on this bus: switch it off",
@@ -61,9 +59,17 @@ pub fn line(JointError { joint, error }: JointError<CanError>) -> Line {
             "frames are destroyed",
             "1 Mbit/s in board and drives, 120 Ω at both ends alone, two drives of one number, ground",
         ),
-        CanError::Scale(PMAX) => ("its register PMAX is not that of SCALES", "write what it has into SCALES in board.rs"),
-        CanError::Scale(VMAX) => ("its register VMAX is not that of SCALES", "write what it has into SCALES in board.rs: 48 V motors have another one"),
-        CanError::Scale(TMAX) => ("its register TMAX is not that of SCALES", "write what it has into SCALES in board.rs: is it the motor of this joint?"),
+        CanError::Scale(PMAX) => {
+            ("its register PMAX is not that of SCALES", "write what it has into SCALES in board.rs")
+        }
+        CanError::Scale(VMAX) => (
+            "its register VMAX is not that of SCALES",
+            "write what it has into SCALES in board.rs: 48 V motors have another one",
+        ),
+        CanError::Scale(TMAX) => (
+            "its register TMAX is not that of SCALES",
+            "write what it has into SCALES in board.rs: is it the motor of this joint?",
+        ),
         CanError::Mode(_) => (
             "its drive is in another control mode than MIT",
             "write 1 into its register 10 (CTRL_MODE) and store it",
@@ -76,12 +82,14 @@ pub fn line(JointError { joint, error }: JointError<CanError>) -> Line {
             "its drive is not enabled",
             "hold the button; if it stays so, its supply came back, or another program disables it",
         ),
-        CanError::OverTemperature(Component::Motor) => {
-            ("its motor is too hot", "let it cool, and load it less; then the button clears this error")
-        }
-        CanError::OverTemperature(Component::Drive) => {
-            ("its drive is too hot", "let it cool, and load it less; then the button clears this error")
-        }
+        CanError::OverTemperature(Component::Motor) => (
+            "its motor is too hot",
+            "let it cool, and load it less; then the button clears this error",
+        ),
+        CanError::OverTemperature(Component::Drive) => (
+            "its drive is too hot",
+            "let it cool, and load it less; then the button clears this error",
+        ),
         CanError::OverVoltage => (
             "its supply has too much voltage",
             "a braking arm feeds its supply back: a brake resistor or a battery; the button clears this error",
@@ -104,7 +112,9 @@ pub fn line(JointError { joint, error }: JointError<CanError>) -> Line {
             "its position is at the end of the drive's scale",
             "turn it back; its zero is far off, or the drive stops its count there",
         ),
-        CanError::Encoder => ("its encoder failed or is not calibrated", "calibrate it by the maker's tool"),
+        CanError::Encoder => {
+            ("its encoder failed or is not calibrated", "calibrate it by the maker's tool")
+        }
         CanError::Fault(_) => ("its drive reports a fault", CLEAR),
         CanError::Remote | CanError::Length(_) | CanError::Short => (
             "a frame in place of its answer is none of this protocol",

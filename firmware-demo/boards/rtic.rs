@@ -129,7 +129,8 @@ mod app {
             let say = |line| local.log.say(line);
             // The arm stays on its brake without drives, too far from the motion's start, or
             // without a measurement.
-            if let Some(reason) = local.operator.tick(now, &telemetry.status, control, motion, pressed, say) {
+            let now = (now, &telemetry.status);
+            if let Some(reason) = local.operator.tick(now, control, motion, pressed, say) {
                 local.log.refused(reason);
             }
         }

@@ -7,6 +7,8 @@ use embedded_hal::spi::SpiDevice;
 use firmware_demo::scene::{self, Full, Scene, SceneLoop, SetupError, Start};
 use firmware_demo::scenes::ur5e::PickAndPlace;
 use motion_control::law::Gains;
+use motion_control::limits::Status;
+use motion_control::motion::ResetError;
 use motion_control::safety::{Detect, Detectors};
 
 pub use firmware_demo::scenes::ur5e::plan;
@@ -32,9 +34,29 @@ pub fn detectors(_: &Motion) -> Found {
     PickAndPlace::detectors()
 }
 
-#[allow(dead_code, reason = "the Pico 2 enables no drive")]
-pub fn enable<Encoders>(_: &mut Encoders) -> Result<bool, SetupError> {
-    Ok(true)
+/// Starts the robot by the button.
+#[allow(dead_code, reason = "the Pico 2 does so in its tick")]
+pub struct Operator;
+
+#[allow(dead_code, reason = "the Pico 2 does so in its tick")]
+impl Operator {
+    pub const fn new(_: &Motion) -> Self {
+        Self
+    }
+
+    #[cold]
+    #[inline(never)]
+    pub fn tick<Spi: SpiDevice, Pwm: SetDutyCycle, Brake: OutputPin, D: Detect<f32, N>>(
+        &mut self,
+        (_, _): (u32, &Status),
+        control: &mut Control<Spi, Pwm, Brake, D>,
+        motion: &Motion,
+        is_pressed: bool,
+        _: impl FnMut(()),
+    ) -> Option<ResetError> {
+        let refused = || control.reset(motion).err();
+        is_pressed.then(refused).flatten()
+    }
 }
 
 /// # Errors

@@ -16,7 +16,9 @@ use super::mit::protocol::Protocol;
 use super::mit::robstride::RobStrideMit;
 use crate::MappingError;
 use crate::drives::pd::{PdDrives, SetpointAt};
-use crate::joint::{EncoderType, JointDrives, JointEncoders, JointError};
+use crate::joint::{
+    DriveFault, DriveFaultKind, EncoderType, JointDrives, JointEncoders, JointError,
+};
 
 /// The most frames of others that are taken in a tick, more than a bus of 1 Mbit/s has in 2 ms.
 const MOST_FRAMES: usize = 64;
@@ -193,6 +195,26 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> CanJoints<Bus, Joint, V> {
         let query = state.joints.get(joint).ok_or(error)?.as_ref().query(register);
         let sent = query.and_then(|query| transmit(&mut state.bus, &query));
         Err(sent.map_or_else(|error| JointError { joint, error }, |()| error))
+    }
+
+    /// As [`Self::enable`], for a start by a button: clears the faults that drives keep before, one
+    /// in each call, and returns whether all drives deliver torque. Until then do not reset.
+    ///
+    /// # Errors
+    /// As [`Self::enable`] and [`Self::clear_errors`].
+    #[cold]
+    pub fn start_up<P: Protocol>(&self) -> Result<bool, JointError<CanError>>
+    where
+        Joint: AsRef<Drive<P>>,
+    {
+        let has_failed = |state: &Result<(), CanError>| {
+            state.is_err_and(|error| error.kind() == DriveFaultKind::Failed)
+        };
+        if let Some(joint) = self.errors().iter().position(has_failed) {
+            return self.clear_errors(joint).map(|()| false);
+        }
+        self.enable()?;
+        Ok(self.errors().iter().all(Result::is_ok))
     }
 
     /// Takes the torque from the drives.

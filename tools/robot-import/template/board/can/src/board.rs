@@ -4,17 +4,13 @@
 //! `joint-drivers` has further drives in MIT mode (`mit::robstride`, `mit::cubemars`), and moteus
 //! and ODrive: all that implement `CanJoint`.
 
-use core::mem::{replace, take};
-
 use dynamics_core::model::Robot;
 use embedded_can::nb::Can;
 use embedded_hal::digital::OutputPin;
-use joint_drivers::can::CanError;
+use joint_drivers::can::{CanError, Silence};
 use joint_drivers::mit::Scale;
 use joint_drivers::mit::damiao::{DM4310, DM4340, DM6006, DM8006, DM8009, Damiao};
-use joint_drivers::{
-    CanJoints, ControlLoop, Direction, DriveFault, DriveFaultKind, EncoderMapping, JointError,
-};
+use joint_drivers::{CanJoints, ControlLoop, Direction, EncoderMapping, JointError};
 use motion_control::limits::{Mode, Status};
 use motion_control::motion::{PreviousTick, ResetError};
 use motion_control::{law::Gains, safety::Detect};
@@ -121,51 +117,23 @@ pub fn on_brake<Bus: Can, Brake: OutputPin, D: Detect<f32, N>>(
     Ok(control)
 }
 
-/// Lets the drives deliver torque: that of the last command, which is zero on the brake. Returns
-/// whether all do, without an error: the first calls, one in each tick, clear the errors that a
-/// drive keeps, and ask the drives for their scales and modes.
-///
-/// # Errors
-/// The drive that has another scale than [`SCALES`] or another mode, or has no frame.
-pub fn enable<Bus: Can>(drives: &Joints<Bus>) -> Result<bool, JointError<CanError>> {
-    let has_failed = |state: &Result<(), CanError>| {
-        state.is_err_and(|error| error.kind() == DriveFaultKind::Failed)
-    };
-    if let Some(joint) = drives.errors().iter().position(has_failed) {
-        return drives.clear_errors(joint).map(|()| false);
-    }
-    drives.enable()?;
-    Ok(drives.errors().iter().all(Result::is_ok))
-}
-
 /// Says what is wrong on the bus, and starts a robot on its brake while the button is pressed.
 #[derive(Debug)]
 pub struct Operator {
-    /// The first tick of this second, and in how many since then each joint had no position.
-    since: u32,
-    unread: [u8; N],
-    /// Ticks for which the same drive has not done what the button asks for.
+    silence: Silence<N>,
+    /// The drive that has not done what the button asks for, and since how many ticks.
+    waits: Option<JointError<CanError>>,
     waited: u32,
-    last: Option<JointError<CanError>>,
-    advice: bool,
-    torques: [f32; N],
+    torques: Option<[f32; N]>,
 }
 
-/// Ticks of a second, and so many of them until a silence or a wait is said.
+/// Ticks of a second.
 const SECOND: u32 = (1.0 / TICK) as u32;
-const FEW: u8 = 3;
-const LONG: u32 = SECOND / 10;
 
 impl Operator {
     pub fn new(motion: &Motion) -> Self {
-        Self {
-            since: 0,
-            unread: [0; N],
-            waited: 0,
-            last: None,
-            advice: true,
-            torques: scene::limits(motion).torque,
-        }
+        let torques = Some(scene::limits(motion).torque);
+        Self { silence: Silence::new(SECOND), waits: None, waited: 0, torques }
     }
 
     /// After a tick that is not one of full operation; why the robot does not start.
@@ -173,20 +141,22 @@ impl Operator {
     #[inline(never)]
     pub fn tick<Bus: Can, Brake: OutputPin, D: Detect<f32, N>>(
         &mut self,
-        now: u32,
-        status: &Status,
+        (now, status): (u32, &Status),
         control: &mut Control<Bus, Brake, D>,
         motion: &Motion,
         is_pressed: bool,
         mut say: impl FnMut(Line),
     ) -> Option<ResetError> {
-        if take(&mut self.advice) {
-            bus::advice(&self.torques, &mut say);
+        if let Some(torques) = self.torques.take() {
+            bus::advice(&torques, &mut say);
         }
         let drives: &Joints<Bus> = *control.encoders();
-        let (failed, sent) = (control.encoder_error().is_some(), control.drive_error());
-        let is_heard = self.readings(now, drives, failed, sent, &mut say);
-        let states = drives.errors();
+        let (unread, states) = (drives.unread(), drives.errors());
+        let failed = control.encoder_error().map(|_| &unread);
+        if let Some(silent) = self.silence.update(now, failed) {
+            let sent = control.drive_error().map(|JointError { joint, error }| (joint, *error));
+            bus::silent(&silent, &unread, sent, &mut say);
+        }
         for (joint, state) in states.into_iter().enumerate() {
             match state {
                 Ok(()) => {}
@@ -195,75 +165,24 @@ impl Operator {
                 Err(error) => say(bus::line(JointError { joint, error })),
             }
         }
-        if !is_pressed || !is_heard {
+        if !is_pressed || !self.silence.is_heard() {
             self.waited = 0;
             return None;
         }
-        match enable(drives) {
+        let asked = match drives.start_up() {
             Ok(true) => return control.reset(motion).err(),
-            // An error of this kind may last: the drive is asked again.
-            Err(error) if !matches!(error.error, CanError::Missing(_)) => say(bus::line(error)),
-            other => {
-                let not_ready =
-                    || states.iter().position(|state| *state == Err(CanError::NotReady));
-                let of = |joint| JointError { joint, error: CanError::NotReady };
-                let waits = other.err().or_else(|| not_ready().map(of));
-                let is_same = replace(&mut self.last, waits) == waits && waits.is_some();
-                self.waited = if is_same { self.waited.saturating_add(1) } else { 0 };
-                if let Some(waits) = waits.filter(|_| self.waited > LONG) {
-                    say(bus::line(waits));
-                }
-            }
+            Ok(false) => None,
+            Err(error) => Some(error),
+        };
+        let not_ready = states.iter().position(|state| *state == Err(CanError::NotReady));
+        let of = |joint| JointError { joint, error: CanError::NotReady };
+        let waits = asked.or(not_ready.map(of));
+        self.waited = if self.waits == waits { self.waited + 1 } else { 0 };
+        self.waits = waits;
+        // A register is asked for in a tick or two, and a drive is then enabled.
+        if let Some(waits) = waits.filter(|_| self.waited > SECOND / 10) {
+            say(bus::line(waits));
         }
         None
-    }
-
-    /// Says which joints had no position a few times in this second, and returns whether none had.
-    fn readings<Bus: Can>(
-        &mut self,
-        now: u32,
-        drives: &Joints<Bus>,
-        has_failed: bool,
-        sent: Option<JointError<&CanError>>,
-        say: &mut impl FnMut(Line),
-    ) -> bool {
-        if now.wrapping_sub(self.since) >= SECOND {
-            (self.since, self.unread) = (now, [0; N]);
-        }
-        let unread = drives.unread();
-        for (count, unread) in self.unread.iter_mut().zip(&unread).filter(|_| has_failed) {
-            *count = count.saturating_add(unread.is_err().into());
-        }
-        let silent = self.unread.map(|count| count >= FEW);
-        let is_heard = !silent.contains(&true);
-        if is_heard || !has_failed {
-            return is_heard;
-        }
-        // Without room none of the joints behind it is heard.
-        let is_of_bus = |sent: &JointError<&CanError>| {
-            let is_it = matches!(sent.error, CanError::Full | CanError::Bus(_));
-            is_it && silent.iter().skip(sent.joint).all(|&silent| silent)
-        };
-        if let Some(JointError { joint, error: &error }) = sent.filter(is_of_bus) {
-            say(bus::line(JointError { joint, error }));
-        }
-        let heard = silent.iter().rposition(|&silent| !silent).map_or(0, |last| last + 1);
-        // Heard now, and not before.
-        if (0..N).any(|joint| silent[joint] && unread[joint].is_ok()) {
-            say(bus::LOSSY);
-            return false;
-        }
-        let is_none = |joint: usize| unread[joint] == Err(CanError::NoReply);
-        let is_cut = N - heard > 1 && (heard..N).all(is_none);
-        if is_cut {
-            say(if heard == 0 { bus::SILENT } else { bus::broken(heard) });
-        }
-        let one_by_one = 0..if is_cut { heard } else { N };
-        for joint in one_by_one.filter(|&joint| silent[joint]) {
-            if let Err(error) = unread[joint] {
-                say(bus::line(JointError { joint, error }));
-            }
-        }
-        false
     }
 }

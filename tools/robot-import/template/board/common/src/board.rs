@@ -77,26 +77,23 @@ impl Operator {
     #[inline(never)]
     pub fn tick<Spi: SpiDevice, Pwm: SetDutyCycle, Brake: OutputPin, D: Detect<f32, N>>(
         &mut self,
-        _: u32,
-        _: &Status,
+        (_, _): (u32, &Status),
         control: &mut Control<Spi, Pwm, Brake, D>,
         motion: &Motion,
         is_pressed: bool,
         mut say: impl FnMut(Line),
     ) -> Option<ResetError> {
         if let Some(failed) = control.encoder_error() {
-            say(match failed.error {
-                FrameError::LostTurn => Line::of(
-                    failed.joint,
-                    "its encoder may have turned unseen",
-                    "stand it at its home and restart the board, or place_near of its encoder",
-                ),
-                _ => Line::of(
-                    failed.joint,
-                    "its encoder does not answer, or its frame is wrong",
-                    "its supply, its select and the wires of the bus; a magnet that is too far away",
-                ),
-            });
+            say(Line::of(
+                failed.joint,
+                match failed.error {
+                    FrameError::LostTurn => {
+                        "its encoder may have turned unseen: stand it at its home and restart \
+                         the board, or place_near of its encoder"
+                    }
+                    _ => "its encoder does not answer, or wrongly: supply, select, wires, magnet",
+                },
+            ));
         }
         let refused = || control.reset(motion).err();
         is_pressed.then(refused).flatten()

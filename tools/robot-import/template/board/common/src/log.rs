@@ -8,7 +8,7 @@ use joint_drivers::Telemetry;
 use motion_control::motion::ResetError;
 
 use crate::board::{N, SetupError};
-use crate::say::{Line, Memory, Said, of_refusal, of_setup};
+use crate::say::{Line, Memory, Said, of_refusal};
 
 /// What was said.
 pub struct Log(Memory);
@@ -42,15 +42,13 @@ pub fn print(said: Said<'_>) {
         Said::Mode(mode, None) => info!("{}", mode),
         Said::Positions(q) => info!("on the brake at {}, rad or m", q),
         Said::Line(line) => {
-            let (joint, name) = (line.joint.map_or(0, |joint| joint + 1), line.name());
-            match (line.joint, line.number) {
-                (None, None) => warn!("{}: {}", line.seen, line.remedy),
-                (None, Some(number)) => warn!("{} ({}): {}", line.seen, number, line.remedy),
-                (Some(_), None) => {
-                    warn!("joint {} `{}`: {}: {}", joint, name, line.seen, line.remedy)
-                }
-                (Some(_), Some(number)) => {
-                    warn!("joint {} `{}`: {} ({}): {}", joint, name, line.seen, number, line.remedy)
+            let Line { joint, text, number } = line;
+            match (joint, number) {
+                (None, None) => warn!("{}", text),
+                (None, Some(number)) => warn!("{} ({})", text, number),
+                (Some(at), None) => warn!("joint {} `{}`: {}", at + 1, line.name(), text),
+                (Some(at), Some(number)) => {
+                    warn!("joint {} `{}`: {} ({})", at + 1, line.name(), text, number)
                 }
             }
         }
@@ -63,6 +61,14 @@ pub fn impossible(reason: &SetupError) {
     match reason {
         SetupError::Motion(error) => error!("impossible: the motion in scene.rs: {}", error),
         SetupError::Limits(error) => error!("impossible: the limits in scene.rs: {}", error),
-        other => print(Said::Line(of_setup(other))),
+        SetupError::Drive(_) => error!("impossible: the full scale of a drive in board.rs"),
+        SetupError::Encoder(of) => {
+            error!("impossible: the encoder in board.rs, joint {}", of.joint + 1)
+        }
+        SetupError::Can(of) => error!(
+            "impossible: number, SCALES or torque of the drive in board.rs, joint {}",
+            of.joint + 1
+        ),
+        _ => error!("impossible: a setup error of control.rs"),
     }
 }

@@ -6,7 +6,6 @@ use joint_drivers::Telemetry;
 use motion_control::limits::{Fault, Mode};
 use motion_control::motion::ResetError;
 
-use crate::board::SetupError;
 use crate::scene::{JOINTS, N, TICK};
 
 /// Ticks on the brake from one list of positions to the next, and from a line to its repetition.
@@ -18,19 +17,18 @@ const AGAIN: u32 = (2.0 / TICK) as u32;
 pub struct Line {
     /// The joint, from 0; its text counts from 1, as the table of what to connect does.
     pub joint: Option<usize>,
-    pub seen: &'static str,
+    pub text: &'static str,
     /// The number of a fault or a register.
     pub number: Option<u32>,
-    pub remedy: &'static str,
 }
 
 impl Line {
-    pub const fn of(joint: usize, seen: &'static str, remedy: &'static str) -> Self {
-        Self { joint: Some(joint), ..Self::of_all(seen, remedy) }
+    pub const fn of(joint: usize, text: &'static str) -> Self {
+        Self { joint: Some(joint), text, number: None }
     }
 
-    pub const fn of_all(seen: &'static str, remedy: &'static str) -> Self {
-        Self { joint: None, seen, number: None, remedy }
+    pub const fn of_all(text: &'static str) -> Self {
+        Self { joint: None, text, number: None }
     }
 
     /// The name of its joint.
@@ -44,11 +42,8 @@ impl fmt::Display for Line {
         if let Some(joint) = self.joint {
             write!(out, "joint {} `{}`: ", joint + 1, self.name())?;
         }
-        out.write_str(self.seen)?;
-        if let Some(number) = self.number {
-            write!(out, " ({number})")?;
-        }
-        write!(out, ": {}", self.remedy)
+        out.write_str(self.text)?;
+        self.number.map_or(Ok(()), |number| write!(out, " ({number})"))
     }
 }
 
@@ -118,99 +113,58 @@ impl Memory {
 /// A fault that no device reports.
 fn of_fault(fault: Fault) -> Option<Line> {
     Some(match fault {
-        Fault::Position { joint } => Line::of(
-            joint,
-            "it is outside its range",
-            "move it back by hand; if it is not there, its zero or its direction in board.rs is wrong",
-        ),
+        Fault::Position { joint } => Line::of(joint, OUTSIDE),
         Fault::Jump { joint } => {
-            Line::of(joint, "its position jumped", "lost frames, or a loose encoder or shaft")
+            Line::of(joint, "its position jumped: lost frames, a loose encoder or shaft")
         }
         Fault::Speed { joint } => Line::of(
             joint,
-            "it is faster than its limit",
-            "a drive mounted in reverse (DRIVES), two drives swapped, a wrong zero, or something pushes the arm",
+            "it is faster than its limit: a drive in reverse or two swapped (DRIVES), a wrong \
+             zero, or something pushes the arm",
         ),
         Fault::Frozen { joint } => Line::of(
             joint,
-            "it does not move while its reference does",
-            "it has not broken away (friction and rotor are not in the description, something blocks it, its brake is closed, its motor is weak), or its encoder stands",
+            "it does not move while its reference does: it has not broken away (friction and \
+             rotor not in the description), it is blocked, its brake is closed, or its encoder \
+             stands",
         ),
         Fault::Saturated { joint } => Line::of(
             joint,
-            "its torque was at the limit for too long",
-            "something blocks it, it carries more than the description says, or its limit is too low",
+            "its torque was at the limit for too long: it is blocked, it carries more than the \
+             description says, or its limit is too low",
         ),
         Fault::LimitCycle { joint } => Line::of(
             joint,
-            "its torque swings from limit to limit",
-            "gains too high or in another unit (those of control.rs are per inertia, 1/s² and 1/s, not N·m/rad), or two drives swapped",
+            "its torque swings from limit to limit: gains too high or in another unit (those of \
+             control.rs are per inertia, 1/s² and 1/s, not N·m/rad), or two drives swapped",
         ),
-        Fault::Reference { joint } => {
-            Line::of(joint, "its reference jumped", "the motion in scene.rs, or an own reference")
-        }
-        Fault::Torque { joint } => Line::of(
-            joint,
-            "its law gave no number",
-            "the law in control.rs, or the robot in robot.rs",
-        ),
-        Fault::Hot { joint } => {
-            Line::of(joint, "its motor is too hot", "let it cool, and load it less")
-        }
+        Fault::Reference { joint } => Line::of(joint, "its reference jumped: see scene.rs"),
+        Fault::Torque { joint } => Line::of(joint, "its law gave no number: see control.rs"),
+        Fault::Hot { joint } => Line::of(joint, "its motor is too hot: let it cool, load it less"),
         Fault::Missed | Fault::Overrun => Line::of_all(
-            "a tick took longer than its period",
-            "build with opt-level 1 or more, do less in the tick, keep other interrupts short",
+            "a tick took longer than its period: build with opt-level 1 or more, do less in it",
         ),
-        Fault::Unfinished | Fault::Restarted => Line::of_all(
-            "the processor restarted, or left a tick",
-            "its supply, or a tick that did not end within the watchdog's time",
-        ),
-        Fault::Brake => Line::of_all("the brake does not respond", "its pin in pins.rs"),
+        Fault::Unfinished | Fault::Restarted => {
+            Line::of_all("the processor left a tick or restarted: its supply, its watchdog")
+        }
+        Fault::Brake => Line::of_all("the brake does not respond: its pin in pins.rs"),
         _ => return None,
     })
 }
+
+const OUTSIDE: &str = "it is outside its range: move it back by hand; if it is not there, its zero \
+                       or its direction in board.rs is wrong";
 
 /// Why the button did not start the robot.
 pub fn of_refusal(reason: ResetError) -> Line {
     match reason {
         ResetError::TooFar { joint } => Line::of(
             joint,
-            "no start: it is more than 0.15 rad from home() in scene.rs",
-            "move it there by hand; if it is there, ZERO in board.rs or the zero of its drive is wrong",
+            "no start, it is more than 0.15 rad from home() in scene.rs: move it there by hand; \
+             if it is there, ZERO in board.rs or the zero of its drive is wrong",
         ),
-        ResetError::OutOfBounds { joint } => Line::of(
-            joint,
-            "no start: it is outside its range",
-            "move it back by hand; if it is not there, its zero or its direction in board.rs is wrong",
-        ),
-        ResetError::NoMeasurement => Line::of_all(
-            "no start: not every joint has a position",
-            "the line of that joint says why",
-        ),
-        ResetError::Contact => Line::of_all("no start: something touches the arm", "remove it"),
-        _ => Line::of_all("no start: the arm is not stopped", "wait until it stands"),
-    }
-}
-
-/// The robot stays on its brake for good.
-pub fn of_setup(error: &SetupError) -> Line {
-    match error {
-        SetupError::Motion(_) => {
-            Line::of_all("impossible: the motion", "home, away and motion in scene.rs")
-        }
-        SetupError::Limits(_) => Line::of_all("impossible: a limit", "limits in scene.rs"),
-        SetupError::Encoder(error) => Line::of(
-            error.joint,
-            "impossible: how its encoder is mounted",
-            "ZERO in board.rs, encoder_ratios and encoder_ranges in scene.rs",
-        ),
-        SetupError::Drive(_) => {
-            Line::of_all("impossible: the full scale of a drive", "full_scale in board.rs")
-        }
-        SetupError::Can(error) => Line::of(
-            error.joint,
-            "impossible: the number, the scale or the torque of its drive",
-            "number and SCALES in board.rs, its limit of torque in scene.rs",
-        ),
+        ResetError::OutOfBounds { joint } => Line::of(joint, OUTSIDE),
+        ResetError::NoMeasurement => Line::of_all("no start: not every joint has a position"),
+        _ => Line::of_all("no start: the arm has to stand, and nothing to touch it"),
     }
 }

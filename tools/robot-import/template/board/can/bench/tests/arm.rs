@@ -64,7 +64,7 @@ pub struct Bench<D: Detect<f32, N> = &'static mut Found> {
     pub wire: &'static RefCell<Wire>,
     brake: &'static Cell<bool>,
     /// Holds the arm although the pin is low.
-    pub is_held: bool,
+    pub is_held: Cell<bool>,
     arm: Calibrated<Arm, f32, N, N, N>,
     /// What acts on the arm beside the motors: rotors and friction are those of the description.
     pub effects: Effects,
@@ -75,7 +75,7 @@ pub struct Bench<D: Detect<f32, N> = &'static mut Found> {
     pub motors: [usize; N],
     /// The count of the timer that begins a tick.
     pub count: u32,
-    pub is_late: bool,
+    pub is_late: Cell<bool>,
     pub status: Option<Status>,
     /// What the log has said, and when, s.
     pub said: Vec<(f32, String)>,
@@ -115,14 +115,14 @@ impl<D: Detect<f32, N>> Bench<D> {
             log: Memory::new(),
             wire,
             brake,
-            is_held: false,
+            is_held: Cell::new(false),
             arm: Calibrated::nominal(),
             effects: EFFECTS,
             state: State::at(home()),
             directions: DRIVES.map(way),
             motors: core::array::from_fn(|joint| joint),
             count: 0,
-            is_late: false,
+            is_late: Cell::new(false),
             status: None,
             said: Vec::new(),
             lines: Vec::new(),
@@ -148,7 +148,7 @@ impl<D: Detect<f32, N>> Bench<D> {
         is_pressed: bool,
     ) -> Mode {
         self.count += 1;
-        let (begun, late) = (self.count, u32::from(self.is_late));
+        let (begun, late) = (self.count, u32::from(self.is_late.get()));
         self.count += late;
         let asked = Cell::new(false);
         let count = || begun + if asked.replace(true) { late } else { 0 };
@@ -170,11 +170,9 @@ impl<D: Detect<f32, N>> Bench<D> {
         self.log.tick(&telemetry, print);
         if status.mode != Mode::Full || status.fault.is_some() {
             let is_pressed = status.mode == Mode::Stopped && is_pressed;
-            let (operator, log) = (&mut self.operator, &mut self.log);
-            let refused =
-                operator.tick(begun, &status, &mut self.control, self.motion, is_pressed, |line| {
-                    log.say(line, print)
-                });
+            let (operator, control, log) = (&mut self.operator, &mut self.control, &mut self.log);
+            let say = |line| log.say(line, print);
+            let refused = operator.tick((begun, &status), control, self.motion, is_pressed, say);
             if let Some(reason) = refused {
                 self.log.say(of_refusal(reason), print);
             }
@@ -192,7 +190,7 @@ impl<D: Detect<f32, N>> Bench<D> {
                 (self.directions[joint] * wire.drives[self.motors[joint]].torque()) as f32
             });
             drop(wire);
-            if self.brake.get() || self.is_held {
+            if self.brake.get() || self.is_held.get() {
                 self.state = State::at(self.state.q);
             } else {
                 let mechanics = ModelDynamics { robot: &self.arm, tau, effects: &self.effects };

@@ -67,7 +67,7 @@ fn gains_in_another_unit_are_named() {
         bench.tick::<Hang>(motion, true);
     }
     assert!(
-        bench.lines.iter().any(|line| line.remedy.contains("in another unit")),
+        bench.lines.iter().any(|line| line.text.contains("in another unit")),
         "{:#?}",
         bench.said
     );

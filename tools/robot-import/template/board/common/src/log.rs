@@ -4,7 +4,7 @@
 
 use defmt::{error, info, warn};
 use defmt_rtt as _;
-use joint_drivers::Telemetry;
+use joint_drivers::{JointError, Telemetry};
 use motion_control::motion::ResetError;
 
 use crate::board::{N, SetupError};
@@ -62,13 +62,10 @@ pub fn impossible(reason: &SetupError) {
         SetupError::Motion(error) => error!("impossible: the motion in scene.rs: {}", error),
         SetupError::Limits(error) => error!("impossible: the limits in scene.rs: {}", error),
         SetupError::Drive(_) => error!("impossible: the full scale of a drive in board.rs"),
-        SetupError::Encoder(of) => {
-            error!("impossible: the encoder in board.rs, joint {}", of.joint + 1)
+        SetupError::Encoder(JointError { joint, .. })
+        | SetupError::Can(JointError { joint, .. }) => {
+            error!("impossible: the encoder or the drive of joint {} in board.rs", joint + 1);
         }
-        SetupError::Can(of) => error!(
-            "impossible: number, SCALES or torque of the drive in board.rs, joint {}",
-            of.joint + 1
-        ),
         _ => error!("impossible: a setup error of control.rs"),
     }
 }

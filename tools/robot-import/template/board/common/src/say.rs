@@ -112,57 +112,42 @@ impl Memory {
 
 /// A fault that no device reports.
 fn of_fault(fault: Fault) -> Option<Line> {
-    Some(match fault {
-        Fault::Position { joint } => Line::of(joint, OUTSIDE),
-        Fault::Jump { joint } => {
-            Line::of(joint, "its position jumped: lost frames, a loose encoder or shaft")
+    let of = |joint, text| Some(Line::of(joint, text));
+    match fault {
+        Fault::Position { joint } => of(joint, OUTSIDE),
+        Fault::Jump { joint } => of(joint, "it jumped: lost frames, a loose encoder or shaft"),
+        Fault::Speed { joint } => of(joint, FAST),
+        Fault::Frozen { joint } => of(joint, FROZEN),
+        Fault::Saturated { joint } => {
+            of(joint, "too long at its limit of torque: blocked? A load?")
         }
-        Fault::Speed { joint } => Line::of(
-            joint,
-            "it is faster than its limit: a drive in reverse or two swapped (DRIVES), a wrong \
-             zero, or something pushes the arm",
-        ),
-        Fault::Frozen { joint } => Line::of(
-            joint,
-            "it does not move while its reference does: it has not broken away (friction and \
-             rotor not in the description), it is blocked, its brake is closed, or its encoder \
-             stands",
-        ),
-        Fault::Saturated { joint } => Line::of(
-            joint,
-            "its torque was at the limit for too long: it is blocked, it carries more than the \
-             description says, or its limit is too low",
-        ),
-        Fault::LimitCycle { joint } => Line::of(
-            joint,
-            "its torque swings from limit to limit: gains too high or in another unit (those of \
-             control.rs are per inertia, 1/s² and 1/s, not N·m/rad), or two drives swapped",
-        ),
-        Fault::Reference { joint } => Line::of(joint, "its reference jumped: see scene.rs"),
-        Fault::Torque { joint } => Line::of(joint, "its law gave no number: see control.rs"),
-        Fault::Hot { joint } => Line::of(joint, "its motor is too hot: let it cool, load it less"),
-        Fault::Missed | Fault::Overrun => Line::of_all(
-            "a tick took longer than its period: build with opt-level 1 or more, do less in it",
-        ),
-        Fault::Unfinished | Fault::Restarted => {
-            Line::of_all("the processor left a tick or restarted: its supply, its watchdog")
-        }
-        Fault::Brake => Line::of_all("the brake does not respond: its pin in pins.rs"),
-        _ => return None,
-    })
+        Fault::LimitCycle { joint } => of(joint, SWINGS),
+        Fault::Reference { joint } => of(joint, "its reference jumped: see scene.rs"),
+        Fault::Torque { joint } => of(joint, "its law gave no number: see control.rs"),
+        Fault::Hot { joint } => of(joint, "its motor is too hot: let it cool, load it less"),
+        Fault::Missed | Fault::Overrun => Some(Line::of_all(LATE)),
+        Fault::Unfinished | Fault::Restarted => Some(Line::of_all(LEFT)),
+        Fault::Brake => Some(Line::of_all("the brake does not respond: its pin in pins.rs")),
+        _ => None,
+    }
 }
 
-const OUTSIDE: &str = "it is outside its range: move it back by hand; if it is not there, its zero \
-                       or its direction in board.rs is wrong";
+const OUTSIDE: &str = "it is outside its range: move it there by hand, or correct its zero or sign";
+const FAST: &str =
+    "it is faster than its limit: a drive in reverse, two swapped, a push, a wrong zero";
+const FROZEN: &str = "it does not move while its reference does: it has not broken away (friction, \
+                      rotor), it is blocked, its brake is closed, or its encoder stands";
+const SWINGS: &str = "its torque swings from limit to limit: gains too high, or in another unit (those \
+                      of control.rs are per inertia, 1/s² and 1/s), or two drives swapped";
+const LATE: &str = "a tick took longer than its period: opt-level 1 or more, do less in it";
+const LEFT: &str = "the processor left a tick or restarted: its supply, its watchdog";
+const FAR: &str =
+    "no start, more than 0.15 rad from home(): move it there by hand, or correct its zero";
 
 /// Why the button did not start the robot.
 pub fn of_refusal(reason: ResetError) -> Line {
     match reason {
-        ResetError::TooFar { joint } => Line::of(
-            joint,
-            "no start, it is more than 0.15 rad from home() in scene.rs: move it there by hand; \
-             if it is there, ZERO in board.rs or the zero of its drive is wrong",
-        ),
+        ResetError::TooFar { joint } => Line::of(joint, FAR),
         ResetError::OutOfBounds { joint } => Line::of(joint, OUTSIDE),
         ResetError::NoMeasurement => Line::of_all("no start: not every joint has a position"),
         _ => Line::of_all("no start: the arm has to stand, and nothing to touch it"),

@@ -41,24 +41,29 @@ const AT: Option<usize> = Some(J);
 /// Mistakes that are there when the board starts. The arm stays on its brake.
 const BEFORE: &[Mistake] = &[
     (no_supply, None, "no drive answers", "supply"),
-    (|b| wire(b, |w| w.error = Some(ErrorKind::Acknowledge)), None, "acknowledges", "1 Mbit/s"),
+    (|b| wire(b, |w| w.error = Some(ErrorKind::Acknowledge)), None, "acknowledges", "bit rate"),
     (|b| wire(b, |w| w.reaches = Some(0)), None, "no drive answers", "cable"),
     (|b| wire(b, |w| w.reaches = AT), AT, "all behind it", "cable"),
     // One drive without supply; another number; two of one number; the factory's MST_ID.
     (|b| drive(b, |d| d.supply(false)), AT, "does not answer", "supply"),
-    (|b| drive(b, |d| d.number = 14), AT, "does not answer", "ESC_ID"),
+    (|b| drive(b, |d| d.number = 14), AT, "does not answer", "its number"),
     (|b| drive(b, |d| (d.number, d.host) = PREVIOUS), AT, "does not answer", "second drive"),
-    (|b| drive(b, |d| d.host = 0), AT, "none of them from its drive", "MST_ID"),
+    (|b| drive(b, |d| d.host = 0), AT, "none from its drive", "MST_ID"),
     // Another maker's drive.
-    (|b| (drive(b, |d| d.supply(false)), wire(b, |w| w.foreign = 1)).0, AT, "none of", "ESC_ID"),
-    (|b| drive(b, |d| d.scale.position = 12.566), AT, "PMAX", "SCALES"),
+    (
+        |b| (drive(b, |d| d.supply(false)), wire(b, |w| w.foreign = 1)).0,
+        AT,
+        "none from its drive",
+        "ESC_ID",
+    ),
+    (|b| drive(b, |d| d.scale.position = 12.566), AT, "PMAX", "the drive's"),
     (|b| drive(b, |d| d.scale.velocity *= 1.5), AT, "VMAX", "48 V"),
-    (|b| drive(b, |d| d.scale.torque *= 2.8), AT, "TMAX", "motor of this joint"),
+    (|b| drive(b, |d| d.scale.torque *= 2.8), AT, "TMAX", "this joint's motor"),
     (|b| drive(b, |d| d.mode = 2), AT, "control mode", "register 10"),
     // No terminator; an MCP2515; another program.
     (|b| wire(b, |w| w.destroys = 2), None, "answers are lost", "120 Ω"),
     (|b| wire(b, |w| w.places = 3), Some(3), "no room", "fewer places"),
-    (|b| wire(b, |w| w.foreign = 200), None, "more frames", "another board"),
+    (|b| wire(b, |w| w.foreign = 200), None, "more frames", "who else sends"),
     // A zero that was never set, or is off; an arm that is not at home.
     (|b| drive(b, |d| d.zero += 2.5), AT, "zero", "move it"),
     (|b| drive(b, |d| d.zero += 0.7), AT, "zero", "move it"),
@@ -73,12 +78,12 @@ const PREVIOUS: (u8, u16) = (J as u8, 0x10 + J as u16);
 const RUNNING: &[Mistake] = &[
     (|b| fails(b, 0xc, true), AT, "motor is too hot", "cool"),
     (|b| fails(b, 0xb, true), AT, "drive is too hot", "cool"),
-    (|b| fails(b, 0xe, false), AT, "overloaded", "button"),
-    (|b| fails(b, 0xa, false), AT, "too much current", "button"),
+    (|b| fails(b, 0xe, false), AT, "overloaded", "A start clears"),
+    (|b| fails(b, 0xa, false), AT, "too much current", "A start clears"),
     (|b| fails(b, 0x8, false), AT, "too much voltage", "brake resistor"),
-    (|b| fails(b, 0x9, false), AT, "too little voltage", "limit of current"),
+    (|b| fails(b, 0x9, false), AT, "too little voltage", "supply's limit"),
     // The watchdog of a drive; a drive that another program disables.
-    (|b| fails(b, 0xd, false), AT, "missed its commands", "register 9"),
+    (|b| fails(b, 0xd, false), AT, "missed its commands", "TIMEOUT"),
     (|b| drive(b, |d| d.is_enabled = false), AT, "not enabled", "another program"),
     // A supply that goes, comes back, or that an emergency stop cuts.
     (|b| drive(b, |d| d.supply(false)), AT, "does not answer", "supply"),
@@ -86,7 +91,7 @@ const RUNNING: &[Mistake] = &[
     (no_supply, None, "no drive answers", "supply"),
     (|b| b.is_held.set(true), None, "does not move", "brake is closed"),
     (|b| wire(b, |w| w.reaches = AT), AT, "all behind it", "plug"),
-    (|b| wire(b, |w| w.error = Some(ErrorKind::Other)), None, "off the bus", "120 Ω"),
+    (|b| wire(b, |w| w.error = Some(ErrorKind::Other)), None, "the bus is off", "120 Ω"),
     (|b| wire(b, |w| w.error = Some(ErrorKind::Crc)), None, "destroyed", "ends"),
     (|b| b.is_late.set(true), None, "longer than its period", "opt-level"),
 ];
@@ -186,7 +191,11 @@ fn the_start_clears_the_errors_that_drives_keep() {
     let mut bench = Bench::new();
     fails(&bench, 0xd, false);
     bench.run(0.1, false);
-    assert!(is_said(&bench, Some(J), ["missed its commands", "button"]), "{:#?}", bench.said);
+    assert!(
+        is_said(&bench, Some(J), ["missed its commands", "A start clears"]),
+        "{:#?}",
+        bench.said
+    );
     assert!(bench.start(), "{:#?}", bench.said);
     assert_eq!(bench.wire.borrow().drives[J].error, 0);
     bench.run(0.5, false);
@@ -218,7 +227,7 @@ fn the_start_says_what_the_description_has_too_much_of_or_lacks() {
     assert_eq!(weak(core::array::from_fn(|joint| stronger(joint) * of_motors[joint])), [J]);
     let [has_rotor, has_friction] = bus::terms(&scene::EFFECTS);
     let is_bare = !(has_rotor && has_friction);
-    assert_eq!(is_said(&bench, None, ["the description has no rotors", "EFFECTS"]), is_bare);
+    assert_eq!(is_said(&bench, None, ["no rotors", "armature"]), is_bare);
     assert_eq!(bus::terms(&(Gravity::EARTH, Inertia, Coriolis)), [false; 2]);
 }
 

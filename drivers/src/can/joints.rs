@@ -340,6 +340,25 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> Network<Bus, Joint, V> {
     }
 }
 
+/// Notes why a joint, or all, had no position in a reading that failed. Not inlined: the usual reading
+/// is in memory that is short.
+#[cold]
+#[inline(never)]
+fn note<const V: usize>(
+    unread: &mut [Result<(), CanError>; V],
+    of: Option<usize>,
+    error: CanError,
+    is_first: bool,
+) {
+    for (joint, unread) in unread.iter_mut().enumerate() {
+        if of.is_none_or(|of| of == joint) {
+            *unread = Err(error);
+        } else if is_first {
+            *unread = Ok(());
+        }
+    }
+}
+
 fn transmit<Bus: Can>(bus: &mut Bus, frame: &Bus::Frame) -> Result<(), CanError> {
     match bus.transmit(frame) {
         Ok(None) => Ok(()),
@@ -382,12 +401,12 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> JointEncoders<V> for &CanJoints<
         };
         let received = state.receive();
         if let Err(error) = received {
-            state.unread = [Err(error); V];
+            note(&mut state.unread, None, error, true);
         }
         let mut positions = [0.0; V];
         let mut failed = received.map_err(first);
         let Network { positions: reported, joints, unread, .. } = &mut *state;
-        let mut is_first = received.is_ok();
+        let mut is_first = true;
         let reported = positions.iter_mut().zip(reported).zip(joints);
         for (joint, ((position, reported), of)) in reported.enumerate() {
             // After an error of the bus, too: a position counts in one tick alone.
@@ -395,11 +414,8 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> JointEncoders<V> for &CanJoints<
                 Ok(reported) => *position = reported,
                 Err(error) => {
                     of.missed(1);
-                    if mem::take(&mut is_first) {
-                        *unread = [Ok(()); V];
-                    }
-                    if let Some(unread) = unread.get_mut(joint).filter(|_| received.is_ok()) {
-                        *unread = Err(error);
+                    if received.is_ok() {
+                        note(unread, Some(joint), error, mem::take(&mut is_first));
                     }
                     failed = failed.and(Err(JointError { joint, error }));
                 }

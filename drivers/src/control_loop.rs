@@ -7,10 +7,13 @@
 use dynamics_core::state::State;
 use embedded_hal::digital::OutputPin;
 use motion_control::estimate::Estimate;
-use motion_control::law::{Gains, feedback};
-use motion_control::limits::{Command, ConfigError, Fault, Mode, SafetyLimits, Status};
+use motion_control::law::{Feedback, Gains};
+use motion_control::limits::{
+    Command, ConfigError, Fault, Mode, MotionLimits, SafetyLimits, Status,
+};
 use motion_control::motion::{
-    MeasurementAge, MotionController, ObservedTick, OnCircles, ReferencedTick, ResetError,
+    Approach, ApproachError, MeasurementAge, MotionController, ObservedTick, OnCircles,
+    ReferencedTick, ResetError,
 };
 use motion_control::reference::Reference;
 use motion_control::safety::{CompletedTick, Detect, StopCategory, ThermalLimit, TickCounter};
@@ -24,7 +27,7 @@ mod probe;
 pub use probe::{Phase, Probe, Telemetry};
 
 /// The feed-forward part of the control law; `X` is its input beside the reference (the payload,
-/// the motion of the base).
+/// the motion of the base), `G` its gains: those of another unit are another type.
 ///
 /// ```
 /// use dynamics_core::effects::RIGID_BODY;
@@ -37,7 +40,7 @@ pub use probe::{Phase, Probe, Telemetry};
 ///     }
 /// }
 /// ```
-pub trait Law<const V: usize, X = ()> {
+pub trait Law<const V: usize, X = (), G: Feedback<f32, V> = Gains<f32, V>> {
     /// Whether the feed-forward produces the acceleration of the reference. If so, it decelerates a
     /// held arm with all coupling; if not, only K_d of the feedback does.
     const ACCELERATES: bool = true;
@@ -45,21 +48,16 @@ pub trait Law<const V: usize, X = ()> {
     /// The torque for the reference, N·m or N.
     fn feedforward(reference: &State<f32, V, V>, environment: &X) -> [f32; V];
 
-    /// The command, N·m or N: τ = feed-forward + K_p (q_d − q) + K_d (q̇_d − q̇), or that of
-    /// another loop.
+    /// The command, N·m or N: the feed-forward with the feedback of these gains, or that of another
+    /// loop.
     #[inline(always)]
     fn torque(
-        gains: &Gains<f32, V>,
+        gains: &G,
         reference: &State<f32, V, V>,
         estimate: &Estimate<f32, V>,
         environment: &X,
     ) -> [f32; V] {
-        let mut tau = Self::feedforward(reference, environment);
-        let pd = feedback(gains, reference, estimate);
-        for (tau, pd) in tau.iter_mut().zip(pd) {
-            *tau += pd;
-        }
-        tau
+        gains.torque(|state| Self::feedforward(state, environment), reference, estimate)
     }
 }
 
@@ -143,8 +141,15 @@ fn kept<E>(kept: &LastError<E>) -> Option<JointError<&E>> {
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
 #[derive(Debug)]
-pub struct ControlLoop<E, D, Brake, const V: usize, Detectors = (), A = <E as EncoderType>::Age>
-where
+pub struct ControlLoop<
+    E,
+    D,
+    Brake,
+    const V: usize,
+    Detectors = (),
+    A = <E as EncoderType>::Age,
+    G = Gains<f32, V>,
+> where
     E: EncoderType,
     D: JointDrives<V>,
 {
@@ -152,7 +157,7 @@ where
     drives: D,
     /// A high level holds the joints.
     brake: Brake,
-    gains: Gains<f32, V>,
+    gains: G,
     controller: MotionController<f32, V, A>,
     detectors: Detectors,
     counter: TickCounter,
@@ -160,12 +165,13 @@ where
     drive_error: LastError<D::Error>,
 }
 
-impl<E, D, Brake, const V: usize, Detectors> ControlLoop<E, D, Brake, V, Detectors, E::Age>
+impl<E, D, Brake, const V: usize, Detectors, G> ControlLoop<E, D, Brake, V, Detectors, E::Age, G>
 where
     E: EncoderType,
     D: JointDrives<V>,
     Brake: OutputPin,
     Detectors: Detect<f32, V>,
+    G: Feedback<f32, V>,
 {
     /// A loop at the start of its trajectory; starts the encoders. High at `brake` holds the
     /// joints.
@@ -175,7 +181,7 @@ where
         mut encoders: E,
         drives: D,
         brake: Brake,
-        gains: Gains<f32, V>,
+        gains: G,
         controller: MotionController<f32, V, E::Age>,
         detectors: Detectors,
     ) -> Self
@@ -187,13 +193,14 @@ where
     }
 }
 
-impl<E, D, Brake, const V: usize, Detectors, const CIRCLES: u128>
-    ControlLoop<E, D, Brake, V, Detectors, OnCircles<CIRCLES, E::Age>>
+impl<E, D, Brake, const V: usize, Detectors, const CIRCLES: u128, G>
+    ControlLoop<E, D, Brake, V, Detectors, OnCircles<CIRCLES, E::Age>, G>
 where
     E: EncoderType,
     D: JointDrives<V>,
     Brake: OutputPin,
     Detectors: Detect<f32, V>,
+    G: Feedback<f32, V>,
 {
     /// As [`ControlLoop::new`], of a controller with joints that are circles. Its detectors are
     /// those [`on_circles`](motion_control::safety::Detectors::on_circles), too.
@@ -201,7 +208,7 @@ where
         mut encoders: E,
         drives: D,
         brake: Brake,
-        gains: Gains<f32, V>,
+        gains: G,
         controller: MotionController<f32, V, OnCircles<CIRCLES, E::Age>>,
         detectors: Detectors,
     ) -> Self
@@ -213,20 +220,21 @@ where
     }
 }
 
-impl<E, D, Brake, const V: usize, Detectors, A> ControlLoop<E, D, Brake, V, Detectors, A>
+impl<E, D, Brake, const V: usize, Detectors, A, G> ControlLoop<E, D, Brake, V, Detectors, A, G>
 where
     E: EncoderType,
     A: MeasurementAge,
     D: JointDrives<V>,
     Brake: OutputPin,
     Detectors: Detect<f32, V>,
+    G: Feedback<f32, V>,
 {
     #[inline(always)]
     fn started(
         encoders: E,
         drives: D,
         brake: Brake,
-        gains: Gains<f32, V>,
+        gains: G,
         controller: MotionController<f32, V, A>,
         detectors: Detectors,
     ) -> Self {
@@ -245,7 +253,7 @@ where
 
     /// One tick under the law `L`.
     #[inline(never)]
-    pub fn tick<L: Law<V, X>, T: Reference<f32, V>, X>(
+    pub fn tick<L: Law<V, X, G>, T: Reference<f32, V>, X>(
         &mut self,
         trajectory: &T,
         environment: &X,
@@ -259,7 +267,7 @@ where
     /// One tick under the law `L`, watched by a probe. It is inlined: call it from a function that
     /// is not.
     #[inline(always)]
-    pub fn tick_probed<L: Law<V, X>, T: Reference<f32, V>, X>(
+    pub fn tick_probed<L: Law<V, X, G>, T: Reference<f32, V>, X>(
         &mut self,
         trajectory: &T,
         environment: &X,
@@ -276,7 +284,7 @@ where
         probe.end(Phase::Read);
         let gains = &self.gains;
         let computed =
-            compute::<L, T, X, _, _, V>(tick, detectors, gains, trajectory, environment, probe);
+            compute::<L, T, X, _, _, _, V>(tick, detectors, gains, trajectory, environment, probe);
         self.complete(computed, probe)
     }
 
@@ -317,7 +325,7 @@ where
     ///
     /// Missed ticks are reported to the controller, and so is a tick that ends after its period. A
     /// tick that ends in time gives what feeds a [`Watchdog`](motion_control::safety::Watchdog).
-    pub fn tick_at<L: Law<V, X>, T: Reference<f32, V>, X>(
+    pub fn tick_at<L: Law<V, X, G>, T: Reference<f32, V>, X>(
         &mut self,
         trajectory: &T,
         environment: &X,
@@ -336,6 +344,46 @@ where
         let completed = tick.end(timer(), &telemetry.status);
         let completed = completed.map_err(|fault| self.controller.react(fault));
         (telemetry, completed.ok())
+    }
+
+    /// The mode of the arm: [`MotionController::mode`].
+    pub fn mode(&self) -> Mode {
+        self.controller.mode()
+    }
+
+    /// The tick of the trajectory that comes next, in which a goal is set:
+    /// [`MotionController::trajectory_tick`].
+    pub fn trajectory_tick(&self) -> u32 {
+        self.controller.trajectory_tick()
+    }
+
+    /// The estimate of the last tick, from which the reference of an arm that is led begins.
+    pub fn estimate(&self) -> &Estimate<f32, V> {
+        self.controller.estimate()
+    }
+
+    /// The way back onto a trajectory of a stopped arm, for [`Self::reset`]:
+    /// [`MotionController::approach`].
+    ///
+    /// # Errors
+    /// [`ApproachError`].
+    pub fn approach<'a, T: Reference<f32, V>>(
+        &mut self,
+        trajectory: &'a T,
+        limits: &[MotionLimits<f32>; V],
+        bounds: &SafetyLimits<f32, V>,
+    ) -> Result<Approach<'a, f32, V, T>, ApproachError> {
+        self.controller.approach(trajectory, limits, bounds)
+    }
+
+    /// Switches the torque off and sets the brake in the next tick: [`MotionController::stop`].
+    pub fn stop(&mut self, fault: Fault) {
+        self.controller.stop(fault);
+    }
+
+    /// A fault that your loop detects, with its reaction: [`MotionController::react`].
+    pub fn react(&mut self, fault: Fault) {
+        self.controller.react(fault);
     }
 
     /// Stops the arm from outside, by a category.
@@ -422,19 +470,20 @@ where
 }
 
 #[cfg(feature = "async")]
-impl<E, D, Brake, const V: usize, Detectors> ControlLoop<E, D, Brake, V, Detectors, E::Age>
+impl<E, D, Brake, const V: usize, Detectors, G> ControlLoop<E, D, Brake, V, Detectors, E::Age, G>
 where
     E: asynch::JointEncoders<V>,
     D: JointDrives<V>,
     Brake: OutputPin,
     Detectors: Detect<f32, V>,
+    G: Feedback<f32, V>,
 {
     /// As [`ControlLoop::new`], with encoders over `embedded-hal-async`.
     pub async fn new_async(
         mut encoders: E,
         drives: D,
         brake: Brake,
-        gains: Gains<f32, V>,
+        gains: G,
         controller: MotionController<f32, V, E::Age>,
         detectors: Detectors,
     ) -> Self {
@@ -444,20 +493,21 @@ where
 }
 
 #[cfg(feature = "async")]
-impl<E, D, Brake, const V: usize, Detectors, const CIRCLES: u128>
-    ControlLoop<E, D, Brake, V, Detectors, OnCircles<CIRCLES, E::Age>>
+impl<E, D, Brake, const V: usize, Detectors, const CIRCLES: u128, G>
+    ControlLoop<E, D, Brake, V, Detectors, OnCircles<CIRCLES, E::Age>, G>
 where
     E: asynch::JointEncoders<V>,
     D: JointDrives<V>,
     Brake: OutputPin,
     Detectors: Detect<f32, V>,
+    G: Feedback<f32, V>,
 {
     /// As [`ControlLoop::on_circles`], with encoders over `embedded-hal-async`.
     pub async fn on_circles_async(
         mut encoders: E,
         drives: D,
         brake: Brake,
-        gains: Gains<f32, V>,
+        gains: G,
         controller: MotionController<f32, V, OnCircles<CIRCLES, E::Age>>,
         detectors: Detectors,
     ) -> Self {
@@ -467,16 +517,17 @@ where
 }
 
 #[cfg(feature = "async")]
-impl<E, D, Brake, const V: usize, Detectors, A> ControlLoop<E, D, Brake, V, Detectors, A>
+impl<E, D, Brake, const V: usize, Detectors, A, G> ControlLoop<E, D, Brake, V, Detectors, A, G>
 where
     E: asynch::JointEncoders<V>,
     A: MeasurementAge,
     D: JointDrives<V>,
     Brake: OutputPin,
     Detectors: Detect<f32, V>,
+    G: Feedback<f32, V>,
 {
     /// As [`Self::tick`]; other tasks run while the encoders' bus is busy.
-    pub async fn tick_async<L: Law<V, X>, T: Reference<f32, V>, X>(
+    pub async fn tick_async<L: Law<V, X, G>, T: Reference<f32, V>, X>(
         &mut self,
         trajectory: &T,
         environment: &X,
@@ -485,8 +536,14 @@ where
         let (error, detectors) = (&mut self.encoder_error, &mut self.detectors);
         let tick = observe::<E, _, _, V>(read, error, &mut self.controller, detectors);
         let gains = &self.gains;
-        let computed =
-            compute::<L, T, X, _, _, V>(tick, detectors, gains, trajectory, environment, &mut ());
+        let computed = compute::<L, T, X, _, _, _, V>(
+            tick,
+            detectors,
+            gains,
+            trajectory,
+            environment,
+            &mut (),
+        );
         self.complete(computed, &mut ())
     }
 }
@@ -527,16 +584,17 @@ fn observe<'a, E: EncoderType, D: Detect<f32, V>, A: MeasurementAge, const V: us
 /// Reference, law and limits: the tick of the trajectory, the command, and what the detectors say
 /// of it.
 #[inline(always)]
-fn compute<L, T, X, A, D, const V: usize>(
+fn compute<L, T, X, A, D, G, const V: usize>(
     tick: ObservedTick<'_, f32, V, A>,
     detectors: &mut D,
-    gains: &Gains<f32, V>,
+    gains: &G,
     trajectory: &T,
     environment: &X,
     probe: &mut impl Probe<V>,
 ) -> (u32, Command<f32, V>, Result<(), Fault>)
 where
-    L: Law<V, X>,
+    L: Law<V, X, G>,
+    G: Feedback<f32, V>,
     T: Reference<f32, V>,
     A: MeasurementAge,
     D: Detect<f32, V>,
@@ -549,7 +607,7 @@ where
     }
     let clock = tick.trajectory_tick();
     probe.begin(Phase::Dynamics);
-    let tau = torque::<L, X, V>(gains, tick.reference(), tick.estimate(), environment);
+    let tau = torque::<L, X, _, V>(gains, tick.reference(), tick.estimate(), environment);
     probe.end(Phase::Dynamics);
     probe.begin(Phase::Safety);
     let command = tick.command(&tau);
@@ -582,8 +640,8 @@ fn stop<A: MeasurementAge, const V: usize>(tick: &mut ReferencedTick<'_, f32, V,
 
 /// The law's command, in a function of its own.
 #[inline(never)]
-fn torque<L: Law<V, X>, X, const V: usize>(
-    gains: &Gains<f32, V>,
+fn torque<L: Law<V, X, G>, X, G: Feedback<f32, V>, const V: usize>(
+    gains: &G,
     reference: &State<f32, V, V>,
     estimate: &Estimate<f32, V>,
     environment: &X,

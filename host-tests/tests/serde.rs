@@ -12,8 +12,8 @@ use motion_control::estimate::{
     ObserverConfig, ParameterEstimatorConfig, PayloadEstimatorConfig, TipWrenchConfig,
 };
 use motion_control::law::{
-    BreakawayConfig, Gains, HandGuidingConfig, ImpedanceConfig, InertiaShapingConfig,
-    LimitedSpring, PassivityGains, SpeedBrake,
+    AccelerationGains, BreakawayConfig, Gains, HandGuidingConfig, ImpedanceConfig,
+    InertiaShapingConfig, LimitedSpring, PassivityGains, SpeedBrake,
 };
 use motion_control::limits::{MotionLimits, SafetyLimits};
 use motion_control::motion::MotionControllerConfig;
@@ -73,6 +73,7 @@ fn controller_configurations_roundtrip_bit_by_bit() {
     comes_back(CONFIG);
     comes_back(ObserverConfig { bandwidth: 250.1_f32, tick: 1e-3 });
     comes_back(Gains { kp: a, kd: b });
+    comes_back(AccelerationGains { kp: a, kd: b });
     comes_back(PassivityGains { lambda: a, kd: b });
     comes_back(ImpedanceConfig { stiffness: LIMITS.torque, zeta: 0.7, slowest: 2.1 });
     let positive = THIRDS.map(f32::abs);

@@ -44,6 +44,7 @@ serde_record!(motion::MotionControllerConfig<R, V> {
 } check);
 serde_record!(estimate::ObserverConfig<R> { bandwidth: R, tick: R } check);
 serde_record!(law::Gains<R, V> { kp: Array<R, V>, kd: Array<R, V> });
+serde_record!(law::AccelerationGains<R, V> { kp: Array<R, V>, kd: Array<R, V> });
 serde_record!(law::PassivityGains<R, V> { lambda: Array<R, V>, kd: Array<R, V> });
 serde_record!(law::ImpedanceConfig<R, M> { stiffness: Array<R, M>, zeta: R, slowest: R } check);
 serde_record!(estimate::TipWrenchConfig<R, V> { noise: Array<R, V>, force: R, couple: R });

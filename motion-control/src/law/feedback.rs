@@ -37,6 +37,94 @@ impl<R: Real, const V: usize> Gains<R, V> {
     }
 }
 
+/// Gains of the feedback of each joint as an acceleration, which a model turns into torques: of a
+/// type of their own, since those of [`Gains`] are larger or smaller by an inertia.
+///
+/// ```
+/// use motion_control::law::AccelerationGains;
+/// let gains = AccelerationGains::<f32, 1>::new(10.0, 0.7);
+/// assert_eq!((gains.kp, gains.kd), ([100.0], [14.0]));
+/// ```
+#[doc(alias = "computed torque")]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct AccelerationGains<R, const V: usize> {
+    /// K_p, 1/s².
+    pub kp: [R; V],
+    /// K_d, 1/s.
+    pub kd: [R; V],
+}
+
+impl<R: Real, const V: usize> AccelerationGains<R, V> {
+    /// Gains with which every motion of the robot is a damped oscillator of natural frequency
+    /// `omega_n` (rad/s) and damping ratio `zeta`, also one of light joints together with heavy
+    /// ones: K_p = ω_n², K_d = 2 ζ ω_n.
+    pub fn new(omega_n: R, zeta: R) -> Self {
+        Self { kp: [omega_n * omega_n; V], kd: [R::from_f64(2.0) * zeta * omega_n; V] }
+    }
+}
+
+/// Gains of a feedback, and the way in which it acts beside a model's torques.
+///
+/// ```
+/// use dynamics_core::state::State;
+/// use motion_control::estimate::Estimate;
+/// use motion_control::law::{AccelerationGains, Feedback, Gains};
+/// let model = |state: &State<f32, 1, 1>| state.qdd.map(|qdd| 2.0 * qdd); // 2 kg·m²
+/// let reference = State { q: [1.0], qd: [0.5], qdd: [3.0] };
+/// let at = Estimate { q: [0.5], qd: [0.5] };
+/// let gains = Gains { kp: [100.0], kd: [20.0] };
+/// assert_eq!(gains.torque(model, &reference, &at), [6.0 + 50.0]);
+/// let gains = AccelerationGains { kp: [100.0], kd: [20.0] };
+/// assert_eq!(gains.torque(model, &reference, &at), [6.0 + 100.0]);
+/// ```
+pub trait Feedback<R, const V: usize> {
+    /// The torque of the model and of this feedback, N·m or N. `model` returns the torques of a
+    /// state: [`Engine::rnea`](dynamics_core::Engine::rnea).
+    fn torque(
+        &self,
+        model: impl FnOnce(&State<R, V, V>) -> [R; V],
+        reference: &State<R, V, V>,
+        estimate: &Estimate<R, V>,
+    ) -> [R; V];
+}
+
+/// τ = M(q_d) q̈_d + … + K_p (q_d − q) + K_d (q̇_d − q̇).
+impl<R: Real, const V: usize> Feedback<R, V> for Gains<R, V> {
+    #[inline(always)]
+    fn torque(
+        &self,
+        model: impl FnOnce(&State<R, V, V>) -> [R; V],
+        reference: &State<R, V, V>,
+        estimate: &Estimate<R, V>,
+    ) -> [R; V] {
+        let mut tau = model(reference);
+        for (tau, pd) in tau.iter_mut().zip(feedback(self, reference, estimate)) {
+            *tau += pd;
+        }
+        tau
+    }
+}
+
+/// τ = M(q_d) (q̈_d + K_p (q_d − q) + K_d (q̇_d − q̇)) + …: Luh, Walker & Paul, "Resolved-acceleration
+/// control of mechanical manipulators" (1980). A model without M has no feedback.
+impl<R: Real, const V: usize> Feedback<R, V> for AccelerationGains<R, V> {
+    #[inline(always)]
+    fn torque(
+        &self,
+        model: impl FnOnce(&State<R, V, V>) -> [R; V],
+        reference: &State<R, V, V>,
+        estimate: &Estimate<R, V>,
+    ) -> [R; V] {
+        let gains = Gains { kp: self.kp, kd: self.kd };
+        let mut wanted = *reference;
+        for (qdd, pd) in wanted.qdd.iter_mut().zip(feedback(&gains, reference, estimate)) {
+            *qdd += pd;
+        }
+        model(&wanted)
+    }
+}
+
 /// The feedback torque K_p (q_d − q) + K_d (q̇_d − q̇) of each joint, N·m or N, to be added to the
 /// feed-forward.
 ///

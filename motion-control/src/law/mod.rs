@@ -3,6 +3,7 @@
 //! | item | purpose | memory |
 //! |---|---|---|
 //! | [`Gains`], [`feedback()`] | K_p (q_d − q) + K_d (q̇_d − q̇) | none |
+//! | [`AccelerationGains`] | M (q̈_d + K_p (q_d − q) + K_d (q̇_d − q̇)) + … | inverse dynamics |
 //! | [`PassivityGains`], [`passivity_based_torque()`] | the law of Slotine & Li: M q̈_r + C q̇_r + g + F − K_D s | none |
 //! | [`hybrid_motion_force`], [`TaskCommand`] | motions and forces along a task's directions | none |
 //! | [`CartesianImpedance`], [`pose_error()`] | a spring and a damper between a body and its goal, with null space | the modes of the last tick |
@@ -25,7 +26,7 @@ pub(crate) mod passivity;
 pub(crate) mod pose_error;
 
 pub use breakaway::{Breakaway, BreakawayConfig};
-pub use feedback::{Gains, feedback};
+pub use feedback::{AccelerationGains, Feedback, Gains, feedback};
 pub use gain_table::{GainTable, TablePlace};
 pub use hand_guiding::{HandGuiding, HandGuidingConfig, LimitedSpring, SpeedBrake};
 pub use hand_over::HandOver;

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::advice::{Advice, Topic, advice, needless_torque};
+use crate::advice::{Advice, Topic, advice, bare_joints, needless_torque};
 use crate::check::{self, STATES};
 use crate::description::{Description, shortened};
 use crate::dropped::dropped;
@@ -14,7 +14,7 @@ use crate::model::AnyModel;
 use crate::outputs::{self, are_apart};
 use crate::physical::impossible;
 use crate::plausible::plausible;
-use crate::project::{Feedback, FileEffects, RobotFile};
+use crate::project::{Feedback, RobotFile};
 use crate::report::{Report, rows};
 use crate::selection::{Selected, Selection};
 use crate::text::shell_word;
@@ -254,6 +254,7 @@ pub fn import(args: &Args, today: &str) -> Result<Imported> {
     // The motors of a machine with loops share what its joints need.
     own.extend(needless_torque(&tree, &checked.samples).filter(|_| closed.is_empty()));
     own.extend(plausible(&tree, &name));
+    own.extend(bare_joints(&tree).map(|text| of_file(Topic::Drivetrain, text.into())));
     let left_out = notes.iter().cloned();
     own.extend(left_out.map(|note| of_file(Topic::LeftOut, note)));
     let renamed = match (&args.type_name, kept) {
@@ -362,8 +363,6 @@ pub fn run(args: &Args, today: &str) -> Result<Imported> {
 impl Imported {
     /// Its file, and what a project needs of it.
     pub fn robot_file(&self) -> RobotFile {
-        let is_some =
-            |of: fn(&crate::tree::Body) -> f64| self.tree.bodies.iter().any(|body| of(body) != 0.0);
         let [b, q, v] = self.report.sizes;
         let joints = self.tree.bodies.iter().map(|body| body.joint.clone());
         RobotFile {
@@ -376,12 +375,6 @@ impl Imported {
             q,
             v,
             coupled: self.tree.has_followers() && self.tree.is_single(),
-            effects: FileEffects {
-                viscous: is_some(|body| body.damping),
-                coulomb: is_some(|body| body.friction),
-                armature: is_some(|body| body.armature),
-                spring: self.tree.has_springs(),
-            },
             // More joints than a project has are not looked at.
             feedback: match v <= MOST_JOINTS_OF_PROJECT {
                 true => Feedback::of(&self.tree).unwrap_or_default(),

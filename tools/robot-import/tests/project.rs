@@ -14,9 +14,7 @@ use dynamics_core::Engine;
 use dynamics_core::effects::{Coriolis, Effect, Gravity, Inertia};
 use dynamics_core::model::Robot;
 use dynamics_core::state::State;
-use robot_import::project::{
-    BOARDS, Board, Feedback, FileEffects, Kind, Library, Project, RobotFile, create,
-};
+use robot_import::project::{BOARDS, Board, Feedback, Kind, Library, Project, RobotFile, create};
 
 #[allow(dead_code, reason = "a robot's file has more than the test compares")]
 mod chain;
@@ -43,12 +41,7 @@ fn expected<T: Robot<N, N, N>, E: Effect<f32, N, N>, const N: usize>(effects: &E
     format!("  bits:{}", bits.concat())
 }
 
-fn robot(
-    type_name: &str,
-    text: &str,
-    [joints, bodies]: [&[&str]; 2],
-    effects: FileEffects,
-) -> RobotFile {
+fn robot(type_name: &str, text: &str, [joints, bodies]: [&[&str]; 2]) -> RobotFile {
     let n = joints.len();
     RobotFile {
         type_name: type_name.into(),
@@ -60,13 +53,9 @@ fn robot(
         q: n,
         v: n,
         coupled: false,
-        effects,
         feedback: Feedback::default(),
     }
 }
-
-const ALL: FileEffects =
-    FileEffects { viscous: true, coulomb: true, armature: true, spring: false };
 
 /// A project in a folder outside the workspace, so that nothing of its configuration acts; it is
 /// built in the workspace's `target`, so that a second run is faster.
@@ -257,9 +246,8 @@ fn c_example(trial: &Trial, expected: &str) {
 #[test]
 #[ignore = "builds firmware"]
 fn a_pendulum() {
-    let effects = FileEffects { viscous: true, ..FileEffects::default() };
     let text = include_str!("../template/rust/src/robot.rs");
-    let robot = robot("Pendulum", text, [&pendulum::JOINTS, &pendulum::BODIES], effects);
+    let robot = robot("Pendulum", text, [&pendulum::JOINTS, &pendulum::BODIES]);
     let scene = (Gravity::EARTH, Inertia, Coriolis, pendulum::VISCOUS);
     let expected = expected::<pendulum::Pendulum, _, 1>(&scene);
     rust_project("a-pendulum", robot, &expected);
@@ -269,7 +257,7 @@ fn a_pendulum() {
 #[ignore = "builds firmware"]
 fn an_arm() {
     let text = include_str!("../../../dynamics-core/src/robots/imported/so101.rs");
-    let robot = robot("So101", text, [&so101::JOINTS, &so101::BODIES], FileEffects::default());
+    let robot = robot("So101", text, [&so101::JOINTS, &so101::BODIES]);
     let expected = expected::<so101::So101, _, 6>(&so101::SCENE);
     let trial = rust_project("an-arm", robot, &expected);
     // At opt-level 0 the build warns and the run fails: no tick of six joints ends within its
@@ -299,12 +287,11 @@ fn the_boards() {
             "So101",
             include_str!("../../../dynamics-core/src/robots/imported/so101.rs"),
             [&so101::JOINTS, &so101::BODIES],
-            FileEffects::default(),
         )
     };
     let open_arm = || {
         let text = include_str!("project/openarm.rs");
-        robot("OpenArm", text, [&openarm::JOINTS, &openarm::JOINTS], ALL)
+        robot("OpenArm", text, [&openarm::JOINTS, &openarm::JOINTS])
     };
     let [first, others @ ..] = &BOARDS;
     let trial = Trial::with("on-first", so101(), Kind::Board(first), Library::Copy);
@@ -324,7 +311,6 @@ fn the_boards() {
         "Pendulum",
         include_str!("../template/rust/src/robot.rs"),
         [&pendulum::JOINTS, &pendulum::BODIES],
-        ALL,
     );
     let trial = Trial::new("a-rod", rod, Kind::Board(first));
     trial.firmware("a-rod", first);
@@ -336,7 +322,7 @@ fn the_boards() {
 #[ignore = "builds a project"]
 fn the_bench_of_drives_on_can() {
     let text = include_str!("project/openarm.rs");
-    let robot = robot("OpenArm", text, [&openarm::JOINTS, &openarm::JOINTS], ALL);
+    let robot = robot("OpenArm", text, [&openarm::JOINTS, &openarm::JOINTS]);
     let board = Board::find("nucleo-g474re-can", None).expect("a board");
     let trial = Trial::new("on-bench", robot, Kind::Board(board));
     let said = trial.run("sh", &["-c", "cd bench && cargo test"]);
@@ -422,8 +408,7 @@ fn a_robot_that_is_imported_again_keeps_its_type() {
 #[test]
 #[ignore = "builds firmware"]
 fn thirty_joints() {
-    let robot =
-        robot("Chain", include_str!("project/chain.rs"), [&chain::JOINTS, &chain::JOINTS], ALL);
+    let robot = robot("Chain", include_str!("project/chain.rs"), [&chain::JOINTS, &chain::JOINTS]);
     let friction = (chain::VISCOUS, chain::COULOMB, chain::ARMATURE);
     let scene = (Gravity::EARTH, Inertia, Coriolis, friction.0, friction.1, friction.2);
     let expected = expected::<chain::Chain, _, 30>(&scene);
@@ -435,11 +420,10 @@ fn thirty_joints() {
 #[test]
 #[ignore = "builds firmware"]
 fn two_robots_in_c() {
-    let effects = FileEffects { viscous: true, ..FileEffects::default() };
     let text = include_str!("../template/rust/src/robot.rs");
-    let one = robot("Pendulum", text, [&pendulum::JOINTS, &pendulum::BODIES], effects);
+    let one = robot("Pendulum", text, [&pendulum::JOINTS, &pendulum::BODIES]);
     let text = include_str!("../../../dynamics-core/src/robots/imported/so101.rs");
-    let other = robot("So101", text, [&so101::JOINTS, &so101::BODIES], FileEffects::default());
+    let other = robot("So101", text, [&so101::JOINTS, &so101::BODIES]);
     let (left, right) =
         (Trial::new("left-arm", one, Kind::C), Trial::new("right-arm", other, Kind::C));
     c_example(&right, &expected::<so101::So101, _, 6>(&so101::SCENE));

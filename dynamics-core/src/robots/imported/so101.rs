@@ -210,6 +210,11 @@ pub const COULOMB: Coulomb<f32, V> = Coulomb {
 /// Inertia of the rotors at the joints, kg·m² or kg.
 pub const ARMATURE: Armature<f32, V> = Armature([0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
 
-/// The rigid body, and the effects that the description states.
-pub const SCENE: (Gravity, Inertia, Coriolis) =
-    ::dynamics_core::Core::<So101>::scene_f32((Gravity::EARTH, Inertia, Coriolis));
+/// The rigid body's forces of inertia, and those effects that the description states.
+pub type Forces = (Inertia, Coriolis);
+/// With their parameters.
+pub const FORCES: Forces = (Inertia, Coriolis);
+/// All that acts on the robot.
+pub type Scene = (Gravity, Forces);
+/// On Earth, checked at this line.
+pub const SCENE: Scene = ::dynamics_core::Core::<So101>::scene_f32((Gravity::EARTH, FORCES));

@@ -173,6 +173,11 @@ pub const COULOMB: Coulomb<f32, V> = Coulomb {
 /// Inertia of the rotors at the joints, kg·m² or kg.
 pub const ARMATURE: Armature<f32, V> = Armature([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
 
-/// The rigid body, and the effects that the description states.
-pub const SCENE: (Gravity, Inertia, Coriolis, Viscous<f32, V>, Coulomb<f32, V>) =
-    ::dynamics_core::Core::<Z1>::scene_f32((Gravity::EARTH, Inertia, Coriolis, VISCOUS, COULOMB));
+/// The rigid body's forces of inertia, and those effects that the description states.
+pub type Forces = (Inertia, Coriolis, Viscous<f32, V>, Coulomb<f32, V>);
+/// With their parameters.
+pub const FORCES: Forces = (Inertia, Coriolis, VISCOUS, COULOMB);
+/// All that acts on the robot.
+pub type Scene = (Gravity, Forces);
+/// On Earth, checked at this line.
+pub const SCENE: Scene = ::dynamics_core::Core::<Z1>::scene_f32((Gravity::EARTH, FORCES));

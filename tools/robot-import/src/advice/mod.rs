@@ -15,9 +15,7 @@ use crate::model::Motion;
 pub use crate::physical::TOLERANCE;
 use crate::physical::{impossible, sentence};
 use crate::selection::{Role, Selected};
-#[cfg(feature = "program")]
-use crate::tree::Body;
-use crate::tree::Tree;
+use crate::tree::{Body, Tree};
 
 /// A kind of advice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
@@ -42,6 +40,8 @@ pub enum Topic {
     Units,
     /// Limits of torque that gravity exceeds, or that are far above every need.
     Torque,
+    /// Joints without friction and rotors.
+    Drivetrain,
     /// A statement of the file that the import leaves out.
     LeftOut,
     /// A type with another name than the robot.
@@ -149,6 +149,17 @@ pub fn advice(robot: &Description, selected: &Selected, tree: &Tree) -> Vec<Advi
     }));
     all.sort_by_key(|advice| (advice.topic, advice.line));
     all
+}
+
+/// The reason to look for friction and rotors, if no joint has any.
+pub fn bare_joints(tree: &Tree) -> Option<&'static str> {
+    let is_bare = |body: &Body| [body.damping, body.friction, body.armature] == [0.0; 3];
+    (!tree.bodies.is_empty() && tree.bodies.iter().all(is_bare)).then_some(
+        "No joint has friction or the inertia of a rotor, since the file states neither damping, \
+         friction nor armature. Geared motors have all of them, and the torque of a model without \
+         may not move a joint: measure them with `identify`, or take them from the motor's data \
+         sheet.",
+    )
 }
 
 /// Inertias of the file's links that move.

@@ -73,24 +73,8 @@ pub struct RobotFile {
     pub v: usize,
     /// Whether joints are coupled (mimic joints): the projects drive each joint by itself.
     pub coupled: bool,
-    /// Which of `VISCOUS`, `COULOMB`, `ARMATURE`, `SPRING` have a number other than zero. The
-    /// others are left out of the scene.
-    pub effects: FileEffects,
     /// The feedback of its project.
     pub feedback: Feedback,
-}
-
-/// The effects to which a robot's file gives numbers.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct FileEffects {
-    /// Whether the file has `VISCOUS`.
-    pub viscous: bool,
-    /// Whether the file has `COULOMB`.
-    pub coulomb: bool,
-    /// Whether the file has `ARMATURE`.
-    pub armature: bool,
-    /// Whether the file has `SPRING`.
-    pub spring: bool,
 }
 
 /// The source from which a project gets dynamics-core and the crates beside it.
@@ -328,8 +312,6 @@ fn values(project: &Project) -> Result<Vec<Value>, ProjectError> {
     let crate_name = snake_case(&project.name);
     let prefix = crate_name.to_ascii_uppercase();
     let form = if robot.v > MOST_JOINTS_FOLDED { "Core" } else { "Engine" };
-    let (names, types, effects) = robot.effects.in_scene(&["Gravity", "Inertia", "Coriolis"]);
-    let (_, force_types, force_values) = robot.effects.in_scene(&["Inertia", "Coriolis"]);
     let taken = &constants(C);
     let tick = match project.kind {
         Kind::Board(board) => board.parts.tick,
@@ -351,11 +333,6 @@ fn values(project: &Project) -> Result<Vec<Value>, ProjectError> {
         ("joint_drivers", dependency("drivers")?),
         ("machine_link", with(&dependency("telemetry")?, "optional = true")),
         ("robot", robot.type_name.clone()),
-        ("effect_names", names),
-        ("effect_types", types),
-        ("effect_values", effects),
-        ("force_types", force_types),
-        ("force_values", force_values),
         ("import_again", robot.again.clone()),
         ("library_note", project.library.note()?),
     ];
@@ -416,40 +393,4 @@ fn substitute(text: &str, values: &[Value]) -> String {
         }
     }
     result
-}
-
-impl FileEffects {
-    /// The names to import, the type and the value of a scene of these effects of the rigid body
-    /// and those of the file.
-    fn in_scene(self, rigid_body: &[&str]) -> (String, String, String) {
-        let of_file = [
-            (self.viscous, "Viscous", "VISCOUS"),
-            (self.coulomb, "Coulomb", "COULOMB"),
-            (self.armature, "Armature", "ARMATURE"),
-            (self.spring, "Spring", "SPRING"),
-        ];
-        let of_file = of_file.into_iter().filter(|(given, ..)| *given);
-        let value = |&effect: &&str| match effect {
-            "Gravity" => "Gravity::EARTH".to_owned(),
-            other => other.to_owned(),
-        };
-        let mut names = rigid_body.to_vec();
-        let mut types: Vec<String> = rigid_body.iter().map(|&effect| effect.into()).collect();
-        let mut values: Vec<String> = rigid_body.iter().map(value).collect();
-        for (_, name, value) in of_file {
-            names.push(name);
-            types.push(format!("{name}<f32, N>"));
-            values.push(format!("robot::{value}"));
-        }
-        names.sort_unstable();
-        (
-            format!("{{{}}}", names.join(", ")),
-            format!("({})", types.join(", ")),
-            // As rustfmt breaks the line.
-            match values.len() {
-                3 => format!("({})", values.join(", ")),
-                _ => format!("(\n    {},\n)", values.join(",\n    ")),
-            },
-        )
-    }
 }

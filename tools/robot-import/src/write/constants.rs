@@ -20,8 +20,7 @@ pub fn effects(tree: &Tree, type_name: &str) -> String {
     let viscous = per_coordinate(tree, |body| body.damping);
     let coulomb = per_coordinate(tree, |body| body.friction);
     let armature = per_coordinate(tree, |body| body.armature);
-    let mut scene =
-        vec![("Gravity", "Gravity::EARTH"), ("Inertia", "Inertia"), ("Coriolis", "Coriolis")];
+    let mut forces = vec![("Inertia", "Inertia"), ("Coriolis", "Coriolis")];
     let [stiffness, rest] =
         [per_coordinate(tree, |body| body.spring[0]), per_coordinate(tree, |body| body.spring[1])];
     let is_some = |values: &[f64]| values.iter().any(|&x| x != 0.0);
@@ -31,9 +30,9 @@ pub fn effects(tree: &Tree, type_name: &str) -> String {
         (&armature, ("Armature<f32, V>", "ARMATURE")),
         (&stiffness, ("Spring<f32, V>", "SPRING")),
     ];
-    scene.extend(each.iter().filter(|(values, _)| is_some(values)).map(|(_, effect)| *effect));
-    let types: Vec<&str> = scene.iter().map(|(name, _)| *name).collect();
-    let values: Vec<&str> = scene.iter().map(|(_, value)| *value).collect();
+    forces.extend(each.iter().filter(|(values, _)| is_some(values)).map(|(_, effect)| *effect));
+    let types: Vec<&str> = forces.iter().map(|(name, _)| *name).collect();
+    let values: Vec<&str> = forces.iter().map(|(_, value)| *value).collect();
     let spring = match tree.has_springs() {
         true => format!(
             "/// Springs at the joints, N·m/rad or N/m about rad or m.\n\
@@ -50,8 +49,12 @@ pub fn effects(tree: &Tree, type_name: &str) -> String {
          pub const COULOMB: Coulomb<f32, V> = Coulomb {{ torque: {}, width: Width::f32(0.02) }};\n\
          /// Inertia of the rotors at the joints, kg·m² or kg.\n\
          pub const ARMATURE: Armature<f32, V> = Armature({});\n{spring}\
-         \n/// The rigid body, and the effects that the description states.\n\
-         pub const SCENE: ({}) = ::dynamics_core::Core::<{type_name}>::scene_f32(({}));\n",
+         \n/// The rigid body's forces of inertia, and those effects that the description states.\n\
+         pub type Forces = ({});\n\
+         /// With their parameters.\npub const FORCES: Forces = ({});\n\
+         /// All that acts on the robot.\npub type Scene = (Gravity, Forces);\n\
+         /// On Earth, checked at this line.\n\
+         pub const SCENE: Scene = ::dynamics_core::Core::<{type_name}>::scene_f32((Gravity::EARTH, FORCES));\n",
         text(&viscous),
         text(&coulomb),
         text(&armature),

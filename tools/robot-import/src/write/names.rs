@@ -6,9 +6,9 @@ use crate::text::code_span;
 /// The names that the type cannot have: each constant of the file, each item of the library that it
 /// imports, the keyword, and what Rust has in scope everywhere, which `use robot::*` would hide.
 const TAKEN: &str = "
-    ARMATURE B BODIES COULOMB COUPLING JOINTS M N Q SCENE SPRING V VISCOUS
-    ArmModel Armature BASE Body BodyFrame Coriolis Coulomb Gravity Inertia Joint JointLimits LoopJoint LoopRobot Loops
-    Model PI Robot Spring Transmission Viscous Width
+    ARMATURE B BODIES COULOMB COUPLING FORCES JOINTS M N Q SCENE SPRING V VISCOUS
+    ArmModel Armature BASE Body BodyFrame Coriolis Coulomb Forces Gravity Inertia Joint JointLimits LoopJoint LoopRobot Loops
+    Model PI Robot Scene Spring Transmission Viscous Width
     Self
     AsMut AsRef Box Clone Copy Debug Default DoubleEndedIterator Drop Eq Err ExactSizeIterator Extend Fn FnMut FnOnce
     From FromIterator Future Hash Into IntoFuture IntoIterator Iterator None Ok Option Ord PartialEq PartialOrd Result

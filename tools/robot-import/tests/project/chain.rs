@@ -1,7 +1,7 @@
 //! Six branches of five joints, in every third of which one slides: as many joints as a humanoid
 //! has.
 
-use dynamics_core::effects::{Armature, Coulomb, Viscous, Width};
+use dynamics_core::effects::{Armature, Coriolis, Coulomb, Gravity, Inertia, Viscous, Width};
 use dynamics_core::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, Robot};
 
 /// The robot.
@@ -75,3 +75,9 @@ pub const VISCOUS: Viscous<f32, N> = Viscous([0.2; N]);
 pub const COULOMB: Coulomb<f32, N> = Coulomb { torque: [0.3; N], width: Width::f32(0.05) };
 /// Inertia of the rotors at the joints, kg·m² or kg.
 pub const ARMATURE: Armature<f32, N> = Armature([0.05; N]);
+
+/// The effects that act on it.
+pub type Forces = (Inertia, Coriolis, Viscous<f32, N>, Coulomb<f32, N>, Armature<f32, N>);
+pub const FORCES: Forces = (Inertia, Coriolis, VISCOUS, COULOMB, ARMATURE);
+pub type Scene = (Gravity, Forces);
+pub const SCENE: Scene = (Gravity::EARTH, FORCES);

@@ -14,18 +14,7 @@ pub const COULOMB: Coulomb<f32, N> = OpenArm::FRICTION.0;
 pub const ARMATURE: Armature<f32, N> = OpenArm::ARMATURE;
 
 /// The effects that act on it.
-pub const SCENE: (
-    Gravity,
-    Inertia,
-    Coriolis,
-    Viscous<f32, N>,
-    Coulomb<f32, N>,
-    Armature<f32, N>,
-) = (
-    Gravity::EARTH,
-    Inertia,
-    Coriolis,
-    VISCOUS,
-    COULOMB,
-    ARMATURE,
-);
+pub type Forces = (Inertia, Coriolis, Viscous<f32, N>, Coulomb<f32, N>, Armature<f32, N>);
+pub const FORCES: Forces = (Inertia, Coriolis, VISCOUS, COULOMB, ARMATURE);
+pub type Scene = (Gravity, Forces);
+pub const SCENE: Scene = (Gravity::EARTH, FORCES);

@@ -59,7 +59,7 @@ fn swings(at_limit: usize, between: usize) -> Option<(usize, Fault)> {
     let mut saturation = Saturation::new([5.0_f64, 10.0], 3);
     let half = at_limit + between;
     (0..40 * half).find_map(|tick| {
-        let side = if tick / half % 2 == 0 { 1.0 } else { -1.0 };
+        let side = if (tick / half).is_multiple_of(2) { 1.0 } else { -1.0 };
         let torque = if tick % half < at_limit { side * 10.0 } else { side * 9.0 };
         saturation.check(&[0.0, torque]).err().map(|fault| (tick, fault))
     })

@@ -9,8 +9,7 @@ use dynamics_core::state::State;
 use joint_drivers::can::CanError;
 use joint_drivers::h_bridge::DriveError;
 use joint_drivers::{Direction, EncoderMapping, JointError, JointMapping, Law, MappingError};
-use motion_control::estimate::Estimate;
-use motion_control::law::{Gains, feedback};
+use motion_control::law::AccelerationGains;
 use motion_control::limits::ConfigError;
 use motion_control::motion::{MeasurementAge, MotionController, MotionControllerConfig, OnCircles};
 use motion_control::reference::TrajectoryError;
@@ -26,25 +25,12 @@ pub type Measured<Age> = OnCircles<{ scene::CIRCLES.bits() }, Age>;
 /// The detectors of faults, on these circles.
 pub type Found = Detectors<f32, N, { scene::CIRCLES.bits() }>;
 
-/// The model's torque for the acceleration of the reference and that of the feedback, τ = M (q̈_d +
-/// ω² e + 2 ω ė) + C + g: by M every motion of the robot has the natural frequency ω, also one of
-/// light joints together with heavy ones.
-///
-/// Luh, Walker & Paul, "Resolved-acceleration control of mechanical manipulators" (1980).
+/// The model's torque for the acceleration of the reference and that of the feedback.
 #[derive(Clone, Copy, Debug)]
 pub struct FeedForward;
 
-impl Law<N> for FeedForward {
+impl Law<N, (), Gains> for FeedForward {
     fn feedforward(reference: &State<f32, N, N>, (): &()) -> [f32; N] {
-        scene::inverse_dynamics(reference)
-    }
-
-    fn torque(
-        gains: &Gains<f32, N>,
-        reference: &State<f32, N, N>,
-        estimate: &Estimate<f32, N>,
-        (): &(),
-    ) -> [f32; N] {
         // Without M there would be no feedback.
         const {
             assert!(
@@ -52,11 +38,7 @@ impl Law<N> for FeedForward {
                 "EFFECTS in scene.rs need Inertia"
             )
         };
-        let mut wanted = *reference;
-        for (qdd, feedback) in (wanted.qdd.iter_mut()).zip(feedback(gains, reference, estimate)) {
-            *qdd += feedback;
-        }
-        scene::inverse_dynamics(&wanted)
+        scene::inverse_dynamics(reference)
     }
 }
 
@@ -114,9 +96,13 @@ pub fn encoder_mappings(
     EncoderMapping::of(mappings, ranges, steps).map_err(SetupError::Encoder)
 }
 
-/// The gains of the feedback per inertia, 1/s² and 1/s.
-pub fn gains() -> Gains<f32, N> {
-    Gains::from_inertia(&[1.0; N], OMEGA_N, 1.0)
+/// Gains of accelerations, which the model turns into torques. A law whose gains are N·m/rad has
+/// `motion_control::law::Gains<f32, N>` here.
+pub type Gains = AccelerationGains<f32, N>;
+
+/// The gains of the feedback, 1/s² and 1/s.
+pub fn gains() -> Gains {
+    Gains::new(OMEGA_N, 1.0)
 }
 
 /// The detectors of faults beside the controller: an encoder that does not change in ten steps of

@@ -9,7 +9,7 @@ use dynamics_core::state::State;
 use joint_drivers::{ControlLoop, Law, Telemetry};
 use motion_control::limits::{Fault, Mode, SafetyLimits};
 
-use crate::control::{FeedForward, SetupError, controller, detectors, gains};
+use crate::control::{FeedForward, Gains, SetupError, controller, detectors, gains};
 use crate::marker::measured;
 use crate::scene::{self, JOINTS, N, TICK};
 use crate::simulation::{Plant, Wires};
@@ -70,7 +70,7 @@ const START: u32 = 20;
 ///
 /// # Errors
 /// [`RunError`].
-pub fn run<L: Law<N>>(clock: impl Fn() -> u32) -> Result<Outcome, RunError> {
+pub fn run<L: Law<N, (), Gains>>(clock: impl Fn() -> u32) -> Result<Outcome, RunError> {
     let motion = scene::motion().map_err(|error| RunError::Setup(SetupError::Motion(error)))?;
     let (home, limits) = (scene::home(), scene::limits(&motion));
     let full_scale = limits.torque;

@@ -1,7 +1,7 @@
 //! A pendulum: a rod of 2 kg and 1 m, with friction in its bearing. Replace this file by the one of
 //! your robot.
 
-use dynamics_core::effects::{Armature, Coulomb, Viscous, Width};
+use dynamics_core::effects::{Armature, Coriolis, Coulomb, Gravity, Inertia, Viscous, Width};
 use dynamics_core::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, Robot};
 
 /// The robot.
@@ -41,3 +41,12 @@ pub const COULOMB: Coulomb<f32, N> = Coulomb {
 };
 /// Inertia of the rotors at the joints, kg·m² or kg.
 pub const ARMATURE: Armature<f32, N> = Armature([0.0]);
+
+/// The rigid body's forces of inertia, and those effects that the description states.
+pub type Forces = (Inertia, Coriolis, Viscous<f32, N>);
+/// With their parameters.
+pub const FORCES: Forces = (Inertia, Coriolis, VISCOUS);
+/// All that acts on the robot.
+pub type Scene = (Gravity, Forces);
+/// On Earth, checked at this line.
+pub const SCENE: Scene = ::dynamics_core::Core::<Pendulum>::scene_f32((Gravity::EARTH, FORCES));

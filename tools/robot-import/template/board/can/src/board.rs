@@ -13,9 +13,9 @@ use joint_drivers::mit::damiao::{DM4310, DM4340, DM6006, DM8006, DM8009, Damiao}
 use joint_drivers::{CanJoints, ControlLoop, Direction, EncoderMapping, JointError};
 use motion_control::limits::{Mode, Status};
 use motion_control::motion::{PreviousTick, ResetError};
-use motion_control::{law::Gains, safety::Detect};
+use motion_control::safety::Detect;
 
-use crate::control::{Measured, controller, encoder_mappings};
+use crate::control::{Gains, Measured, controller, encoder_mappings};
 use crate::say::Line;
 use crate::scene::{self, Arm};
 
@@ -63,7 +63,8 @@ pub const fn number(joint: usize) -> u8 {
 pub type Joints<Bus> = CanJoints<Bus, Drive, N>;
 /// The control loop of the robot.
 pub type Control<Bus, Brake, D> =
-    ControlLoop<&'static Joints<Bus>, &'static Joints<Bus>, Brake, N, D, Measured<PreviousTick>>;
+    ControlLoop<On<Bus>, On<Bus>, Brake, N, D, Measured<PreviousTick>, Gains>;
+type On<Bus> = &'static Joints<Bus>;
 
 /// The connections of the board.
 #[derive(Debug)]
@@ -98,7 +99,7 @@ fn drive(joint: usize, most: f32, mapping: EncoderMapping) -> Result<Drive, Join
 /// [`SetupError`].
 pub fn on_brake<Bus: Can, Brake: OutputPin, D: Detect<f32, N>>(
     devices: Devices<Bus, Brake>,
-    gains: Gains<f32, N>,
+    gains: Gains,
     detectors: D,
     motion: &Motion,
 ) -> Result<Control<Bus, Brake, D>, SetupError> {

@@ -9,9 +9,9 @@ use joint_drivers::as5047p::{As5047p, FrameError};
 use joint_drivers::h_bridge::{FullScale, LockedAntiphase};
 use joint_drivers::{ControlLoop, Direction, EncoderType};
 use motion_control::limits::Status;
-use motion_control::{law::Gains, motion::ResetError, safety::Detect};
+use motion_control::{motion::ResetError, safety::Detect};
 
-use crate::control::{Measured, controller, encoder_mappings};
+use crate::control::{Gains, Measured, controller, encoder_mappings};
 use crate::say::Line;
 use crate::scene;
 
@@ -40,7 +40,7 @@ pub type Encoder<Spi> = As5047p<Spi>;
 pub type Drive<Pwm> = LockedAntiphase<Pwm>;
 /// The control loop of the robot.
 pub type Control<Spi, Pwm, Brake, D> =
-    ControlLoop<[Encoder<Spi>; N], [Drive<Pwm>; N], Brake, N, D, Measured<Age<Spi>>>;
+    ControlLoop<[Encoder<Spi>; N], [Drive<Pwm>; N], Brake, N, D, Measured<Age<Spi>>, Gains>;
 /// The age of its positions.
 pub type Age<Spi> = <Encoder<Spi> as EncoderType>::Age;
 
@@ -106,7 +106,7 @@ impl Operator {
 /// [`SetupError`].
 pub fn on_brake<Spi: SpiDevice, Pwm: SetDutyCycle, Brake: OutputPin, D: Detect<f32, N>>(
     devices: Devices<Spi, Pwm, Brake>,
-    gains: Gains<f32, N>,
+    gains: Gains,
     detectors: D,
     motion: &Motion,
 ) -> Result<Control<Spi, Pwm, Brake, D>, SetupError> {

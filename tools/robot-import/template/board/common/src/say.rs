@@ -137,8 +137,7 @@ const FAST: &str =
     "it is faster than its limit: a drive in reverse, two swapped, a push, a wrong zero";
 const FROZEN: &str = "it does not move while its reference does: it has not broken away (friction, \
                       rotor), it is blocked, its brake is closed, or its encoder stands";
-const SWINGS: &str = "its torque swings from limit to limit: gains too high, or in another unit (those \
-                      of control.rs are per inertia, 1/s² and 1/s), or two drives swapped";
+const SWINGS: &str = "its torque swings from limit to limit: gains too high, or two drives swapped";
 const LATE: &str = "a tick took longer than its period: opt-level 1 or more, do less in it";
 const LEFT: &str = "the processor left a tick or restarted: its supply, its watchdog";
 const FAR: &str =

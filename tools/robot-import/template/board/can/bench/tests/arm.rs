@@ -7,8 +7,7 @@ use dynamics_core::model::Calibrated;
 use dynamics_core::sim::{Integrator, LinearlyImplicit, ModelDynamics};
 use dynamics_core::state::State;
 use embedded_hal::digital::{self, OutputPin};
-use joint_drivers::Law;
-use motion_control::law::Gains;
+use joint_drivers::{Direction, Law};
 use motion_control::limits::{Mode, Status};
 use motion_control::reference::Reference;
 use motion_control::safety::Detect;
@@ -17,9 +16,9 @@ use crate::damiao_bus::{Bus, Drive, Wire};
 use crate::robot::board::{
     self, Control, DRIVES, Devices, Found, Motion, Operator, SCALES, ZERO, bus,
 };
+use crate::robot::control::Gains;
 use crate::robot::say::{Line, Memory, Said, of_refusal};
 use crate::robot::scene::{Arm, EFFECTS, Effects, N, TICK, home};
-use joint_drivers::Direction;
 
 /// Whether the description has rotors and friction, without which no arm of geared motors moves as
 /// the simulated one does. Without them most tests say nothing.
@@ -55,7 +54,7 @@ impl OutputPin for Pin {
 }
 
 /// The written project with its parts: change them before a run, or between two.
-pub struct Bench<D: Detect<f32, N> = &'static mut Found> {
+pub struct Bench<D: Detect<f32, N> = Found> {
     control: Control<Bus<'static>, Pin, D>,
     pub motion: &'static Motion,
     operator: Operator,
@@ -86,16 +85,16 @@ pub struct Bench<D: Detect<f32, N> = &'static mut Found> {
 impl Bench {
     /// The project as it is written: its arm at home, its drives without torque.
     pub fn new() -> Self {
-        let motion = Box::leak(Box::new(Motion::REST));
-        board::plan(motion).unwrap_or_else(|error| panic!("{error}"));
-        let detectors = Box::leak(Box::new(board::detectors(motion)));
-        Self::with(motion, board::gains(), detectors)
+        Self::with(board::gains(), board::detectors)
     }
 }
 
 impl<D: Detect<f32, N>> Bench<D> {
     /// With other gains and detectors, such as `()`.
-    pub fn with(motion: &'static Motion, gains: Gains<f32, N>, detectors: D) -> Self {
+    pub fn with(gains: Gains, detectors: impl FnOnce(&Motion) -> D) -> Self {
+        let motion = Box::leak(Box::new(Motion::REST));
+        board::plan(motion).unwrap_or_else(|error| panic!("{error}"));
+        let detectors = detectors(motion);
         let way = |direction| if direction == Direction::Forward { 1.0 } else { -1.0 };
         let drives = (0..N).map(|joint| Drive {
             is_enabled: false,
@@ -142,7 +141,7 @@ impl<D: Detect<f32, N>> Bench<D> {
     }
 
     /// A tick of the firmware, as in `firmware.rs`, and of the arm.
-    pub fn tick<L: Law<N>>(
+    pub fn tick<L: Law<N, (), Gains>>(
         &mut self,
         reference: &impl Reference<f32, N>,
         is_pressed: bool,

@@ -1,33 +1,29 @@
 //! A law of your own on the simulated arm: here gravity and a damper, so that the arm hangs still.
 
-use dynamics_core::effects::Gravity;
+use dynamics_core::effects::{Gravity, Inertia};
 use dynamics_core::{Engine, state::State};
 use joint_drivers::Law;
 use motion_control::estimate::Estimate;
-use motion_control::law::Gains;
 use motion_control::limits::Mode;
 
 use crate::arm::{Bench, is_whole};
-use crate::robot::board::{self, Motion};
-use crate::robot::scene::{self, Arm, N, TICK, home};
+use crate::robot::board;
+use crate::robot::control::Gains;
+use crate::robot::say::Line;
+use crate::robot::scene::{Arm, N, TICK, home};
 
 struct Hang;
 
-impl Law<N> for Hang {
+impl Law<N, (), Gains> for Hang {
     const ACCELERATES: bool = false;
 
     fn feedforward(reference: &State<f32, N, N>, (): &()) -> [f32; N] {
-        Engine::<Arm>::rnea(reference, &Gravity::EARTH)
+        Engine::<Arm>::rnea(reference, &(Gravity::EARTH, Inertia))
     }
 
-    fn torque(
-        gains: &Gains<f32, N>,
-        _: &State<f32, N, N>,
-        at: &Estimate<f32, N>,
-        (): &(),
-    ) -> [f32; N] {
-        let gravity = Self::feedforward(&State::at(at.q), &());
-        core::array::from_fn(|joint| gravity[joint] - gains.kd[joint] * at.qd[joint])
+    fn torque(gains: &Gains, _: &State<f32, N, N>, at: &Estimate<f32, N>, (): &()) -> [f32; N] {
+        let qdd = core::array::from_fn(|joint| -gains.kd[joint] * at.qd[joint]);
+        Self::feedforward(&State { q: at.q, qd: [0.0; N], qdd }, &())
     }
 }
 
@@ -36,11 +32,9 @@ fn the_arm_hangs_still_under_its_weight() {
     if !is_whole() {
         return;
     }
-    let motion = Box::leak(Box::new(Motion::REST));
-    board::plan(motion).unwrap_or_else(|error| panic!("{error}"));
-    // N·m·s/rad: a share of each joint's inertia, 1/s. The detectors would expect it to follow.
-    let gains = Gains { kp: [0.0; N], kd: scene::inertia().map(|inertia| 10.0 * inertia) };
-    let mut bench = Bench::with(motion, gains, ());
+    // 1/s. The detectors would expect it to follow.
+    let gains = Gains { kp: [0.0; N], kd: [10.0; N] };
+    let mut bench = Bench::with(gains, |_| ());
     // Where it is: the law does not pull there.
     let place = State::at(home());
     for tick in 0..(3.0 / TICK) as u32 {
@@ -53,22 +47,13 @@ fn the_arm_hangs_still_under_its_weight() {
     }
 }
 
-/// The gains of the project are per inertia: in N·m·s/rad they are far too high.
 #[test]
-fn gains_in_another_unit_are_named() {
+fn gains_that_are_far_too_high_are_named() {
     if !is_whole() {
         return;
     }
-    let motion = Box::leak(Box::new(Motion::REST));
-    board::plan(motion).unwrap_or_else(|error| panic!("{error}"));
-    let detectors = board::detectors(motion);
-    let mut bench = Bench::with(motion, board::gains(), detectors);
-    for _ in 0..(2.0 / TICK) as u32 {
-        bench.tick::<Hang>(motion, true);
-    }
-    assert!(
-        bench.lines.iter().any(|line| line.text.contains("in another unit")),
-        "{:#?}",
-        bench.said
-    );
+    let mut bench = Bench::with(Gains::new(2000.0, 1.0), board::detectors);
+    bench.run(2.0, true);
+    let is_it = |line: &Line| line.text.contains("gains too high");
+    assert!(bench.lines.iter().any(is_it), "{:#?}", bench.said);
 }

@@ -6,9 +6,9 @@
 
 #[rtic::app(device = crate::pins::chip::pac, peripherals = true)]
 mod app {
-    use motion_control::{law::Gains, limits::Mode, safety::Watchdog};
+    use motion_control::{limits::Mode, safety::Watchdog};
 
-    use crate::board::{self, Law, Motion, N, Operator, TICK};
+    use crate::board::{self, Gains, Law, Motion, Operator, TICK};
     use crate::log::{Log, impossible};
     use crate::pins::chip::{Period, Starved};
     use crate::pins::{self, Button, Connected, Devices, Kept, Light, connect, is_pressed};
@@ -51,7 +51,7 @@ mod app {
     fn place_control(
         place: &'static mut Option<Control>,
         devices: Devices,
-        gains: Gains<f32, N>,
+        gains: Gains,
         detectors: Detect,
         motion: &Motion,
     ) -> Option<&'static mut Control> {
@@ -61,7 +61,7 @@ mod app {
     }
 
     #[inline(never)]
-    fn gains() -> Gains<f32, N> {
+    fn gains() -> Gains {
         board::gains()
     }
 

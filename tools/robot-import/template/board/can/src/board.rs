@@ -15,13 +15,13 @@ use motion_control::limits::{Mode, Status};
 use motion_control::motion::{PreviousTick, ResetError};
 use motion_control::safety::Detect;
 
-use crate::control::{Gains, Measured, controller, encoder_mappings};
+use crate::control::{Measured, controller, encoder_mappings};
 use crate::say::Line;
 use crate::scene::{self, Arm};
 
 pub mod bus;
 
-pub use crate::control::{FeedForward as Law, Found, SetupError, detectors, gains};
+pub use crate::control::{FeedForward as Law, Found, Gains, SetupError, detectors, gains};
 pub use crate::scene::{Motion, N, TICK};
 
 /// A drive in MIT mode.

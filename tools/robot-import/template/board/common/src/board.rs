@@ -11,11 +11,11 @@ use joint_drivers::{ControlLoop, Direction, EncoderType};
 use motion_control::limits::Status;
 use motion_control::{motion::ResetError, safety::Detect};
 
-use crate::control::{Gains, Measured, controller, encoder_mappings};
+use crate::control::{Measured, controller, encoder_mappings};
 use crate::say::Line;
 use crate::scene;
 
-pub use crate::control::{FeedForward as Law, Found, SetupError, detectors, gains};
+pub use crate::control::{FeedForward as Law, Found, Gains, SetupError, detectors, gains};
 pub use crate::scene::{Motion, N, TICK};
 pub use joint_drivers::as5047p::RESOLUTION;
 

@@ -134,7 +134,7 @@ fn of_fault(fault: Fault) -> Option<Line> {
 
 const OUTSIDE: &str = "it is outside its range: move it there by hand, or correct its zero or sign";
 const FAST: &str =
-    "it is faster than its limit: a drive in reverse, two swapped, a push, a wrong zero";
+    "faster than its limit: gains too high, a drive in reverse, two swapped, a wrong zero";
 const FROZEN: &str = "it does not move while its reference does: it has not broken away (friction, \
                       rotor), it is blocked, its brake is closed, or its encoder stands";
 const SWINGS: &str = "its torque swings from limit to limit: gains too high, or two drives swapped";

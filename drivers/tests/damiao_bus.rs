@@ -224,7 +224,7 @@ impl Can for Bus<'_> {
         for drive in wire.drives.iter_mut().take(wire.reaches.unwrap_or(usize::MAX)) {
             let Some(reply) = drive.take(frame) else { continue };
             wire.count += 1;
-            if wire.destroys == 0 || wire.count % wire.destroys != 0 {
+            if wire.destroys == 0 || !wire.count.is_multiple_of(wire.destroys) {
                 wire.replies.push_back(reply);
             }
         }

@@ -104,7 +104,8 @@ fn reply(case: &Case, from: &mut Bytes<'_>) -> FdFrame {
         4 => (length, is_remote) = (from.below(9), true),
         5 => {
             let register = [10, 20, 21, 22, 23, 24][from.below(6)];
-            let [a, b, c, d] = f32::to_le_bytes([12.5, 30.0, 10.0, f32::from_bits(1)][from.below(4)]);
+            let [a, b, c, d] =
+                f32::to_le_bytes([12.5, 30.0, 10.0, f32::from_bits(1)][from.below(4)]);
             data[..8].copy_from_slice(&[1, 0, 0x33, register, a, b, c, d]);
         }
         _ => {}

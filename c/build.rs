@@ -21,6 +21,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
         code += "}\n";
     }
+    let defined = header.lines().find_map(|line| line.strip_prefix("#define VERSION "));
+    code += &format!("pub const VERSION: i32 = {};\n", defined.ok_or("VERSION")?);
     let sizes = header.lines().filter_map(|line| line.strip_prefix("#define ")?.split_once(' '));
     for (constant, size) in sizes.filter(|(constant, _)| constant.ends_with("_BYTES")) {
         code += &format!(

@@ -12,7 +12,7 @@ use motion_control::reference::{Reference, Trajectory, TrajectoryError};
 use motion_control::safety::SupervisorConfig;
 
 use crate::tool::Tool;
-use crate::{Exports, Form, Library, State, field, status};
+use crate::{Exports, Form, Library, State, check, field, status};
 
 /// The parameters of a controller: `..._config` of the header.
 #[repr(C)]
@@ -84,6 +84,23 @@ impl Where {
 }
 
 impl<const N: usize> Config<N> {
+    /// Accepts limits of speed and acceleration that are numbers: a description states no
+    /// accelerations, and not always speeds.
+    ///
+    /// # Errors
+    /// `CONFIG` with the field and the joint.
+    pub(crate) fn check_motion(&self) -> Result<(), Rejected> {
+        for (field, list) in
+            [(field::ACCELERATION, &self.acceleration), (field::SPEED, &self.speed)]
+        {
+            // False for a NaN, too. Numbers beyond this are no limits.
+            if let Some(joint) = list.iter().position(|x| !(1e-9..=1e9).contains(x)) {
+                return Err((status::CONFIG, Where::of(field, Some(joint), None)));
+            }
+        }
+        Ok(())
+    }
+
     /// Accepts a configuration that a controller can work with.
     fn check(&self) -> Result<(), Rejected> {
         let reject = |field, joint| Err((status::CONFIG, Where::of(field, joint, None)));
@@ -265,6 +282,8 @@ pub(crate) struct Control<L, const N: usize, const TOOL: usize, const POINTS: us
     config: Limits<N>,
     tool: Option<Tool>,
     measured: Option<Result<[f32; N], Fault>>,
+    /// Whether the last tick had a measurement, of an arm that is stopped.
+    knows_position: bool,
     library: PhantomData<L>,
 }
 
@@ -307,6 +326,7 @@ impl<L: Library<N, TOOL, POINTS>, const N: usize, const TOOL: usize, const POINT
             },
             tool: None,
             measured: None,
+            knows_position: false,
             library: PhantomData,
         })
     }
@@ -399,12 +419,15 @@ impl<L: Library<N, TOOL, POINTS>, const N: usize, const TOOL: usize, const POINT
     /// stopped.
     ///
     /// # Errors
-    /// `ANGLE`, `NOT_FINITE`, `POINT`.
+    /// `ANGLE`, `NOT_FINITE`, `POINT`; `NO_MEASUREMENT` if it is stopped and nobody knows where.
     pub fn departure(&self, goal: &[f32; N]) -> Result<State<N>, Rejected> {
         self.check_position(goal, None)?;
         Ok(match self.controller.mode() {
             // While the arm returns to its reference, the controller's own is elsewhere.
             Mode::Full => self.source.at(self.controller.trajectory_tick().saturating_sub(1)),
+            Mode::Stopped if !self.knows_position => {
+                return Err((status::NO_MEASUREMENT, Where::NOWHERE));
+            }
             _ => State::at(self.controller.estimate().q),
         })
     }
@@ -470,7 +493,11 @@ impl<L: Library<N, TOOL, POINTS>, const N: usize, const TOOL: usize, const POINT
             }
             torque
         };
-        controller.tick(measured.as_ref().map_err(|&fault| fault), source, law)
+        let command = controller.tick(measured.as_ref().map_err(|&fault| fault), source, law);
+        if self.is_stopped() {
+            self.knows_position = matches!(&measured, Ok(q) if check::inputs([q]).is_ok());
+        }
+        command
     }
 
     /// A tick without its reference is a fault that is bridged for a while, by a reference that

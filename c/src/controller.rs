@@ -63,7 +63,7 @@ impl<const N: usize> Command<N> {
             Mode::Hold => (1, false),
             Mode::Stopped => (2, true),
         };
-        let (fault, joint) = command.status.fault.map_or((0, -1), number);
+        let (fault, joint) = command.status.fault.map_or((0, -1), number_of);
         Self {
             torque: command.torque,
             brake: i32::from(command.brake),
@@ -76,69 +76,60 @@ impl<const N: usize> Command<N> {
     }
 }
 
-/// The number of a fault in the header, and its joint.
-#[inline]
-fn number(of: Fault) -> (i32, i32) {
-    let (number, joint) = match of {
-        Fault::Encoder { joint } => (fault::ENCODER, Some(joint)),
-        Fault::Stale => (fault::STALE, None),
-        Fault::Unfinished => (fault::UNFINISHED, None),
-        Fault::NotFinite { joint } => (fault::NOT_FINITE, Some(joint)),
-        Fault::Position { joint } => (fault::POSITION, Some(joint)),
-        Fault::Jump { joint } => (fault::JUMP, Some(joint)),
-        Fault::Speed { joint } => (fault::SPEED, Some(joint)),
-        Fault::Torque { joint } => (fault::TORQUE, Some(joint)),
-        Fault::Drive { joint } => (fault::DRIVE, Some(joint)),
-        Fault::Limits { joint } => (fault::LIMITS, Some(joint)),
-        Fault::Frozen { joint } => (fault::FROZEN, Some(joint)),
-        Fault::Saturated { joint } => (fault::SATURATED, Some(joint)),
-        Fault::Reference { joint } => (fault::REFERENCE, Some(joint)),
-        Fault::NotReady { joint } => (fault::NOT_READY, Some(joint)),
-        Fault::Missed => (fault::MISSED, None),
-        Fault::Overrun => (fault::OVERRUN, None),
-        Fault::Model => (fault::MODEL, None),
-        Fault::Overflow => (fault::OVERFLOW, None),
-        Fault::Restarted => (fault::RESTARTED, None),
-        Fault::Brake => (fault::BRAKE, None),
-        Fault::External => (fault::EXTERNAL, None),
-        Fault::Hot { joint } => (fault::HOT, Some(joint)),
-        Fault::LostTurn { joint } => (fault::LOST_TURN, Some(joint)),
-        Fault::LimitCycle { joint } => (fault::LIMIT_CYCLE, Some(joint)),
-        _ => (fault::OTHER, None),
+/// The faults with their numbers in the header, from which both directions are made.
+macro_rules! faults {
+    ($($fault:ident $(of $joint:ident)? = $number:ident,)*) => {
+        /// The number of a fault in the header, and its joint.
+        #[doc(hidden)]
+        #[inline]
+        pub fn number_of(fault: Fault) -> (i32, i32) {
+            let joint = None::<usize>;
+            let (number, joint) = match fault {
+                $(Fault::$fault $({ $joint })? => (fault::$number, faults!(@some $($joint)?, joint)),)*
+                _ => (fault::OTHER, joint),
+            };
+            (number, joint.map_or(-1, |joint| joint as i32))
+        }
+
+        /// The fault of a number in the header.
+        #[doc(hidden)]
+        pub fn fault_of<const N: usize>(number: i32, joint: i32) -> Option<Fault> {
+            let joint = usize::try_from(joint).ok().filter(|&joint| joint < N);
+            Some(match number {
+                $(fault::$number => Fault::$fault $({ $joint: joint? })?,)*
+                _ => return None,
+            })
+        }
     };
-    (number, joint.map_or(-1, |joint| joint as i32))
+    (@some $joint:ident, $none:ident) => { Some($joint) };
+    (@some , $none:ident) => { $none };
 }
 
-/// The fault of a number in the header.
-fn fault_of<const N: usize>(number: i32, joint: i32) -> Option<Fault> {
-    let joint = usize::try_from(joint).ok().filter(|&joint| joint < N);
-    Some(match number {
-        fault::STALE => Fault::Stale,
-        fault::UNFINISHED => Fault::Unfinished,
-        fault::MISSED => Fault::Missed,
-        fault::OVERRUN => Fault::Overrun,
-        fault::MODEL => Fault::Model,
-        fault::OVERFLOW => Fault::Overflow,
-        fault::RESTARTED => Fault::Restarted,
-        fault::BRAKE => Fault::Brake,
-        fault::EXTERNAL => Fault::External,
-        fault::ENCODER => Fault::Encoder { joint: joint? },
-        fault::NOT_FINITE => Fault::NotFinite { joint: joint? },
-        fault::POSITION => Fault::Position { joint: joint? },
-        fault::JUMP => Fault::Jump { joint: joint? },
-        fault::SPEED => Fault::Speed { joint: joint? },
-        fault::TORQUE => Fault::Torque { joint: joint? },
-        fault::DRIVE => Fault::Drive { joint: joint? },
-        fault::LIMITS => Fault::Limits { joint: joint? },
-        fault::FROZEN => Fault::Frozen { joint: joint? },
-        fault::SATURATED => Fault::Saturated { joint: joint? },
-        fault::REFERENCE => Fault::Reference { joint: joint? },
-        fault::NOT_READY => Fault::NotReady { joint: joint? },
-        fault::HOT => Fault::Hot { joint: joint? },
-        fault::LOST_TURN => Fault::LostTurn { joint: joint? },
-        fault::LIMIT_CYCLE => Fault::LimitCycle { joint: joint? },
-        _ => return None,
-    })
+faults! {
+    Encoder of joint = ENCODER,
+    Stale = STALE,
+    Unfinished = UNFINISHED,
+    NotFinite of joint = NOT_FINITE,
+    Position of joint = POSITION,
+    Jump of joint = JUMP,
+    Speed of joint = SPEED,
+    Torque of joint = TORQUE,
+    Drive of joint = DRIVE,
+    Limits of joint = LIMITS,
+    Frozen of joint = FROZEN,
+    Saturated of joint = SATURATED,
+    Reference of joint = REFERENCE,
+    NotReady of joint = NOT_READY,
+    Missed = MISSED,
+    Overrun = OVERRUN,
+    Model = MODEL,
+    Overflow = OVERFLOW,
+    Restarted = RESTARTED,
+    Brake = BRAKE,
+    External = EXTERNAL,
+    Hot of joint = HOT,
+    LostTurn of joint = LOST_TURN,
+    LimitCycle of joint = LIMIT_CYCLE,
 }
 
 /// The status of a result, which also says what it is about.

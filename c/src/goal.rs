@@ -49,14 +49,16 @@ impl<L: Library<N, TOOL, POINTS>, const N: usize, const TOOL: usize, const POINT
             acceleration: acceleration[j],
             jerk: jerk[j],
         });
-        let made = MovingGoal::try_new(&[0.0; N], limits, config.tick).map_err(|error| {
-            let (field, joint) = match error {
-                ConfigError::OutOfRange { parameter: ConfigParameter::JerkLimit { joint } } => {
-                    (field::JERK, Some(joint))
-                }
-                _ => (field::TICK, None),
-            };
-            (status::CONFIG, Where::of(field, joint, None))
+        let made = config.check_motion().and_then(|()| {
+            MovingGoal::try_new(&[0.0; N], limits, config.tick).map_err(|error| {
+                let (field, joint) = match error {
+                    ConfigError::OutOfRange { parameter: ConfigParameter::JerkLimit { joint } } => {
+                        (field::JERK, Some(joint))
+                    }
+                    _ => (field::TICK, None),
+                };
+                (status::CONFIG, Where::of(field, joint, None))
+            })
         });
         located(made.map(|motion| *goal = Kept::of(motion)), at)
     }

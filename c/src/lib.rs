@@ -30,13 +30,15 @@ use dynamics_core::model::Robot;
 pub use advice::AdviceText;
 pub use control::{Config, WayPoint, Where};
 pub use controller::{Command, Motion, Report};
+#[doc(hidden)]
+pub use controller::{fault_of, number_of};
 pub use dynamics::Form;
 #[doc(hidden)]
 pub use dynamics_core::{effects::Gravity, glam::Vec3};
 pub use export::assert_header;
 pub use goal::{Goal, GoalChange};
 pub use kinematics::Pose;
-pub use memory::{Handle, Kept};
+pub use memory::{Argument, Handle, Kept};
 pub use numbers::{fault, field, status};
 pub use thermal::{Heat, Motors, Temperatures, Thermal};
 pub use tip::{PoseSolver, Tip};
@@ -102,6 +104,11 @@ fn status_of(compute: impl FnOnce() -> Result<(), i32>) -> i32 {
 impl<L: Library<N, TOOL, POINTS>, const N: usize, const TOOL: usize, const POINTS: usize>
     Exports<L, N, TOOL, POINTS>
 {
+    /// The version of the library.
+    pub const fn version() -> i32 {
+        numbers::VERSION
+    }
+
     /// Fails to compile if the header reserves too few bytes for an object.
     pub const FITS: () = {
         let () = Self::CONTROLLER_FITS;

@@ -13,6 +13,47 @@ const fn magic<L: Named>(size: usize) -> u64 {
     (L::HASH ^ size as u64) | 1
 }
 
+/// An argument as C passes it: a number, or a pointer, which may be null.
+pub trait Argument {
+    /// C's type, of the same bits.
+    type Raw: Copy;
+
+    /// Whether it may be read. An unaligned access is a fault of some processors, and undefined in
+    /// Rust on all.
+    #[inline(always)]
+    fn is_aligned(_: Self::Raw) -> bool {
+        true
+    }
+}
+
+impl<T> Argument for Option<&T> {
+    type Raw = *const T;
+
+    #[inline(always)]
+    fn is_aligned(raw: *const T) -> bool {
+        raw.is_aligned()
+    }
+}
+
+impl<T> Argument for Option<&mut T> {
+    type Raw = *mut T;
+
+    #[inline(always)]
+    fn is_aligned(raw: *mut T) -> bool {
+        raw.is_aligned()
+    }
+}
+
+/// It looks at its pointer itself: a command is written without it.
+impl Argument for Option<Handle> {
+    type Raw = Self;
+}
+
+macro_rules! numbers {
+    ($($number:ty)*) => {$( impl Argument for $number { type Raw = Self; } )*};
+}
+numbers!(i32 u32 usize f32);
+
 /// An object in memory of C's: the first word says whether there is one.
 #[repr(C)]
 #[derive(Debug)]

@@ -64,7 +64,10 @@ impl<L: Library<N, TOOL, POINTS>, const N: usize, const TOOL: usize, const POINT
                 let (field, joint) = match error {
                     ConfigError::OutOfRange {
                         parameter: ConfigParameter::JointRange { joint },
-                    } => (field::RANGE, Some(joint)),
+                    } => match acceleration.get(joint) {
+                        Some(limit) if limit.is_finite() => (field::RANGE, Some(joint)),
+                        _ => (field::ACCELERATION, Some(joint)),
+                    },
                     _ => (field::TIP, None),
                 };
                 (status::CONFIG, Where::of(field, joint, None))

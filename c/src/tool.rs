@@ -4,7 +4,7 @@ use core::marker::PhantomData;
 
 use dynamics_core::delegate_effect;
 use dynamics_core::effects::{Effect, GravityVector, Payload, hook};
-use dynamics_core::model::{BodyInertia, Problem};
+use dynamics_core::model::{ArmModel, BodyInertia, Link, Problem, Robot};
 use dynamics_core::scalar::Real;
 use dynamics_core::spatial::SpatialInertia;
 
@@ -49,6 +49,18 @@ pub(crate) fn is_rotation([x, y, z]: &[[f32; 3]; 3]) -> bool {
         && near(dot(z, z), 1.0)
         && near(dot(x, y), 0.0)
         && near(dot(&cross, z), 1.0)
+}
+
+/// Accepts gravity in m/s²: a direction of length one is none, nor is a number in mm/s².
+///
+/// # Errors
+/// `NOT_FINITE`, `GRAVITY`.
+pub(crate) fn is_gravity(gravity: &[f32; 3]) -> Result<(), i32> {
+    check::inputs([gravity])?;
+    let [x, y, z] = gravity;
+    let square = x * x + y * y + z * z;
+    let is_direction = (0.9..1.1).contains(&square);
+    if square <= 1e4 && !is_direction { Ok(()) } else { Err(status::GRAVITY) }
 }
 
 impl Tool {
@@ -142,6 +154,28 @@ impl<L: Library<N, TOOL, POINTS>, const N: usize, const TOOL: usize, const POINT
         gravity: [0.0, 0.0, -(L::GRAVITY as f32)],
     };
 
+    /// The greatest mass of a load, kg, and the greatest coordinate of its centre of mass, m: ten
+    /// times those of the robot with its arm stretched out, or 10 kg and 1 m, if these are more.
+    /// Numbers beyond look like grams or millimetres. A robot without masses has no such bounds.
+    const fn most_of_a_load() -> (f32, f32) {
+        let model: ArmModel<f64, N> = <L::Arm as Robot<N, N, N>>::MODEL;
+        let (mut mass, mut length, mut body) = (0.0, 0.0, 0);
+        while body < N {
+            let Link { placement, inertia, .. } = &model.links[body];
+            let (offset, moment) = (placement.pos, inertia.first_moment);
+            mass += inertia.mass;
+            length += offset.x.abs() + offset.y.abs() + offset.z.abs();
+            if inertia.mass > 0.0 {
+                length += (moment.x.abs() + moment.y.abs() + moment.z.abs()) / inertia.mass;
+            }
+            body += 1;
+        }
+        match mass > 0.0 {
+            true => ((10.0 * mass).max(10.0) as f32, (10.0 * length).max(1.0) as f32),
+            false => (f32::MAX, f32::MAX),
+        }
+    }
+
     /// The tool, if it was set.
     #[inline(always)]
     pub(crate) fn set_tool(tool: &Tool) -> Result<&Tool, i32> {
@@ -152,8 +186,16 @@ impl<L: Library<N, TOOL, POINTS>, const N: usize, const TOOL: usize, const POINT
     fn tool(body: i32, load: &Load, gravity: &[f32; 3]) -> Result<Tool, i32> {
         let body = usize::try_from(body).ok().filter(|&body| body < N);
         let body = body.ok_or(status::NO_BODY)?;
-        check::inputs([&[load.mass], &load.com, &load.inertia, gravity])?;
+        check::inputs([&[load.mass], &load.com, &load.inertia])?;
         let Load { mass, com, inertia } = *load;
+        let (heaviest, farthest) = const { Self::most_of_a_load() };
+        if mass > heaviest {
+            return Err(status::LOAD_MASS);
+        }
+        if com.iter().any(|x| x.abs() > farthest) {
+            return Err(status::LOAD_COM);
+        }
+        is_gravity(gravity)?;
         let described = BodyInertia { mass, com, inertia };
         let checked = Payload::<f32, 0>::try_new(described, 1e-6);
         let inertia = checked.map_err(|error| match error.problem {

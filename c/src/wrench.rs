@@ -6,7 +6,7 @@ use dynamics_core::{
 use motion_control::estimate::{SensorLoadError, SensorLoadFit};
 
 use crate::status::{self, NULL};
-use crate::tool::Tool;
+use crate::tool::{Tool, is_gravity};
 use crate::{Exports, Library, State, check, status_of};
 
 /// A couple and a force: `..._wrench` of the header.
@@ -95,7 +95,8 @@ impl<L: Library<N, TOOL, POINTS>, const N: usize, const TOOL: usize, const POINT
         status_of(|| {
             let (fit, gravity, measured) =
                 (fit.ok_or(NULL)?, gravity.ok_or(NULL)?, measured.ok_or(NULL)?);
-            check::inputs([gravity.as_ref(), measured.ang.as_ref(), measured.lin.as_ref()])?;
+            check::inputs([measured.ang.as_ref(), measured.lin.as_ref()])?;
+            is_gravity(gravity.as_ref())?;
             fit.add(*gravity, measured);
             Ok(())
         })
@@ -125,7 +126,7 @@ impl<L: Library<N, TOOL, POINTS>, const N: usize, const TOOL: usize, const POINT
         status_of(|| {
             let (load, gravity, shown) =
                 (load.ok_or(NULL)?, gravity.ok_or(NULL)?, shown.ok_or(NULL)?);
-            check::inputs([gravity.as_ref()])?;
+            is_gravity(gravity.as_ref())?;
             check::inputs(numbers(load))?;
             write(load.at_rest(*gravity), shown)
         })

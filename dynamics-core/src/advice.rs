@@ -292,27 +292,61 @@ impl Greatest {
 pub struct Short(pub f64);
 
 impl Display for Short {
+    /// In integers, since the formatting of floats takes half of an image's flash for advice.
     fn fmt(&self, out: &mut Formatter<'_>) -> Result {
-        let x = self.0;
+        let (x, mut size, mut exponent) = (self.0, self.0.abs(), 0);
+        if !size.is_finite() {
+            return out.write_str(match x > 0.0 {
+                true => "inf",
+                false if x < 0.0 => "-inf",
+                false => "NaN",
+            });
+        }
         // Within the digits of an f32.
         let is_whole = (x as f32) == (x as i32) as f32;
-        match x.abs() {
-            _ if is_whole => write!(out, "{x:.0}"),
-            size if !(1e-3..1e7).contains(&size) => write!(out, "{x:.1e}"),
-            size if size < 0.1 => write!(out, "{x:.4}"),
-            size if size < 10.0 => write!(out, "{x:.2}"),
-            size if size < 100.0 => write!(out, "{x:.1}"),
-            _ => write!(out, "{x:.0}"),
+        let digits = match size {
+            _ if is_whole => 0,
+            1e-3..0.1 => 4,
+            0.1..10.0 => 2,
+            10.0..100.0 => 1,
+            100.0..1e7 => 0,
+            _ => {
+                while size >= 10.0 {
+                    (size, exponent) = (size / 10.0, exponent + 1);
+                }
+                while size < 1.0 {
+                    (size, exponent) = (size * 10.0, exponent - 1);
+                }
+                1
+            }
+        };
+        let scale = 10_u32.pow(digits);
+        let scaled = size * f64::from(scale);
+        let down = scaled as u32;
+        let rest = scaled - f64::from(down);
+        let mut rounded = down + u32::from(rest > 0.5 || (rest == 0.5 && down % 2 == 1));
+        if exponent != 0 && rounded == 100 {
+            (rounded, exponent) = (10, exponent + 1);
         }
+        out.write_str(if x.is_sign_negative() { "-" } else { "" })?;
+        write!(out, "{}", rounded / scale)?;
+        if digits > 0 {
+            write!(out, ".{:01$}", rounded % scale, digits as usize)?;
+        }
+        if exponent != 0 {
+            write!(out, "e{exponent}")?;
+        }
+        Ok(())
     }
 }
 
 impl Display for AdvisedJoint {
     fn fmt(&self, out: &mut Formatter<'_>) -> Result {
-        match self.body {
-            Some(body) => write!(out, "joint {} (`{body}`)", self.number),
-            None => write!(out, "joint {}", self.number),
-        }
+        write!(out, "joint {}", self.number)?;
+        // In parts, without the code that pads a text.
+        self.body.map_or(Ok(()), |body| {
+            [" (`", body, "`)"].iter().try_for_each(|part| out.write_str(part))
+        })
     }
 }
 
@@ -411,6 +445,29 @@ impl Display for Advice {
                 Short(step),
                 Short(speed)
             ),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Short;
+
+    /// The formatting of floats has the same text of every f32.
+    #[test]
+    fn a_number_has_the_text_of_the_formatting_of_floats() {
+        let usual = |x: f64| match x.abs() {
+            _ if (x as f32) == (x as i32) as f32 => format!("{x:.0}"),
+            1e-3..0.1 => format!("{x:.4}"),
+            0.1..10.0 => format!("{x:.2}"),
+            10.0..100.0 => format!("{x:.1}"),
+            100.0..1e7 => format!("{x:.0}"),
+            _ => format!("{x:.1e}"),
+        };
+        let numbers = [0.125, 99.96, 9.996e8, 9.96e-5, 1e-38, 162.5, f32::NAN, f32::INFINITY];
+        let random = (0..200_000_u32).map(|k| f32::from_bits(k.wrapping_mul(0x9e37_79b9)));
+        for x in random.chain(numbers).flat_map(|x| [x, -x]).map(f64::from) {
+            assert_eq!(Short(x).to_string(), usual(x));
         }
     }
 }

@@ -295,7 +295,9 @@ fn faults_lead_from_full_to_hold_to_zero_torque() {
     let command = tick(&mut memory, &bad);
     assert_eq!((command.fault, command.joint), (4, 0));
     // A drive that fails takes the torque off; stop and off are from outside.
-    for (stop, fault, joint) in [(0, 9, 0), (1, 21, -1), (2, 21, -1), (3, 23, 0)] {
+    for (stop, fault, joint) in
+        [(0, 9, 0), (1, 21, -1), (2, 21, -1), (3, 23, 0), (3, 24, 0), (4, 25, 0)]
+    {
         let mut again = Memory::new();
         moving(&mut again, &config, 5000);
         let handle = again.handle();
@@ -303,7 +305,7 @@ fn faults_lead_from_full_to_hold_to_zero_torque() {
         let status = match stop {
             0 => c::controller_fault(handle, 9, 0),
             1 => c::controller_stop(handle),
-            3 => c::controller_fault(handle, 23, 0),
+            3 | 4 => c::controller_fault(handle, fault, 0),
             _ => c::controller_off(handle),
         };
         assert_eq!(status, OK);

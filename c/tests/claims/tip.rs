@@ -36,7 +36,7 @@ fn a_tip_moves_to_a_pose_within_limits_and_brakes_without_one() {
     };
     let (start, last) = (State::at(home), N as i32 - 1);
     let mut wrong = (config, start);
-    (wrong.0.acceleration[N - 1], wrong.1.qd[N - 1]) = (f32::INFINITY, f32::NAN);
+    (wrong.0.speed[N - 1], wrong.1.qd[N - 1]) = (0.0, f32::NAN);
     assert_eq!(init(&mut tip, &wrong.0, &start), (CONFIG, field::RANGE, last));
     assert_eq!(init(&mut tip, &config, &wrong.1), (NOT_FINITE, field::VELOCITY, last));
     assert_eq!(init(&mut tip, &Config { tick: 0.0, ..config }, &start), (CONFIG, field::TIP, -1));

@@ -238,6 +238,10 @@ fn c_example(trial: &Trial, expected: &str) {
     eprintln!("{}", costs.join("\n"));
     let check = trial.run("make", &[&out, "check"]);
     assert_eq!(check.lines().last(), Some("no panic"));
+    let sizes = trial.run("make", &[&out, "sizes"]);
+    let advice = sizes.lines().find(|line| line.ends_with("_config_advice")).expect("a size");
+    let bytes: u32 = advice.split(' ').next().and_then(|of| of.parse().ok()).expect("a number");
+    assert!(bytes < 21_000, "the header says some 20 kB\n{sizes}");
     let host = trial.run("make", &[&out, "host"]);
     assert_eq!(host.lines().last(), Some("good"), "{host}");
     trial.run("cargo", &["fmt", "--check"]);
@@ -471,7 +475,7 @@ fn two_robots_in_c() {
     let code = code.replace("my_arm", "left_arm").replace("MY_ARM", "LEFT_ARM");
     let file = program.join("guide.c");
     fs::write(&file, code).unwrap_or_else(|error| panic!("{error}"));
-    let line = "-std=c11 -Wall -Wextra -Werror -Iinclude -fsyntax-only program/guide.c";
+    let line = "-std=c11 -Wall -Wextra -Werror -Iinclude -c program/guide.c -o guide.o";
     left.run("cc", &line.split(' ').collect::<Vec<_>>());
     // The example of each project is such a program, too.
     right.run(

@@ -6,6 +6,8 @@ pub(crate) mod joints;
 pub mod mit;
 pub mod moteus;
 pub mod odrive;
+mod silence;
 mod turns;
 
 pub use frame::{CanError, CanFrame, ClassicFrame, Component, FdFrame, fd_length};
+pub use silence::{Silence, Silent};

@@ -21,6 +21,8 @@ use motion_control::limits::{Fault, Mode, SafetyLimits};
 use motion_control::motion::{MotionController, MotionControllerConfig, PreviousTick, ResetError};
 use motion_control::safety::SupervisorConfig;
 
+use super::damiao_bus;
+
 /// A drive on its bus.
 #[derive(Clone, Copy, Debug)]
 struct Drive {
@@ -313,22 +315,19 @@ impl Law<1> for Nothing {
 fn a_loop_stops_until_the_joint_is_placed() {
     let mapping = JointMapping::IDENTITY.with_range(JointRange::Near(0.0), 6e-3).unwrap();
     let drive = Damiao::new(1, 0x11, damiao::DM4310, 7.0, mapping).unwrap();
-    let frames = RefCell::new(Vec::new());
-    let joints = CanJoints::new(Bus(Some(&frames)), [drive]);
+    // The second one, of nobody, acknowledges the frames meanwhile.
+    let motors = [1, 2].map(|number| damiao_bus::Drive::new(number, damiao::DM4310));
+    let wire = RefCell::new(damiao_bus::Wire::new(motors.into()));
+    let joints = CanJoints::new(damiao_bus::Bus(&wire), [drive]);
     let gains = Gains { kp: [0.0], kd: [0.0] };
     let mut control = ControlLoop::new(&joints, &joints, NoBrake, gains, controller(), ());
     let (here, mut status) = (State::at([4.0]), None);
     let mut run = |control: &mut ControlLoop<_, _, _, 1>, ticks: core::ops::Range<u32>| {
         for tick in ticks {
-            let count = match tick {
-                ..1000 => 4.0 * f64::from(tick) / 1000.0,
-                1000..1400 => 4.0,
-                1400..2000 => f64::NAN,
-                _ => 4.0 - TAU,
-            };
-            if !count.is_nan() {
-                frames.borrow_mut().push((DAMIAO.reply)(count));
-            }
+            wire.borrow_mut().drives[0].angle = 4.0 * f64::from(tick.min(1000)) / 1000.0;
+            wire.borrow_mut().drives[0].supply(!(1400..2000).contains(&tick));
+            wire.borrow_mut().drives[0].is_enabled = true;
+            wire.borrow_mut().advance(2e-3);
             status = Some(control.tick::<Nothing, _, ()>(&here, &()).status);
         }
         status.unwrap()

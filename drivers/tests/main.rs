@@ -9,6 +9,7 @@ mod arrays;
 mod can;
 mod can_joints;
 mod control_loop;
+mod damiao_bus;
 mod drives;
 mod feetech;
 mod incremental;

@@ -18,6 +18,7 @@ mod law;
 mod turns;
 
 use super::can::{classic, extended, standard};
+pub(crate) use super::damiao_bus::{Drive, decoded};
 use super::{identity, near_zero};
 
 type Sent = Result<FdFrame, CanError>;
@@ -129,11 +130,13 @@ fn a_bus_says_what_came_in_place_of_a_position() {
 
 /// A drive's answer to a query: the registers of a DM4310, but for one.
 fn answer(query: &FdFrame, other: Option<(u8, f32)>) -> FdFrame {
-    let &[id, 0, 0x33, register, 0, 0, 0, 0] = query.data() else { panic!("{query:?}") };
-    let own = [12.5, 30.0, 10.0][usize::from(register - damiao::PMAX)];
-    let other = other.filter(|(of, _)| *of == register);
-    let [b0, b1, b2, b3] = other.map_or(own, |(_, value)| value).to_le_bytes();
-    standard(0x10, &[id, 0, 0x33, register, b0, b1, b2, b3])
+    let mut drive = Drive { host: 0x10, ..Drive::new(query.data()[0], damiao::DM4310) };
+    match other {
+        Some((damiao::MODE, mode)) => drive.mode = mode.to_bits(),
+        Some((damiao::TMAX, torque)) => drive.scale.torque = torque,
+        _ => {}
+    }
+    drive.take(query).expect("an answer")
 }
 
 /// A joint around a drive.
@@ -168,8 +171,8 @@ impl CanJoint for Within {
 }
 
 #[test]
-fn no_drive_of_a_bus_is_enabled_before_the_scales_of_all_are_right() {
-    use damiao::{PMAX, TMAX, VMAX};
+fn no_drive_of_a_bus_is_enabled_before_the_scales_and_modes_of_all_are_right() {
+    use damiao::{MODE, PMAX, TMAX, VMAX};
     let numbered = |id: u8| Damiao::new(id, 0x10, damiao::DM4310, 5.0, identity()).unwrap();
     let drives = [numbered(1), numbered(2)].map(Within);
     let joints = CanJoints::new(Outbox::<FdFrame, 2>::new(), drives);
@@ -185,14 +188,21 @@ fn no_drive_of_a_bus_is_enabled_before_the_scales_of_all_are_right() {
         assert_eq!(queried(), numbered(1).read_register(PMAX).unwrap());
     }
     joints.receive(&standard(0x10, &[1, 0, 0x33, VMAX, 0, 0, 0xf0, 0x41]));
-    for (joint, register) in
-        [(0, PMAX), (0, VMAX), (0, TMAX), (1, PMAX), (1, VMAX), (1, TMAX), (1, TMAX)]
-    {
+    // Velocity and position: the mode of a drive that was left in it.
+    let left = (MODE, f32::from_bits(2));
+    let registers = [PMAX, VMAX, TMAX, TMAX, MODE, MODE];
+    let of_first = [PMAX, VMAX, TMAX, MODE].map(|register| (0, register));
+    for (joint, register) in of_first.into_iter().chain(registers.map(|register| (1, register))) {
         let asked = joints.enable();
-        // The last one was wrong: it is asked for anew, and may have been set meanwhile.
-        let again = asked == at(1, CanError::Scale(TMAX));
+        // One that was wrong is asked for anew, and may have been set meanwhile.
+        let wrong = [at(1, CanError::Scale(TMAX)), at(1, CanError::Mode(2))];
+        let again = wrong.contains(&asked);
         assert!(again || asked == at(joint, missing(register)), "{asked:?}");
-        let other = ((joint, register, again) == (1, TMAX, false)).then_some((TMAX, 12.0));
+        let other = match (joint, register, again) {
+            (1, TMAX, false) => Some((TMAX, 12.0)),
+            (1, MODE, false) => Some(left),
+            _ => None,
+        };
         let answer = answer(&queried(), other);
         // Twice, as no drive does: it counts once.
         [answer; 2].iter().for_each(|answer| joints.receive(answer));
@@ -465,20 +475,6 @@ fn identities_limits_and_scales_outside_their_ranges_are_refused() {
             assert_eq!(Damiao::new(1, 0, scale, 1.0, identity()).err(), Some(CanError::NotFinite));
         }
     }
-}
-
-/// The command of a drive as it decodes it, in f64.
-pub(crate) fn decoded(frame: &FdFrame, scale: &Scale) -> [f64; 5] {
-    let [d0, d1, d2, d3, d4, d5, d6, d7] = frame.data().try_into().unwrap();
-    let both = |high: u8, low: u8| f64::from(u16::from(high) << 8 | u16::from(low));
-    let signed = |count: f64, most: f32, last: f64| (2.0 * count / last - 1.0) * f64::from(most);
-    [
-        signed(both(d0, d1), scale.position, 65535.0),
-        signed(both(d2 >> 4, d2 << 4 | d3 >> 4), scale.velocity, 4095.0),
-        both(d3 & 0x0f, d4) / 4095.0 * f64::from(scale.kp),
-        both(d5 >> 4, d5 << 4 | d6 >> 4) / 4095.0 * f64::from(scale.kd),
-        signed(both(d6 & 0x0f, d7), scale.torque, 4095.0),
-    ]
 }
 
 #[test]

@@ -6,9 +6,9 @@
 
 #[rtic::app(device = crate::pins::chip::pac, peripherals = true)]
 mod app {
-    use motion_control::{law::Gains, limits::Mode, safety::Watchdog};
+    use motion_control::{limits::Mode, safety::Watchdog};
 
-    use crate::board::{self, Law, Motion, N, TICK};
+    use crate::board::{self, Gains, Law, Motion, Operator, TICK};
     use crate::log::{Log, impossible};
     use crate::pins::chip::{Period, Starved};
     use crate::pins::{self, Button, Connected, Devices, Kept, Light, connect, is_pressed};
@@ -38,6 +38,7 @@ mod app {
         button: Button,
         light: Light,
         log: Log,
+        operator: Operator,
     }
 
     // Not inlined, as all that follows: start-up then needs the stack of one of them.
@@ -50,7 +51,7 @@ mod app {
     fn place_control(
         place: &'static mut Option<Control>,
         devices: Devices,
-        gains: Gains<f32, N>,
+        gains: Gains,
         detectors: Detect,
         motion: &Motion,
     ) -> Option<&'static mut Control> {
@@ -60,7 +61,7 @@ mod app {
     }
 
     #[inline(never)]
-    fn gains() -> Gains<f32, N> {
+    fn gains() -> Gains {
         board::gains()
     }
 
@@ -96,6 +97,7 @@ mod app {
             button,
             light,
             log: Log::new(),
+            operator: Operator::new(motion),
         };
         (Shared {}, local)
     }
@@ -103,8 +105,8 @@ mod app {
     #[task(
         binds = TIM2,
         local = [
-            control, motion, period, watchdog, button, light, log,
-            count: u32 = 0, warned: bool = false,
+            control, motion, period, watchdog, button, light, log, operator,
+            count: u32 = 0,
         ],
         priority = 2
     )]
@@ -120,23 +122,18 @@ mod app {
         if let Some(completed) = completed {
             local.watchdog.feed(completed);
         }
-        let mode = telemetry.status.mode;
-        if matches!(mode, Mode::Stopped) && is_pressed(local.button) {
+        let (mode, fault) = (telemetry.status.mode, telemetry.status.fault);
+        local.log.tick(&telemetry);
+        if !matches!(mode, Mode::Full) || fault.is_some() {
+            let pressed = matches!(mode, Mode::Stopped) && is_pressed(local.button);
+            let say = |line| local.log.say(line);
             // The arm stays on its brake without drives, too far from the motion's start, or
             // without a measurement.
-            let enabled = board::enable(control.encoders());
-            if let Err(error) = &enabled
-                && !core::mem::replace(local.warned, true)
-            {
-                impossible(error);
-            }
-            if matches!(enabled, Ok(true))
-                && let Err(reason) = control.reset(motion)
-            {
+            let now = (now, &telemetry.status);
+            if let Some(reason) = local.operator.tick(now, control, motion, pressed, say) {
                 local.log.refused(reason);
             }
         }
-        local.log.tick(&telemetry);
         local.light.set_state(matches!(mode, Mode::Full).into());
     }
 }

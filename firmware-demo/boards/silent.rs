@@ -14,6 +14,9 @@ impl Log {
 
     pub fn tick(&mut self, _: &Telemetry<N>) {}
 
+    #[allow(dead_code, reason = "the Pico 2 says nothing of its devices")]
+    pub fn say(&mut self, (): ()) {}
+
     pub fn refused(&mut self, _: ResetError) {}
 }
 

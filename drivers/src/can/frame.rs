@@ -59,6 +59,8 @@ pub enum CanError {
     Range,
     /// The node has another scale than expected in this register.
     Scale(u8),
+    /// The node is in another control mode than that of the commands, of this number.
+    Mode(u8),
     /// The node refused to read or write a register.
     Register {
         /// The number of the register.
@@ -81,6 +83,57 @@ pub enum Component {
     Drive,
     /// The winding.
     Motor,
+}
+
+impl CanError {
+    /// What was seen and what to do, for the log of a robot with such a joint. A number that the
+    /// error has is not in it.
+    ///
+    /// ```
+    /// use joint_drivers::can::CanError;
+    /// assert!(CanError::Mode(2).words().contains("store 1 (MIT) in register 10"));
+    /// ```
+    #[cold]
+    pub const fn words(&self) -> &'static str {
+        use CanError::*;
+        match self {
+            NoReply => "its drive does not answer: its number, a second drive of it, plug, supply",
+            Identifier => {
+                "frames came, none from its drive: its number (ESC_ID), its host's (MST_ID)"
+            }
+            Full => "no room for its command: no drive takes frames, or fewer places than joints",
+            Bus(ErrorKind::Acknowledge) => "no drive acknowledges: supply, cable, bit rate",
+            Bus(ErrorKind::Overrun) => "more frames than a tick can take: who else sends?",
+            Bus(ErrorKind::Other) => "the bus is off: bit rate, 120 Ω at both ends, ground",
+            Bus(_) => "frames are destroyed: bit rate, 120 Ω at both ends, one number twice",
+            Scale(21) => "its register PMAX is not the program's: state the drive's there",
+            Scale(22) => "its register VMAX is not the program's: of a 48 V motor?",
+            Scale(_) => "its register TMAX is not the program's: is it this joint's motor?",
+            Mode(_) => "its drive is in another control mode: store 1 (MIT) in register 10",
+            Missing(_) => "its drive does not say this register: another maker, or old firmware?",
+            NotReady => "its drive is not enabled: its supply came back, or another program did it",
+            OverTemperature(Component::Motor) => "its motor is too hot: let it cool, load it less",
+            OverTemperature(Component::Drive) => "its drive is too hot: let it cool, load it less",
+            OverVoltage => {
+                "too much voltage, of a braking arm: a brake resistor; a start clears it"
+            }
+            UnderVoltage => "too little voltage: its supply's limit, thin wires; a start clears it",
+            OverCurrent => "a phase had too much current: blocked, shorted? A start clears it",
+            Overload => "it was overloaded: blocked, too heavy? A start clears it",
+            LostCommunication => {
+                "it missed its commands: is its TIMEOUT too short? A start clears it"
+            }
+            LostTurn => {
+                "its drive lost its turns: start the program with it at home, or place_near"
+            }
+            Range => "its position is at the end of the drive's scale: turn it back, set its zero",
+            Encoder => "its encoder failed or is not calibrated: use the maker's tool",
+            Fault(_) => "its drive reports a fault of this number: a start clears it",
+            Remote | Length(_) | Short => "no answer of its protocol: who else sends?",
+            Node | Torque => "impossible: its number, its scale or its greatest torque",
+            _ => "a frame has what its protocol does not have: who else sends on this bus?",
+        }
+    }
 }
 
 impl fmt::Display for CanError {
@@ -115,6 +168,7 @@ impl fmt::Display for CanError {
             }
             Self::Range => out.write_str("the position is at the end of its scale"),
             Self::Scale(register) => write!(out, "register {register} has another scale"),
+            Self::Mode(mode) => write!(out, "the node is in another control mode, {mode}"),
             Self::Register { register, code } => {
                 write!(out, "the node refused register {register:#05x} with {code}")
             }

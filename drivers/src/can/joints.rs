@@ -16,7 +16,9 @@ use super::mit::protocol::Protocol;
 use super::mit::robstride::RobStrideMit;
 use crate::MappingError;
 use crate::drives::pd::{PdDrives, SetpointAt};
-use crate::joint::{EncoderType, JointDrives, JointEncoders, JointError};
+use crate::joint::{
+    DriveFault, DriveFaultKind, EncoderType, JointDrives, JointEncoders, JointError,
+};
 
 /// The most frames of others that are taken in a tick, more than a bus of 1 Mbit/s has in 2 ms.
 const MOST_FRAMES: usize = 64;
@@ -69,6 +71,8 @@ struct Network<Bus, Joint, const V: usize> {
     /// Why there is none: nothing has come since the last tick, or what has.
     positions: [Result<f32, CanError>; V],
     delivers: [Result<(), CanError>; V],
+    /// Why joints had no position in the last reading that failed.
+    unread: [Result<(), CanError>; V],
     /// The joint behind the one that took the last frame: replies mostly come in order.
     next: usize,
 }
@@ -77,7 +81,8 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> CanJoints<Bus, Joint, V> {
     /// The joints, of which none has reported yet.
     pub const fn new(bus: Bus, joints: [Joint; V]) -> Self {
         let (positions, delivers) = ([Err(CanError::NoReply); V], [Ok(()); V]);
-        Self(RefCell::new(Network { bus, joints, positions, delivers, next: 0 }))
+        let unread = delivers;
+        Self(RefCell::new(Network { bus, joints, positions, delivers, unread, next: 0 }))
     }
 
     /// Takes a joint to be at `position` rad or m, which ends [`CanError::LostTurn`]: the next
@@ -94,6 +99,13 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> CanJoints<Bus, Joint, V> {
     /// of [`JointEncoders::read`].
     pub fn errors(&self) -> [Result<(), CanError>; V] {
         self.0.try_borrow().map_or([Err(CanError::Full); V], |network| network.delivers)
+    }
+
+    /// Why each joint had no position in the last reading that failed, whose error is that of the
+    /// first of them: which of them are silent tells a drive from a cable.
+    #[cold]
+    pub fn unread(&self) -> [Result<(), CanError>; V] {
+        self.0.try_borrow().map_or([Err(CanError::Full); V], |network| network.unread)
     }
 
     /// Clears the faults of a joint. Call it between two ticks; with an [`Outbox`], take its frame
@@ -115,6 +127,7 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> CanJoints<Bus, Joint, V> {
         self.request(joint, Joint::set_zero)
     }
 
+    #[cold]
     fn request(
         &self,
         joint: usize,
@@ -139,15 +152,15 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> CanJoints<Bus, Joint, V> {
     /// A joint of your own around a drive implements `AsRef` of it, and passes
     /// [`CanJoint::learn`] on to it.
     ///
-    /// Drives that have registers of their scale are asked for them first, one register in each
-    /// call, which is to be made in tick after tick until it succeeds: seven drives of Damiao take
-    /// 21 calls. A drive whose scale is not the one of this program delivers no torque, and neither
-    /// do the others.
+    /// Drives that have registers of their scale and their mode are asked for them first, one
+    /// register in each call, which is to be made in tick after tick until it succeeds: seven drives
+    /// of Damiao take 28 calls. A drive whose scale or mode is not the one of this program delivers
+    /// no torque, and neither do the others.
     ///
     /// # Errors
     /// [`CanError::Missing`] is the register that was asked for, [`CanError::Scale`] the one that
-    /// has another scale, for which the drive is asked anew. Else the first joint whose frame was
-    /// not sent.
+    /// has another scale, [`CanError::Mode`] another mode, for which the drive is asked anew. Else
+    /// the first joint whose frame was not sent.
     ///
     /// ```
     /// # use embedded_can::{Frame, StandardId};
@@ -173,8 +186,8 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> CanJoints<Bus, Joint, V> {
     {
         let full = JointError { joint: 0, error: CanError::Full };
         let mut state = self.0.try_borrow_mut().map_err(|_| full)?;
-        let mut scales = state.joints.iter().map(|joint| joint.as_ref().scale()).enumerate();
-        let unknown = scales.find_map(|(joint, scale)| Some((joint, scale.err()?)));
+        let mut all = state.joints.iter().map(|joint| joint.as_ref().unchecked()).enumerate();
+        let unknown = all.find_map(|(joint, unchecked)| Some((joint, unchecked.err()?)));
         let Some((joint, (register, error))) = unknown else {
             return state.send(&[(); V], |joint, ()| joint.as_ref().enable());
         };
@@ -182,6 +195,26 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> CanJoints<Bus, Joint, V> {
         let query = state.joints.get(joint).ok_or(error)?.as_ref().query(register);
         let sent = query.and_then(|query| transmit(&mut state.bus, &query));
         Err(sent.map_or_else(|error| JointError { joint, error }, |()| error))
+    }
+
+    /// As [`Self::enable`], for a start by a button: clears the faults that drives keep before, one
+    /// in each call, and returns whether all drives deliver torque. Until then do not reset.
+    ///
+    /// # Errors
+    /// As [`Self::enable`] and [`Self::clear_errors`].
+    #[cold]
+    pub fn start_up<P: Protocol>(&self) -> Result<bool, JointError<CanError>>
+    where
+        Joint: AsRef<Drive<P>>,
+    {
+        let has_failed = |state: &Result<(), CanError>| {
+            state.is_err_and(|error| error.kind() == DriveFaultKind::Failed)
+        };
+        if let Some(joint) = self.errors().iter().position(has_failed) {
+            return self.clear_errors(joint).map(|()| false);
+        }
+        self.enable()?;
+        Ok(self.errors().iter().all(Result::is_ok))
     }
 
     /// Takes the torque from the drives.
@@ -307,6 +340,25 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> Network<Bus, Joint, V> {
     }
 }
 
+/// Notes why a joint, or all, had no position in a reading that failed. Not inlined: the usual reading
+/// is in memory that is short.
+#[cold]
+#[inline(never)]
+fn note<const V: usize>(
+    unread: &mut [Result<(), CanError>; V],
+    of: Option<usize>,
+    error: CanError,
+    is_first: bool,
+) {
+    for (joint, unread) in unread.iter_mut().enumerate() {
+        if of.is_none_or(|of| of == joint) {
+            *unread = Err(error);
+        } else if is_first {
+            *unread = Ok(());
+        }
+    }
+}
+
 fn transmit<Bus: Can>(bus: &mut Bus, frame: &Bus::Frame) -> Result<(), CanError> {
     match bus.transmit(frame) {
         Ok(None) => Ok(()),
@@ -347,10 +399,14 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> JointEncoders<V> for &CanJoints<
         let Ok(mut state) = self.0.try_borrow_mut() else {
             return Err(first(CanError::Full));
         };
-        let received = state.receive().map_err(first);
+        let received = state.receive();
+        if let Err(error) = received {
+            note(&mut state.unread, None, error, true);
+        }
         let mut positions = [0.0; V];
-        let mut failed = received;
-        let Network { positions: reported, joints, .. } = &mut *state;
+        let mut failed = received.map_err(first);
+        let Network { positions: reported, joints, unread, .. } = &mut *state;
+        let mut is_first = true;
         let reported = positions.iter_mut().zip(reported).zip(joints);
         for (joint, ((position, reported), of)) in reported.enumerate() {
             // After an error of the bus, too: a position counts in one tick alone.
@@ -358,6 +414,9 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> JointEncoders<V> for &CanJoints<
                 Ok(reported) => *position = reported,
                 Err(error) => {
                     of.missed(1);
+                    if received.is_ok() {
+                        note(unread, Some(joint), error, mem::take(&mut is_first));
+                    }
                     failed = failed.and(Err(JointError { joint, error }));
                 }
             }

@@ -160,9 +160,9 @@ pub struct Drive<P> {
     most: f32,
     turns: ShaftTurns,
     last: Option<Place>,
-    /// How many registers of the scale are right, and whether the next one is not.
-    scales_checked: u8,
-    scale_differs: bool,
+    /// How many registers of the scale and the mode are right, and why the next one is not.
+    checked: u8,
+    differs: Option<CanError>,
 }
 
 /// The place of the joint in the last reply.
@@ -200,8 +200,8 @@ impl<P: Protocol> Drive<P> {
         }
         let period = P::PERIOD.unwrap_or(2.0 * scale.position);
         let turns = ShaftTurns::in_radians(mapping, period, P::START);
-        let (last, scales_checked, scale_differs) = (None, 0, false);
-        Ok(Self { protocol, axes, most, turns, last, scales_checked, scale_differs })
+        let (last, checked, differs) = (None, 0, None);
+        Ok(Self { protocol, axes, most, turns, last, checked, differs })
     }
 
     /// Takes the joint to be at `position` rad or m: the next reply is within half a turn of the
@@ -322,9 +322,14 @@ impl<P: Protocol> Drive<P> {
         Ok(Reply::State(state))
     }
 
-    /// The register of this driver's scale in a reply, if its value is the same.
+    /// The register of this driver's scale or mode in a reply, if its value is the same.
     fn checked<F: Frame>(&self, frame: &F) -> Result<u8, CanError> {
         let (register, value) = self.protocol.register(frame)?;
+        if let Some((_, wanted)) = P::MODE.filter(|(mode, _)| *mode == register) {
+            let [mode, ..] = value;
+            let is_it = u32::from_le_bytes(value) == wanted;
+            return if is_it { Ok(register) } else { Err(CanError::Mode(mode)) };
+        }
         let Axes { position, velocity, torque, .. } = &self.axes;
         let mut scales = P::SCALES.into_iter().flatten().zip([position, velocity, torque]);
         let scale = scales.find(|(own, _)| *own == register);
@@ -334,14 +339,12 @@ impl<P: Protocol> Drive<P> {
         if off <= 1e-6 * most { Ok(register) } else { Err(CanError::Scale(register)) }
     }
 
-    /// The next register of the scale to be asked for, with the reason.
-    pub(crate) fn scale(&self) -> Result<(), (u8, CanError)> {
-        let registers = P::SCALES.as_ref().map_or(&[][..], |registers| registers);
-        let Some(&next) = registers.get(usize::from(self.scales_checked)) else { return Ok(()) };
-        Err((
-            next,
-            if self.scale_differs { CanError::Scale(next) } else { CanError::Missing(next.into()) },
-        ))
+    /// The next register of the scale and the mode to be asked for, with the reason.
+    pub(crate) fn unchecked(&self) -> Result<(), (u8, CanError)> {
+        let mode = P::MODE.map(|(register, _)| register);
+        let mut registers = P::SCALES.into_iter().flatten().chain(mode);
+        let Some(next) = registers.nth(self.checked.into()) else { return Ok(()) };
+        Err((next, self.differs.unwrap_or(CanError::Missing(next.into()))))
     }
 
     pub(crate) fn query<F: Frame>(&self, register: u8) -> Result<F, CanError> {
@@ -475,15 +478,14 @@ impl<P: Protocol> CanJoint for Drive<P> {
 
     #[cold]
     fn learn<F: Frame>(&mut self, frame: &F) -> bool {
+        let Ok((register, _)) = self.protocol.register(frame) else { return false };
         let checked = self.checked(frame);
-        if let (Err((next, _)), Ok(register) | Err(CanError::Scale(register))) =
-            (self.scale(), checked)
-            && next == register
-        {
-            self.scale_differs = checked.is_err();
-            self.scales_checked += u8::from(!self.scale_differs);
+        let is_asked = self.unchecked().is_err_and(|(next, _)| next == register);
+        if is_asked && !matches!(checked, Err(CanError::Missing(_))) {
+            self.differs = checked.err();
+            self.checked += u8::from(checked.is_ok());
         }
-        matches!(checked, Ok(_) | Err(CanError::Scale(_) | CanError::Missing(_)))
+        true
     }
 }
 

@@ -32,6 +32,7 @@ fn a_tick_takes_what_has_come_and_no_more() {
     let joints = scripted(&[first, second, pause, later]);
     assert_eq!((&joints).read(), Ok([0.0; 2]));
     assert_eq!((&joints).read(), Err(at(1, CanError::NoReply)));
+    assert_eq!(joints.unread(), [Ok(()), Err(CanError::NoReply)]);
     // The last of several replies counts.
     let all = [vec![first; 6], vec![second; 1], vec![later; 2]].concat();
     let joints = scripted(&all);
@@ -52,6 +53,7 @@ fn a_bus_that_fails_gives_no_positions() {
     let error = ErrorKind::Acknowledge;
     let joints = scripted(&[Ok(reply(1, 10, 0.0, 0)), Err(nb::Error::Other(error))]);
     assert_eq!((&joints).read(), Err(at(0, CanError::Bus(error))));
+    assert_eq!(joints.unread(), [Err(CanError::Bus(error)); 2]);
     // The position that had come before the error is not that of the next tick.
     assert_eq!((&joints).read(), Err(at(0, CanError::NoReply)));
 }

@@ -57,17 +57,9 @@ impl Plant {
 
     /// The reply to a command that arrives now.
     fn reply(&self) -> FdFrame {
-        let count = |x: f64, most: f32, last: f64| {
-            ((x / f64::from(most) + 1.0) * last / 2.0).round() as u64
-        };
-        let torque = self.sum(self.q, self.qd).clamp(-10.0, 10.0);
-        let all = u64::from(self.status << 4 | 1) << 56
-            | count(self.q, SCALE.position, 65535.0) << 40
-            | count(self.qd, SCALE.velocity, 4095.0) << 28
-            | count(torque, SCALE.torque, 4095.0) << 16
-            | 40 << 8
-            | 35;
-        standard(0x11, &all.to_be_bytes())
+        let (is_enabled, error) = (self.status == 1, if self.status > 1 { self.status } else { 0 });
+        let (angle, speed, command) = (self.q, self.qd, self.command);
+        Drive { is_enabled, error, angle, speed, command, ..Drive::new(1, SCALE) }.reply()
     }
 }
 

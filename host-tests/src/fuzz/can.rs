@@ -103,8 +103,9 @@ fn reply(case: &Case, from: &mut Bytes<'_>) -> FdFrame {
         3 => length = LENGTHS[from.below(16)],
         4 => (length, is_remote) = (from.below(9), true),
         5 => {
-            let register = 20 + from.byte() % 5;
-            let [a, b, c, d] = f32::to_le_bytes([12.5, 30.0, 10.0][from.below(3)]);
+            let register = [10, 20, 21, 22, 23, 24][from.below(6)];
+            let [a, b, c, d] =
+                f32::to_le_bytes([12.5, 30.0, 10.0, f32::from_bits(1)][from.below(4)]);
             data[..8].copy_from_slice(&[1, 0, 0x33, register, a, b, c, d]);
         }
         _ => {}
@@ -138,7 +139,9 @@ fn check_register(
     let scale = [(21, DM4310.position), (22, DM4310.velocity), (23, DM4310.torque)];
     let scale = scale.into_iter().find(|(of, _)| *of == register);
     let off = scale.map(|(_, most)| (f32::from_le_bytes(value) - most).abs() / most);
-    assert_eq!(checked.is_ok(), off.is_some_and(|off| off <= 1e-6), "{frame:?}");
+    // The register of the mode is 1.
+    let is_right = (register == 10 && value == [1, 0, 0, 0]) || off.is_some_and(|off| off <= 1e-6);
+    assert_eq!(checked.is_ok(), is_right, "{frame:?}");
 }
 
 fn setpoint(from: &mut Bytes<'_>) -> SetpointAt {

@@ -321,6 +321,19 @@ fn the_boards() {
     trial.on_host();
 }
 
+/// The bench of a project for drives on CAN: thirty mistakes and their lines in the log.
+#[test]
+#[ignore = "builds a project"]
+fn the_bench_of_drives_on_can() {
+    let text = include_str!("project/openarm.rs");
+    let robot = robot("OpenArm", text, [&openarm::JOINTS, &openarm::JOINTS]);
+    let board = Board::find("nucleo-g474re-can", None).expect("a board");
+    let trial = Trial::new("on-bench", robot, Kind::Board(board));
+    let said = trial.run("sh", &["-c", "cd bench && cargo test"]);
+    assert!(said.contains("test result: ok. 9 passed"), "{said}");
+    trial.run("sh", &["-c", "cargo fmt --check && cd bench && cargo fmt --check"]);
+}
+
 /// A mistake in a call is named before the robot is read, and nothing else is.
 #[test]
 fn a_project_that_cannot_be_written_is_refused_at_once() {

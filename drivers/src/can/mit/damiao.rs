@@ -26,8 +26,8 @@
 //! | DM8006 | TMAX 40: the same | 20: `u2canfd` |
 //!
 //! A TMAX that is too large here gives less torque than commanded, never more. Let the firmware
-//! read the three before it enables a drive: [`CanJoints::enable`](crate::CanJoints::enable) does,
-//! elsewhere [`Damiao::read_register`] and [`Damiao::check_register`].
+//! read the three and [`MODE`] before it enables a drive:
+//! [`CanJoints::enable`](crate::CanJoints::enable) does, elsewhere [`Damiao::read_register`] and [`Damiao::check_register`].
 
 use embedded_can::Frame;
 
@@ -53,6 +53,9 @@ const fn scale(velocity: f32, torque: f32) -> Scale {
 /// The register of the time without a command after which the drive is disabled: a whole number of
 /// 50 µs, zero for never.
 pub const TIMEOUT: u8 = 9;
+/// The register of the control mode, a whole number: 1 for MIT mode. In the others a drive enables
+/// itself and answers, and does not obey a command of this driver.
+pub const MODE: u8 = 10;
 /// The register of [`Scale::position`], a float.
 pub const PMAX: u8 = 21;
 /// The register of [`Scale::velocity`], a float.
@@ -126,7 +129,8 @@ impl Damiao {
     ///
     /// # Errors
     /// As [`Self::register`]. [`CanError::Scale`]: the drive has another scale.
-    /// [`CanError::Missing`]: neither of [`PMAX`], [`VMAX`] and [`TMAX`].
+    /// [`CanError::Mode`]: it is not in MIT mode. [`CanError::Missing`]: none of [`PMAX`],
+    /// [`VMAX`], [`TMAX`] and [`MODE`].
     pub fn check_register<F: Frame>(&self, frame: &F) -> Result<u8, CanError> {
         self.checked(frame)
     }
@@ -134,6 +138,7 @@ impl Damiao {
 
 impl Protocol for Identity {
     const SCALES: Option<[u8; 3]> = Some([PMAX, VMAX, TMAX]);
+    const MODE: Option<(u8, u32)> = Some((MODE, 1));
 
     fn new(id: u8, host: u16) -> Result<Self, CanError> {
         let is_one = (1..=15).contains(&id) && host <= 0x7ff;

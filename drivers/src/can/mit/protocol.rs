@@ -55,6 +55,9 @@ pub trait Protocol: Sized {
     /// The registers of the greatest position, velocity and torque, if the drive has them.
     const SCALES: Option<[u8; 3]> = None;
 
+    /// The register of the control mode, and its number for MIT mode, if the drive has one.
+    const MODE: Option<(u8, u32)> = None;
+
     /// The frame that reads a register.
     ///
     /// # Errors

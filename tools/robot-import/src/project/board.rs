@@ -36,6 +36,11 @@ pub(super) struct Parts {
     scales: &'static str,
     /// The constant of the directions of the measurements.
     signs: &'static str,
+    /// The first steps of a power-on, and what an emergency stop does, in Markdown.
+    first: &'static str,
+    stop: &'static str,
+    /// The crates of the project's bench on this computer, if it has one, from its folder.
+    pub bench: &'static [(&'static str, &'static str)],
 }
 
 /// Encoders on SPI, and drives whose input is a PWM.
@@ -46,6 +51,9 @@ const SPI_AND_PWM: Parts = Parts {
     adapt: "encoders and drives: kinds, zeros, directions, torque at a duty of 100 %",
     scales: include_str!("../../template/board/common/scales.md"),
     signs: "`ENCODERS`",
+    first: include_str!("../../template/board/common/first.md"),
+    stop: include_str!("../../template/board/common/stop.md"),
+    bench: &[],
 };
 
 /// Drives in MIT mode, which measure their joints.
@@ -56,6 +64,13 @@ const CAN: Parts = Parts {
     adapt: "the drives: their kind, numbers, scales, zeros, directions",
     scales: include_str!("../../template/board/can/scales.md"),
     signs: "`DRIVES`",
+    first: include_str!("../../template/board/can/first.md"),
+    stop: include_str!("../../template/board/can/stop.md"),
+    bench: &[
+        ("dynamics-core", "dynamics-core"),
+        ("joint-drivers", "drivers"),
+        ("motion-control", "motion-control"),
+    ],
 };
 
 /// A board with the framework of its firmware.
@@ -142,7 +157,17 @@ pub static BOARDS: [Board; 4] = [
         pins: include_str!("../../template/board/nucleo-g474re-can/pins.md"),
         files: [
             RTIC,
-            files!["board/can": "src/board.rs"],
+            files!["board/can":
+                "src/board.rs",
+                "src/board/bus.rs",
+                "bench/Cargo.toml" ".liquid",
+                "bench/.cargo/config.toml",
+                "bench/tests/main.rs" ".liquid",
+                "bench/tests/arm.rs",
+                "bench/tests/damiao_bus.rs",
+                "bench/tests/law.rs",
+                "bench/tests/mistakes.rs",
+            ],
             &[
                 file!("board/nucleo-g474re" / "memory.x"),
                 file!("board/nucleo-g474re-can" / "src/pins.rs"),
@@ -186,7 +211,7 @@ impl Board {
     }
 
     /// The values of its placeholders.
-    pub(super) fn values(&self) -> [(&'static str, String); 10] {
+    pub(super) fn values(&self) -> [(&'static str, String); 12] {
         [
             ("board_name", self.title.to_owned()),
             ("framework_name", self.framework.to_string()),
@@ -198,6 +223,8 @@ impl Board {
             ("adapt", self.parts.adapt.to_owned()),
             ("scales", self.parts.scales.trim_end().to_owned()),
             ("signs", self.parts.signs.to_owned()),
+            ("first", self.parts.first.trim_end().replace("{{signs}}", self.parts.signs)),
+            ("stop", self.parts.stop.trim_end().to_owned()),
         ]
     }
 }

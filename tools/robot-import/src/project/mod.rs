@@ -353,6 +353,19 @@ fn values(project: &Project) -> Result<Vec<Value>, ProjectError> {
         let features = format!("features = [{}]", board.features);
         let support = dependency("firmware-demo/boards/support")?;
         values.push(("board_support", with(&support, &features)));
+        let of_bench = |&(name, folder): &(&str, &str)| {
+            let value = project.library.dependency(folder)?;
+            let inside = format!("path = \"{}/", libraries::FOLDER);
+            let value = value.replace(&inside, &format!("path = \"../{}/", libraries::FOLDER));
+            Ok(format!("{name} = {value}\n"))
+        };
+        let bench: Result<String, ProjectError> = board.parts.bench.iter().map(of_bench).collect();
+        values.push((
+            "bench",
+            format!("{}embedded-can = \"0.4.1\"\nembedded-hal = \"1.0.0\"\nnb = \"1.1.0\"", bench?),
+        ));
+        let members = if board.parts.bench.is_empty() { "" } else { "members = [\"bench\"]\n" };
+        values.push(("members", members.to_owned()));
         let parts = substitute(board.parts.expected, &values);
         values.push(("parts", parts.trim_end().to_owned()));
     }

@@ -83,6 +83,7 @@ pub(super) const COMMON: &[File] = &[
     file!("board/common" / "rust-toolchain.toml" ".liquid"),
     file!("board/common" / "src/lib.rs"),
     file!("board/common" / "src/log.rs"),
+    file!("board/common" / "src/say.rs"),
     file!("board/common" / "src/main.rs" ".liquid"),
 ];
 

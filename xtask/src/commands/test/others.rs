@@ -63,7 +63,7 @@ pub fn projects(context: &Context) -> Result<String> {
     let boards = if lacks() { "" } else { "project::the_boards" };
     context.cargo(&[&format!(
         "test {} --test import -- --ignored --test-threads 1 project::an_arm \
-         project::two_robots_in_c {boards}",
+         project::two_robots_in_c project::the_bench {boards}",
         SHARED.words(context.full)
     )])?;
     Ok(boards.to_owned())

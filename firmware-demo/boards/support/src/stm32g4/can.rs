@@ -70,12 +70,12 @@ impl Can for Bus {
     type Error = ErrorKind;
 
     fn transmit(&mut self, frame: &FdFrame) -> nb::Result<Option<FdFrame>, ErrorKind> {
-        let queued = with_chip(|chip| chip.to_send.push_back(*frame).is_ok());
+        let queued = with_chip(|chip| match chip.to_send.push_back(*frame) {
+            Ok(()) => Ok(None),
+            Err(_) => Err(chip.error().map_or(nb::Error::WouldBlock, nb::Error::Other)),
+        });
         NVIC::pend(Interrupt::FDCAN1_IT0);
-        match queued {
-            Some(true) => Ok(None),
-            _ => Err(nb::Error::WouldBlock),
-        }
+        queued.unwrap_or(Err(nb::Error::WouldBlock))
     }
 
     fn receive(&mut self) -> nb::Result<FdFrame, ErrorKind> {
@@ -99,6 +99,23 @@ const EXTENDED: u32 = 1 << 30;
 const REMOTE: u32 = 1 << 29;
 
 impl Chip {
+    /// The last error of the bus, if frames are not sent for it.
+    #[cold]
+    fn error(&self) -> Option<ErrorKind> {
+        let status = self.can.as_ref()?.psr().read();
+        if status.bo().bit() {
+            return Some(ErrorKind::Other);
+        }
+        match status.lec().bits() {
+            1 => Some(ErrorKind::Stuff),
+            2 => Some(ErrorKind::Form),
+            3 => Some(ErrorKind::Acknowledge),
+            4 | 5 => Some(ErrorKind::Bit),
+            6 => Some(ErrorKind::Crc),
+            _ => None,
+        }
+    }
+
     /// Moves frames between the chip and the queues.
     fn exchange(&mut self) {
         let Some(can) = &self.can else {

@@ -4,26 +4,46 @@
 //! `joint-drivers` has further drives in MIT mode (`mit::robstride`, `mit::cubemars`), and moteus
 //! and ODrive: all that implement `CanJoint`.
 
+use dynamics_core::model::Robot;
 use embedded_can::nb::Can;
 use embedded_hal::digital::OutputPin;
-use joint_drivers::can::CanError;
+use joint_drivers::can::{CanError, Silence};
 use joint_drivers::mit::Scale;
-use joint_drivers::mit::damiao::{DM4310, Damiao};
+use joint_drivers::mit::damiao::{DM4310, DM4340, DM6006, DM8006, DM8009, Damiao};
 use joint_drivers::{CanJoints, ControlLoop, Direction, EncoderMapping, JointError};
-use motion_control::{motion::PreviousTick, safety::Detect};
+use motion_control::limits::{Mode, Status};
+use motion_control::motion::{PreviousTick, ResetError};
+use motion_control::safety::Detect;
 
-use crate::control::{Gains, Measured, controller, encoder_mappings};
-use crate::scene;
+use crate::control::{Measured, controller, encoder_mappings};
+use crate::say::Line;
+use crate::scene::{self, Arm};
 
-pub use crate::control::{FeedForward as Law, Found, SetupError, detectors, gains};
+pub mod bus;
+
+pub use crate::control::{FeedForward as Law, Found, Gains, SetupError, detectors, gains};
 pub use crate::scene::{Motion, N, TICK};
 
 /// A drive in MIT mode.
 pub type Drive = Damiao;
 
 /// The motor of each joint: the greatest position, velocity and torque of its counts, which are the
-/// registers PMAX, VMAX and TMAX of the drive.
-pub const SCALES: [Scale; N] = [DM4310; N];
+/// registers PMAX, VMAX and TMAX of the drive. Here it is the weakest motor that has the joint's
+/// torque in the description: write down yours, such as `[DM4340, DM4340, DM4310]`.
+pub const SCALES: [Scale; N] = {
+    let (mut scales, mut joint) = ([DM4310; N], 0);
+    while joint < N {
+        scales[joint] = match Arm::MODEL.links[joint].limits.torque {
+            ..=10.0 => DM4310,
+            ..=20.0 => DM6006,
+            ..=28.0 => DM4340,
+            ..=40.0 => DM8006,
+            _ => DM8009,
+        };
+        joint += 1;
+    }
+    scales
+};
 /// The angle that the drive of each joint reads at the joint's zero, rad. Its range is in
 /// `scene.rs`.
 pub const ZERO: [f32; N] = [0.0; N];
@@ -98,14 +118,72 @@ pub fn on_brake<Bus: Can, Brake: OutputPin, D: Detect<f32, N>>(
     Ok(control)
 }
 
-/// Lets the drives deliver torque: that of the last command, which is zero on the brake. Returns
-/// whether they do: the first calls, one in each tick, ask them for their scales.
-///
-/// # Errors
-/// [`SetupError::Can`]: a drive has another scale than [`SCALES`], or has no frame.
-pub fn enable<Bus: Can>(drives: &mut &'static Joints<Bus>) -> Result<bool, SetupError> {
-    match drives.enable() {
-        Err(error) if matches!(error.error, CanError::Missing(_)) => Ok(false),
-        enabled => enabled.map(|()| true).map_err(SetupError::Can),
+/// Says what is wrong on the bus, and starts a robot on its brake while the button is pressed.
+#[derive(Debug)]
+pub struct Operator {
+    silence: Silence<N>,
+    /// The drive that has not done what the button asks for, and since how many ticks.
+    waits: Option<JointError<CanError>>,
+    waited: u32,
+    torques: Option<[f32; N]>,
+}
+
+/// Ticks of a second.
+const SECOND: u32 = (1.0 / TICK) as u32;
+
+impl Operator {
+    pub fn new(motion: &Motion) -> Self {
+        let torques = Some(scene::limits(motion).torque);
+        Self { silence: Silence::new(SECOND), waits: None, waited: 0, torques }
+    }
+
+    /// After a tick that is not one of full operation; why the robot does not start.
+    #[cold]
+    #[inline(never)]
+    pub fn tick<Bus: Can, Brake: OutputPin, D: Detect<f32, N>>(
+        &mut self,
+        (now, status): (u32, &Status),
+        control: &mut Control<Bus, Brake, D>,
+        motion: &Motion,
+        is_pressed: bool,
+        mut say: impl FnMut(Line),
+    ) -> Option<ResetError> {
+        if let Some(torques) = self.torques.take() {
+            bus::advice(&torques, &mut say);
+        }
+        let drives: &Joints<Bus> = *control.encoders();
+        let (unread, states) = (drives.unread(), drives.errors());
+        let failed = control.encoder_error().map(|_| &unread);
+        if let Some(silent) = self.silence.update(now, failed) {
+            let sent = control.drive_error().map(|JointError { joint, error }| (joint, *error));
+            bus::silent(&silent, &unread, sent, &mut say);
+        }
+        for (joint, state) in states.into_iter().enumerate() {
+            match state {
+                Ok(()) => {}
+                // The button has not enabled it yet.
+                Err(CanError::NotReady) if matches!(status.mode, Mode::Stopped) => {}
+                Err(error) => say(bus::line(JointError { joint, error })),
+            }
+        }
+        if !is_pressed || !self.silence.is_heard() {
+            self.waited = 0;
+            return None;
+        }
+        let asked = match drives.start_up() {
+            Ok(true) => return control.reset(motion).err(),
+            Ok(false) => None,
+            Err(error) => Some(error),
+        };
+        let not_ready = states.iter().position(|state| *state == Err(CanError::NotReady));
+        let of = |joint| JointError { joint, error: CanError::NotReady };
+        let waits = asked.or(not_ready.map(of));
+        self.waited = if self.waits == waits { self.waited + 1 } else { 0 };
+        self.waits = waits;
+        // A register is asked for in a tick or two, and a drive is then enabled.
+        if let Some(waits) = waits.filter(|_| self.waited > SECOND / 10) {
+            say(bus::line(waits));
+        }
+        None
     }
 }

@@ -5,15 +5,17 @@
 //! `JointDrive`.
 
 use embedded_hal::{digital::OutputPin, pwm::SetDutyCycle, spi::SpiDevice};
-use joint_drivers::as5047p::As5047p;
+use joint_drivers::as5047p::{As5047p, FrameError};
 use joint_drivers::h_bridge::{FullScale, LockedAntiphase};
 use joint_drivers::{ControlLoop, Direction, EncoderType};
-use motion_control::safety::Detect;
+use motion_control::limits::Status;
+use motion_control::{motion::ResetError, safety::Detect};
 
-use crate::control::{Gains, Measured, controller, encoder_mappings};
+use crate::control::{Measured, controller, encoder_mappings};
+use crate::say::Line;
 use crate::scene;
 
-pub use crate::control::{FeedForward as Law, Found, SetupError, detectors, gains};
+pub use crate::control::{FeedForward as Law, Found, Gains, SetupError, detectors, gains};
 pub use crate::scene::{Motion, N, TICK};
 pub use joint_drivers::as5047p::RESOLUTION;
 
@@ -60,12 +62,42 @@ pub fn plan(place: &mut Motion) -> Result<(), SetupError> {
     planned.map(|motion| *place = motion)
 }
 
-/// The drives have an input of their own that enables them, which belongs to the emergency stop.
-///
-/// # Errors
-/// None.
-pub fn enable<Encoders>(_: &mut Encoders) -> Result<bool, SetupError> {
-    Ok(true)
+/// Says what is wrong with the devices, and starts a robot on its brake while the button is pressed.
+/// Of the drives nothing is known: their enable input belongs to the emergency stop.
+#[derive(Debug)]
+pub struct Operator;
+
+impl Operator {
+    pub const fn new(_: &Motion) -> Self {
+        Self
+    }
+
+    /// After a tick that is not one of full operation; why the robot does not start.
+    #[cold]
+    #[inline(never)]
+    pub fn tick<Spi: SpiDevice, Pwm: SetDutyCycle, Brake: OutputPin, D: Detect<f32, N>>(
+        &mut self,
+        (_, _): (u32, &Status),
+        control: &mut Control<Spi, Pwm, Brake, D>,
+        motion: &Motion,
+        is_pressed: bool,
+        mut say: impl FnMut(Line),
+    ) -> Option<ResetError> {
+        if let Some(failed) = control.encoder_error() {
+            say(Line::of(
+                failed.joint,
+                match failed.error {
+                    FrameError::LostTurn => {
+                        "its encoder may have turned unseen: stand it at its home and restart \
+                         the board, or place_near of its encoder"
+                    }
+                    _ => "its encoder does not answer, or wrongly: supply, select, wires, magnet",
+                },
+            ));
+        }
+        let refused = || control.reset(motion).err();
+        is_pressed.then(refused).flatten()
+    }
 }
 
 /// The loop of a robot that stands on its brake until `reset`.

@@ -6,4 +6,5 @@
 pub mod board;
 pub mod control;
 pub mod robot;
+pub mod say;
 pub mod scene;

@@ -1,0 +1,1 @@
+../../../../../../../drivers/tests/damiao_bus.rs

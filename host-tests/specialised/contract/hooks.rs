@@ -292,7 +292,9 @@ fn observed<R: Real, E: Effect<R, 6, 3> + Debug>(scene: &E) -> Vec<f64> {
         format!("{:?}", E::GRAVITY_FIELD),
         format!("{:?}", E::BASE),
         // A wrench is that of the effect itself, or of an inner one.
-        format!("{:?}", E::EXTERNAL_WRENCH).replace("is_own: true", "is_own: false"),
+        format!("{:?}", E::EXTERNAL_WRENCH)
+            .replace("is_own: true, ", "")
+            .replace("is_own: false, ", ""),
         format!("{:?}", E::ADDED_INERTIA),
         format!("{:?}", E::ROTOR),
         format!("{:?}", E::LOAD_FRICTION),

@@ -147,7 +147,14 @@ fn worst_of_all<L: Law>() -> f64 {
 }
 
 fn check_all<L: Law>(law: &str) {
-    tolerances::check("all", law, "f64", worst_of_all::<L>()).unwrap_or_else(|e| panic!("{e}"));
+    let worst = worst_of_all::<L>();
+    // The worst of all robots may be one that is not among the few.
+    let held = if cfg!(feature = "full") {
+        tolerances::check("all", law, "f64", worst)
+    } else {
+        tolerances::within("all", law, "f64", worst).map(|_| ())
+    };
+    held.unwrap_or_else(|e| panic!("{e}"));
 }
 
 #[test]

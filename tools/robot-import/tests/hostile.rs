@@ -1,6 +1,7 @@
 //! Files that are wrong: an error that names line or element, never a panic, in little time.
 
 use std::path::Path;
+use std::sync::LazyLock;
 use std::time::{Duration, Instant};
 
 use robot_import::check::check;
@@ -11,15 +12,25 @@ use robot_import::tree::{Numbers, Tree};
 
 const SO101: &str = include_str!("urdf/so101.urdf");
 
+/// The processor time of this thread on Linux, since other tests run beside it; elsewhere what a
+/// clock says.
+fn time() -> Duration {
+    static START: LazyLock<Instant> = LazyLock::new(Instant::now);
+    let stat = std::fs::read_to_string("/proc/thread-self/schedstat").unwrap_or_default();
+    let ran = stat.split(' ').next().and_then(|ran| ran.parse().ok());
+    ran.map_or_else(|| START.elapsed(), Duration::from_nanos)
+}
+
 /// Everything that an import does, within the time that it may take.
 fn import(text: &str) -> Result<Tree, ImportError> {
-    let start = Instant::now();
+    let start = time();
     let done = parse(text, Path::new(".")).and_then(|robot| {
         let selected = Selection::default().of(&robot)?;
         check(&robot, &selected, 1)?;
         Tree::of(&robot, &selected, Numbers::Exact)
     });
-    assert!(start.elapsed() < Duration::from_secs(2), "{:?}", start.elapsed());
+    let took = time() - start;
+    assert!(took < Duration::from_secs(2), "{took:?}");
     done
 }
 

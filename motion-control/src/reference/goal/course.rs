@@ -190,12 +190,9 @@ impl<R: Real> Start<R> {
             // search begins there if the limit of velocity is far above.
             let v = if level > self.v { positive_part(level) } else { positive_part(self.v) };
             let way = self.length - self.rest + v * acceleration * j_inv;
-            let nearer = root(v * v + acceleration * way);
-            if nearer * R::from_f64(FAR) < velocity {
-                let changes = self.changes(nearer);
-                if changes.length >= self.length {
-                    (top, most) = (nearer, changes);
-                }
+            let square = v * v + acceleration * way;
+            if square * R::from_f64(FAR * FAR) < velocity * velocity {
+                (top, most) = self.nearer(root(square), (top, most));
             }
             // The root of the length beyond rest is nearly linear in p, c = v₀ + (p² − a₀²/2)/j.
             let base = self.v - half * self.a * self.a * j_inv;
@@ -221,6 +218,14 @@ impl<R: Real> Start<R> {
         let (c, changes) = found;
         let cruise = positive_part(self.length - changes.length) / c;
         Fastest { of_one_sign: None, cruise, c, time: cruise + changes.time }
+    }
+
+    /// The changes to a velocity in place of those to a greater one, if their way is long enough.
+    #[cold]
+    #[inline(never)]
+    fn nearer(&self, c: R, far: (R, Changes<R>)) -> (R, Changes<R>) {
+        let changes = self.changes(c);
+        if changes.length >= self.length { (c, changes) } else { far }
     }
 
     /// The jerk j for a time less than that which ends the deceleration, and then to rest.

@@ -150,15 +150,15 @@ impl<R: Real, const V: usize> MovingGoal<R, V> {
     /// use motion_control::reference::{JerkLimits, MovingGoal, Reference};
     /// let limits = [JerkLimits { velocity: 2.0, acceleration: 20.0, jerk: 400.0 }];
     /// let mut goal = MovingGoal::try_new(&[0.0_f32], limits, 1e-3)?;
-    /// let mut change = goal.begin_within(100, &[1.5], &[10.0])?;
+    /// let mut change = goal.begin_within(600, &[1.5], &[10.0])?;
     /// let mut arrival = None;
-    /// for tick in 0..=100 {
+    /// for tick in 0..=600 {
     ///     change.step(|state| [2.0 * state.qdd[0]])?;
     ///     arrival = goal.take(tick, &change)?;
     ///     let _reference = goal.at(tick);
     /// }
     /// // 2 kg·m² within 10 N·m: 4.8 rad/s² in place of 20, and 1.5/2 + 2/4.8 + 4.8/48 s.
-    /// assert!((1360..1370).contains(&arrival.unwrap()));
+    /// assert!((1860..1870).contains(&arrival.unwrap()));
     /// # Ok::<(), Box<dyn core::error::Error>>(())
     /// ```
     ///

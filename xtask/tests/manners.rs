@@ -152,7 +152,7 @@ fn what_apt_refuses_is_unpacked() {
     ] {
         let dir = Dir::new();
         // What an interrupted run and another compiler left is redone.
-        let junk = dir.join("target/unpacked/qemu-system-arm.part/root/junk");
+        let junk = dir.join("target/unpacked/qemu-system-arm.part").join("root").join("junk");
         std::fs::create_dir_all(&junk).expect("a folder");
         let (ran, said) = installing(&dir, uid, apt);
         assert_eq!(ran, calls, "{said}");
@@ -162,7 +162,7 @@ fn what_apt_refuses_is_unpacked() {
         );
         let here = dir.join("target/unpacked/qemu-system-arm");
         assert!(here.join("bin/qemu-system-arm").is_file() && !here.join("apt").exists());
-        assert!(!junk.exists() && !here.join("root/junk").exists());
+        assert!(!junk.exists() && !here.join("root").join("junk").exists());
         // Once there it is used as it is.
         let (again, said) = installing(&dir, uid, "offline");
         assert!(again == ran && said.contains("it builds"), "{said}");

@@ -38,9 +38,13 @@ pub fn lines(packages: &[&str]) -> Vec<String> {
     lines.filter(|_| !packages.is_empty()).collect()
 }
 
-/// Why the packages cannot be installed here, as far as it is known before it is tried.
+/// Why the packages cannot be installed here, as far as it is known before it is tried; none cannot
+/// fail.
 pub fn refusal(packages: &[&str]) -> Option<String> {
-    if !packages.is_empty() && Privilege::this() == Privilege::None {
+    if packages.is_empty() {
+        return None;
+    }
+    if Privilege::this() == Privilege::None {
         return Some("there is neither root nor sudo".to_owned());
     }
     // It changes nothing, and needs no root.

@@ -81,7 +81,7 @@ impl Plan {
         for reason in &self.reasons {
             output::note(&format!("missing: {reason}"));
         }
-        let refused = (!others.is_empty()).then(|| apt::refusal(&others)).flatten();
+        let refused = apt::refusal(&others);
         if let Some(why) = &refused {
             output::note(&format!("not installed: {}, since {why}", others.join(" ")));
         }

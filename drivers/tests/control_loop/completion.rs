@@ -2,7 +2,8 @@
 
 use std::cell::RefCell;
 
-use motion_control::limits::{Command, SafetyLimits, Status};
+use motion_control::law::AccelerationGains;
+use motion_control::limits::{Command, MotionLimits, SafetyLimits, Status};
 use motion_control::reference::Reference;
 use motion_control::safety::{Detect, StopCategory};
 
@@ -225,6 +226,51 @@ fn the_limits_of_a_loop_change_between_ticks() {
     let torques = [(); 20].map(|()| arm.tick::<OfVelocity<true>, _, ()>(&MOVING, &()).torque);
     assert_eq!(torques[19], [0.5, -0.5]);
     assert!(arm.set_limits(&SafetyLimits { torque: [f32::NAN; 2], ..weak }, 1.0).is_err());
+}
+
+/// The acceleration of a joint of 2 kg·m², whose gains are those of accelerations.
+struct Inertia;
+
+impl Law<2, (), AccelerationGains<f32, 2>> for Inertia {
+    fn feedforward(reference: &State<f32, 2, 2>, (): &()) -> [f32; 2] {
+        reference.qdd.map(|qdd| 2.0 * qdd)
+    }
+}
+
+#[test]
+fn gains_of_accelerations_act_through_the_model() {
+    let [encoders, drives] = [0.0; 2].map(|step| Bus { q: 0.0, step });
+    let gains = AccelerationGains { kp: [30.0; 2], kd: [0.0; 2] };
+    let mut arm = ControlLoop::new(encoders, drives, NoBrake, gains, controller(), ());
+    let ahead = State::at([0.05, -0.025]);
+    let torques = [(); 20].map(|()| arm.tick::<Inertia, _, ()>(&ahead, &()).torque);
+    assert_eq!(torques[19], [2.0 * 30.0 * 0.05, -2.0 * 30.0 * 0.025]);
+}
+
+type Still = ControlLoop<Bus, Bus, NoBrake, 2>;
+
+#[test]
+fn a_loop_stops_and_is_led_back_as_its_controller() {
+    let [encoders, drives] = [0.0; 2].map(|step| Bus { q: 0.5, step });
+    let mut arm = ControlLoop::new(encoders, drives, NoBrake, GAINS, controller(), ());
+    fn tick(arm: &mut Still, to: &impl Reference<f32, 2>) -> Option<Fault> {
+        arm.tick::<OfVelocity<true>, _, ()>(to, &()).status.fault
+    }
+    let place = State::at([0.5; 2]);
+    let first = arm.trajectory_tick();
+    assert_eq!((tick(&mut arm, &place), arm.mode()), (None, Mode::Full));
+    assert_eq!((arm.trajectory_tick(), arm.estimate().q), (first + 1, [0.5; 2]));
+    arm.react(Fault::External);
+    assert_eq!(tick(&mut arm, &place), Some(Fault::External));
+    arm.stop(Fault::Model);
+    assert_eq!((tick(&mut arm, &place), arm.mode()), (Some(Fault::Model), Mode::Stopped));
+    // The reference is too far away for a reset, but not for a way there.
+    let far = State::at([-0.5; 2]);
+    assert!(arm.reset(&far).is_err());
+    let limits = [MotionLimits { velocity: 1.0, acceleration: 10.0 }; 2];
+    let path = arm.approach(&far, &limits, &config().supervisor.limits).expect("a way");
+    assert_eq!(arm.reset(&path), Ok(()));
+    assert_eq!((tick(&mut arm, &path), arm.mode()), (None, Mode::Full));
 }
 
 #[test]

@@ -8,7 +8,7 @@ mod terms;
 
 use std::path::Path;
 
-use robot_import::advice::{Topic, advice};
+use robot_import::advice::{Topic, advice, bare_joints};
 use robot_import::check::{MOST, STATES, check, check_trees};
 use robot_import::description::{Description, Kind};
 use robot_import::number::Attitude;
@@ -153,6 +153,21 @@ fn an_unknown_selection_is_an_error_with_a_suggestion() {
     let lock = vec![("elbow_flex".into(), f64::NAN)];
     let text = error(Selection { lock, ..Selection::default() });
     assert!(text.contains("joint `elbow_flex`: it cannot be locked at NaN"), "{text}");
+}
+
+#[test]
+fn a_robot_without_friction_and_rotors_is_named() {
+    let is_bare = |text: &str| {
+        let robot = read(text);
+        let selected = Selection::default().of(&robot).expect("all joints");
+        bare_joints(&Tree::of(&robot, &selected, Numbers::Exact).expect("a tree")).is_some()
+    };
+    let text = include_str!("urdf/so101.urdf");
+    assert!(is_bare(text));
+    for dynamics in [r#"<dynamics damping="0.1"/>"#, r#"<dynamics friction="0.1"/>"#] {
+        let other = text.replace("<limit ", &format!("{dynamics}<limit "));
+        assert!(other != text && !is_bare(&other), "{dynamics}");
+    }
 }
 
 #[test]

@@ -192,9 +192,10 @@ struct Excess {
 
 impl Excess {
     const NONE: Self = Self { at_limit: 0, since: u32::MAX, upper: false, swings: 0 };
-    /// The swings that are no motion's.
+    /// The number of swings in a row that are a limit cycle.
     const MOST: u32 = 8;
-    /// A longer time between two swings, in times that at a limit, is that of a motion.
+    /// A motion, too, has torques at both limits, but with a longer time between them: this multiple
+    /// of the ticks that a torque may be at its limit.
     const APART: u32 = 4;
 }
 

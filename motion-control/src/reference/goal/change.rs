@@ -50,9 +50,9 @@ pub struct GoalChange<R, const V: usize> {
     from: State<R, V, V>,
     goal: [R; V],
     joints: [(Start<R>, Fastest<R>); V],
-    /// The motion of this round, and its limits. The one that is under way is the first to be
-    /// sampled if its goal is set again.
+    /// Whether the motion that is under way goes to this goal, and is sampled first.
     again: bool,
+    /// The motion of this round, and its limits.
     motion: MovingGoal<R, V>,
     limits: [JerkLimits<R>; V],
     torque: [R; V],

@@ -82,7 +82,7 @@ impl<R: Real> Fastest<R> {
 const NEAR: f64 = 0.02;
 /// Steps of the search for a velocity, which only has to be below the root.
 const STEPS: usize = 7;
-/// The ratio of velocities over which these steps do not find the root.
+/// The ratio of velocities over which [`STEPS`] do not find the root.
 const FAR: f64 = 64.0;
 /// Steps of the search for the velocity of a slower motion.
 const SLOWER_STEPS: usize = 3;
@@ -186,8 +186,9 @@ impl<R: Real> Start<R> {
             if least.length > self.length {
                 return self.of_one_sign(level);
             }
-            // A way without a limit of jerk, to the velocity c and back, is shorter: (c² − v²)/a. The
-            // search begins there if the limit of velocity is far above.
+            // With jerk without a limit, a motion from v to c and back takes the way (c² − v²)/a,
+            // which is shorter: no c is above the one of this way. The search starts from there if
+            // the limit of velocity is far above.
             let v = if level > self.v { positive_part(level) } else { positive_part(self.v) };
             let way = self.length - self.rest + v * acceleration * j_inv;
             let square = v * v + acceleration * way;

@@ -453,7 +453,7 @@ impl Display for Advice {
 mod tests {
     use super::Short;
 
-    /// The formatting of floats has the same text of every f32.
+    /// Numbers of the whole range of f32 have the text that the formatting of floats gives them.
     #[test]
     fn a_number_has_the_text_of_the_formatting_of_floats() {
         let usual = |x: f64| match x.abs() {

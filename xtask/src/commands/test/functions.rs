@@ -10,7 +10,7 @@ use crate::kit::error::{Error, Result, bail, check, refuse_if};
 use crate::kit::host_bin::{self, SHARED};
 use crate::kit::meter::{self, Cost};
 use crate::kit::qemu::Run;
-use crate::kit::{firmware, importer, shell};
+use crate::kit::{firmware, importer};
 
 /// The least number of hard cases in QEMU.
 const HARD_CASES: usize = 25;
@@ -25,8 +25,6 @@ const IMPORTED: &str = "tools/robot-import/tests/urdf/so101.urdf";
 
 pub fn build(context: &Context) -> Result<String> {
     let (workspace, tools) = (&context.workspace, &context.tools);
-    let mut clippy = tools.toolchain.firmware(workspace, "clippy");
-    shell::capture(clippy.args(["--lib", "--bins", "--", "-D", "warnings"]))?;
     firmware::build_all(workspace, tools.toolchain)?;
     let folder = tempfile::tempdir().map_err(Error::file("create", &workspace.target))?;
     let path = workspace.root.join(IMPORTED).to_string_lossy().into_owned();

@@ -6,7 +6,7 @@ use super::Context;
 use crate::kit::error::{Result, refuse_if};
 use crate::kit::host_bin::{SHARED, SIMULATED, Together};
 use crate::kit::sources::sources;
-use crate::kit::workspace;
+use crate::kit::{shell, workspace};
 
 /// All but the firmware, whose bins link only for a Cortex-M.
 const WITHOUT_FIRMWARE: &str = "--exclude firmware-demo --exclude lab-firmware";
@@ -20,7 +20,9 @@ fn everything() -> String {
 pub fn clippy(context: &Context) -> Result<String> {
     // It reads the part of the firmware that runs anywhere, too, since others depend on it.
     let words = "--all-targets -- -D warnings";
-    context.cargo(&[format!("clippy {} {WITHOUT_FIRMWARE} {words}", everything())])
+    context.cargo(&[format!("clippy {} {WITHOUT_FIRMWARE} {words}", everything())])?;
+    let mut firmware = context.tools.toolchain.firmware(&context.workspace, "clippy");
+    shell::capture(firmware.args(["--lib", "--bins", "--", "-D", "warnings"]))
 }
 
 /// The files of tests beside a `main.rs` that does not name them, which cargo would not compile.

@@ -54,7 +54,7 @@ struct Context {
 #[rustfmt::skip]
 const STEPS: &[Step] = &[
     ("fmt", Host, Everyday, "rustfmt has nothing to change", |c| c.cargo(&["fmt --all --check", &format!("fmt --manifest-path {BOARDS} --all --check")])),
-    ("clippy", Host, Full, "clippy has nothing to say of the host crates", host::clippy),
+    ("clippy", Host, Full, "clippy has nothing to say of the host crates and of the firmware", host::clippy),
     ("host", Host, Everyday, "the host tests pass", host::tests),
     ("simulations", Host, Full, "arms that are simulated for seconds to hours behave as claimed", host::simulations),
     ("doctests", Host, Everyday, "the examples in the documentation and those of the library run", package::examples),
@@ -62,7 +62,7 @@ const STEPS: &[Step] = &[
     ("features", Host, Full, "the library builds with its oldest compiler, and its features for the target; they change no number", package::features),
     ("package", Host, Full, "the crates to be published package with their licences, and build from their packages alone", package::package),
     ("deny", Host, Full, "dependencies, their licences and their sources are those that deny.toml allows", package::deny),
-    ("firmware", Target, Full, "clippy has nothing to say of the firmware, whose bins build, as do the guide's programs and the servo bus under Embassy; an imported robot is checked, and measured in QEMU", functions::build),
+    ("firmware", Target, Full, "the firmware's bins build, as do the guide's programs and the servo bus under Embassy; an imported robot is checked, and measured in QEMU", functions::build),
     ("meter", Target, Everyday, "the cycle meter agrees with sequences counted by hand", functions::meter),
     ("bits", Host, Everyday, "the host and QEMU compute the same bits", functions::bits),
     ("scene", Target, Everyday, "every scene runs to its end and tracks within its bound, the default one better than PD as promised; in a full run, one runs twice and gives the same bytes", scenes::runs),

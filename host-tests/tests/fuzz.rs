@@ -1,14 +1,10 @@
 //! The fuzz targets on a fixed stream of bytes: the bounded run of the package `host-tests/fuzz`.
 //! The package `simulation-tests`, which is optimised, has more of them.
 
+use crate::common::few_or_many;
 use host_tests::fuzz::{BYTES_PER_FRAME, can_frames, controller, description, dynamics, frames};
 use host_tests::random::random_numbers;
 use proptest::prelude::RngExt;
-
-/// A number of inputs: few without optimisation, and many in `simulation-tests`.
-const fn few_or_many(few: usize, many: usize) -> usize {
-    if cfg!(debug_assertions) { few } else { many }
-}
 
 fn run(target: fn(&[u8]), inputs: usize) {
     let rng = &mut random_numbers();

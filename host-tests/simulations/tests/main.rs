@@ -18,6 +18,7 @@ mod impedance;
 mod integrators;
 mod jog;
 mod momentum_observer;
+#[path = "../../tests/moving_goal.rs"]
 mod moving_goal;
 mod panda_payload;
 mod parameter_estimator;
@@ -29,6 +30,7 @@ mod so101;
 mod so101_record;
 mod soak;
 mod taught_path;
+#[path = "../../tests/tip_motion.rs"]
 mod tip_motion;
 mod true_motion;
 mod wheel_leg;

@@ -18,6 +18,11 @@ pub const Q: usize = 22;
 pub const V: usize = 20;
 pub type Tree = Model<f64, B, Q, V>;
 
+/// A number of inputs: few without optimisation, and many in `simulation-tests`.
+pub const fn few_or_many(few: usize, many: usize) -> usize {
+    if cfg!(debug_assertions) { few } else { many }
+}
+
 /// Random numbers of a fixed seed: splitmix64 (Steele, Lea & Flood, 2014).
 pub struct Rng(u64);
 

@@ -15,7 +15,7 @@ use motion_control::reference::{
 };
 use serde::Deserialize;
 
-use crate::common::Rng;
+use crate::common::{Rng, few_or_many};
 
 const TICK: f32 = 1e-3;
 /// The delay of a change that is spread over ticks.
@@ -182,19 +182,20 @@ fn random_goals(goals: u32, mut out: impl Write) -> Seen {
 
 /// `GOALS=FILE` writes the problems and durations for `host-tests/oracle/moving_goals.py FILE`.
 #[test]
-fn a_hundred_thousand_goals_exceed_no_limit() {
+fn random_goals_exceed_no_limit() {
     let file = std::env::var_os("GOALS").map(|path| File::create(path).unwrap());
+    let goals = few_or_many(100, 100_000) as u32;
     let seen = match file {
-        Some(file) => random_goals(100_000, BufWriter::new(file)),
-        None => random_goals(100_000, std::io::sink()),
+        Some(file) => random_goals(goals, BufWriter::new(file)),
+        None => random_goals(goals, std::io::sink()),
     };
-    assert_eq!(seen.goals, 100_000);
-    // The limits are used to 1.6e-5, which is left for rounding.
+    assert_eq!(seen.goals, goals);
+    // The limits are used, but for what is left for rounding.
     for share in seen.shares {
-        assert!((0.9999..=1.0).contains(&share), "{seen:?}");
+        assert!((0.999..=1.0).contains(&share), "{seen:?}");
     }
     assert!(seen.apart < 2e-6, "{seen:?}");
-    assert!(seen.joints > 300_000 && seen.early < seen.joints / 1000, "{seen:?}");
+    assert!(seen.joints > 3 * goals && seen.early <= seen.joints / 1000, "{seen:?}");
 }
 
 /// A motion whose positions are off by this factor.
@@ -329,12 +330,13 @@ fn goals_within_torques(goals: u32, around: f64, width: f32) -> Within {
 
 #[test]
 fn random_goals_keep_limits_of_torque() {
-    for (goals, around, width) in [(3_000, 1.2, 0.02), (1_000, 3.0, 0.02), (1_000, 2.5, 0.002)] {
+    for (many, around, width) in [(3_000, 1.2, 0.02), (1_000, 3.0, 0.02), (1_000, 2.5, 0.002)] {
+        let goals = few_or_many(many / 200, many) as u32;
         let seen = goals_within_torques(goals, around, width);
-        assert!(seen.within < 1.02 && seen.refused < goals / 100, "{seen:?}");
+        assert!(seen.within < 1.02 && seen.refused <= goals / 100, "{seen:?}");
         assert!(seen.steps <= GoalChange::<f32, 6>::MOST_STEPS, "{seen:?}");
         // Without the limits of torque they are exceeded.
-        assert!(seen.without > 1.9 && seen.beyond > goals / 2, "{seen:?}");
+        assert!(seen.without > 1.5 && seen.beyond >= goals / 5, "{seen:?}");
     }
 }
 

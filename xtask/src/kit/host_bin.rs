@@ -19,10 +19,10 @@ pub struct Together {
     folder: &'static str,
 }
 
-/// All but those that simulate. xtask is there already, with features of its own.
+/// All but those that simulate; identification without its files. xtask is there already, with features of its own.
 pub const SHARED: Together = Together {
     packages: "--workspace --exclude xtask --exclude telemetry-watch --exclude firmware-demo \
-         --exclude lab-firmware --exclude identification --exclude simulation-tests",
+         --exclude lab-firmware --exclude simulation-tests",
     // Hard cases that compute for minutes are optimised.
     full: "--features dynamics-c/full,host-tests/full,robot-import/full \
          --config profile.dev.package.dynamics-c.opt-level=1 \

@@ -25,6 +25,7 @@ fn random() -> Vec<f64> {
 
 /// `EXCITATION_WRITE=1` writes the file of the firmware.
 #[test]
+#[cfg_attr(debug_assertions, ignore = "a search takes long")]
 fn the_search_is_repeatable_and_as_good_as_recorded() {
     let brief = Search { starts: 1, steps: 30, ..SEARCH };
     assert_eq!(search(brief), search(brief));

@@ -28,7 +28,7 @@ pub fn assert_possible(set: &PhysicalSet<6, 6>) {
 fn the_physical_set_agrees_as_well_as_the_truth() {
     let nominal = Parameters::nominal();
     let mut impossible = 0;
-    for seed in 0..10 {
+    for seed in 0..few_or_many(2, 10) {
         let truth = Parameters::off(seed);
         let found = identified(&ARM, &truth, seed);
         let set = found.physical(&*ARM, &nominal.bodies, &nominal.joints, 10.0);
@@ -44,7 +44,7 @@ fn the_physical_set_agrees_as_well_as_the_truth() {
         let stated = misfit(ARM.of_all(&set.bodies, &set.joints));
         assert!((stated - set.misfit).abs() < 1e-6, "{stated} {}", set.misfit);
         assert!(set.misfit < 1.001 * misfit(truth.base()), "{seed}");
-        impossible += usize::from(set.misfit > 0.05);
+        impossible += u64::from(set.misfit > 0.05);
     }
-    assert!(impossible > 3, "{impossible}");
+    assert!(impossible > few_or_many(0, 3), "{impossible}");
 }

@@ -54,6 +54,11 @@ pub static CHOSEN: LazyLock<FourierMotion<6>> = LazyLock::new(|| {
     }
 });
 
+/// A number of arms: few without optimisation, and many where tests simulate.
+pub const fn few_or_many(few: u64, many: u64) -> u64 {
+    if cfg!(debug_assertions) { few } else { many }
+}
+
 /// States of a period.
 pub fn states(motion: &FourierMotion<6>, count: u32) -> Vec<State<f64, 6, 6>> {
     let time = |k| motion.period * f64::from(k) / f64::from(count);

@@ -28,6 +28,18 @@
 //! A TMAX that is too large here gives less torque than commanded, never more. Let the firmware
 //! read the three and [`MODE`] before it enables a drive:
 //! [`CanJoints::enable`](crate::CanJoints::enable) does, elsewhere [`Damiao::read_register`] and [`Damiao::check_register`].
+//!
+//! # Rotors and friction
+//! A description of the links has neither. Per motor, at the joint, for `<dynamics>` in the URDF or
+//! `armature` in MJCF until an identification finds those of your arm:
+//!
+//! | motor | gear | rotor, kg·m² | Coulomb friction, N·m | viscous friction, N·m·s/rad |
+//! |---|---|---|---|---|
+//! | DM4310 | 10 | 1.8e-3 | 0.05 to 0.17 | 0.03 to 0.08 |
+//! | DM4340 | 40 | 3.2e-2 | 0.17 to 0.4 | 0.6 to 0.8 |
+//! | DM8009 | 9 | 1.58e-2 | 0.31 | 0.063 |
+//!
+//! Their sources are those of `dynamics_core::robots::OpenArm`; no source is known for the others.
 
 use embedded_can::Frame;
 

@@ -47,15 +47,6 @@ impl Bound {
     }
 }
 
-/// The ways in which values are enclosed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Enclosure {
-    /// Operation by operation.
-    Plain,
-    /// With sums written out: [`crate::forms`].
-    WrittenOut,
-}
-
 /// The function of one output, ready to be bounded over many boxes.
 #[derive(Clone, Debug)]
 pub struct Bounder {
@@ -82,13 +73,7 @@ pub struct Bounder {
 
 impl Bounder {
     /// The bounder of a graph's output, whose inputs are the robot's; `None` if one is not.
-    pub fn new(
-        graph: &Graph,
-        output: usize,
-        robot: &Robot,
-        sines: SineErrors,
-        enclosure: Enclosure,
-    ) -> Option<Self> {
+    pub fn new(graph: &Graph, output: usize, robot: &Robot, sines: SineErrors) -> Option<Self> {
         let graph = graph.of_output(output);
         let leaf = |node: &Node| match node {
             Node::Input(input) => robot.leaf(*input).map(Some),
@@ -96,15 +81,8 @@ impl Bounder {
         };
         let leaves: Vec<Option<Leaf>> = graph.nodes.iter().map(leaf).collect::<Option<_>>()?;
         let zero = vec![Interval::default(); graph.nodes.len()];
-        let (sums, uses) = match enclosure {
-            Enclosure::Plain => (
-                vec![None; graph.nodes.len()],
-                forms::of_adjoints(&graph, &vec![None; graph.nodes.len()]),
-            ),
-            Enclosure::WrittenOut => {
-                (forms::of_values(&graph, &leaves), forms::of_adjoints(&graph, &leaves))
-            }
-        };
+        let sums = forms::of_values(&graph, &leaves);
+        let uses = forms::of_adjoints(&graph, &leaves);
         let sectors = vec![Sector::default(); robot.joints.len()];
         let relative = |node: &Node| match *node {
             Node::InverseRoot(_, guess) => roots::relative_error(guess),
@@ -123,21 +101,6 @@ impl Bounder {
             errors: vec![0.0; graph.nodes.len()],
             graph,
         })
-    }
-
-    /// The graph of the output alone.
-    pub fn graph(&self) -> &Graph {
-        &self.graph
-    }
-
-    /// The sum that a node's adjoint is.
-    pub fn adjoint_form(&self, node: usize) -> &Form {
-        &self.uses[node]
-    }
-
-    /// The coordinate that an input node stands for; `None` for other nodes.
-    pub fn leaf(&self, node: usize) -> Option<Leaf> {
-        self.leaves[node]
     }
 
     /// The coordinates that the output depends on.
@@ -184,7 +147,6 @@ impl Bounder {
                 Node::Literal(0.0) => (Interval::default(), 0.0),
                 Node::Literal(x) => (Interval::point(x.into()), half_ulp(f64::from(x).abs())),
                 Node::Neg(a) => (-values[a], 0.0),
-                Node::Abs(a) => (values[a].abs(), 0.0),
                 Node::InverseRoot(a, _) => {
                     let exact = Interval::point(1.0) / values[a].root();
                     let is_tried = roots::RANGE.contains(&values[a].low)
@@ -215,14 +177,12 @@ impl Bounder {
         }
     }
 
-    /// The derivatives of a quotient, a root or an absolute value by its operands, at any point
-    /// between exact and computed values. |a| has none at zero; the mean value theorem holds with a
-    /// number from −1 to 1 there (Lebourg 1975).
+    /// The derivatives of a quotient or a root by its operands, at any point between exact and
+    /// computed values.
     fn slopes_of(&self, k: usize) -> [Interval; 2] {
         let (values, one) = (&self.values, Interval::point(1.0));
         let first = match self.graph.nodes[k] {
             Node::Div(_, b) => return [one / values[b], -(values[k] / values[b])],
-            Node::Abs(_) => Interval::new(-1.0, 1.0),
             Node::Sqrt(a) => one / values[a].root().times(2.0),
             Node::InverseRoot(a, _) => -(one / (values[a] * values[a].root()).times(2.0)),
             _ => Interval::default(),

@@ -2,19 +2,16 @@
 
 use sha2::{Digest, Sha256};
 
-use crate::certificate::Subject;
 use crate::digits;
 use crate::error::{Error, Result};
-use crate::function::Function;
+use crate::function::{Function, expression};
 use crate::image::{Image, hexadecimal};
 
 /// A part of the page, between its marks, or the record of configurations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum Part {
-    /// The proven errors of torques and matrices.
+    /// The proven errors of torques.
     Certificates,
-    /// The proven errors of forward dynamics.
-    Forward,
     /// Those of the robot with a kinematic loop.
     Clusters,
     /// The record docs/accuracy-proven.json.
@@ -62,7 +59,7 @@ const BEFORE_SUM: &str = "<!-- sum of the above: ";
 /// # Errors
 /// [`Error::Page`], with the row.
 pub fn numbers(page: &str) -> Result<()> {
-    for part in [Part::Certificates, Part::Forward, Part::Clusters] {
+    for part in [Part::Certificates, Part::Clusters] {
         let (name, begin, end) = markers(part);
         let block = page.split_once(&begin).and_then(|(_, rest)| rest.split_once(&end));
         let Some((block, _)) = block else {
@@ -72,8 +69,7 @@ pub fn numbers(page: &str) -> Result<()> {
         let mut head: Vec<&str> = Vec::new();
         for row in rows {
             let cells: Vec<&str> = row.trim_matches('|').split('|').map(str::trim).collect();
-            if cells.first().is_some_and(|cell| cell.parse::<f64>().is_err() && !cell.contains(','))
-            {
+            if cells.first().is_some_and(|cell| cell.parse::<f64>().is_err()) {
                 head = cells;
                 continue;
             }
@@ -101,7 +97,7 @@ pub fn numbers(page: &str) -> Result<()> {
 /// [`Error::Stale`], [`Error::Missing`] of a function that the program does not have.
 pub fn hashes(image: &Image, functions: &[Function], robot: &str, page: &str) -> Result<()> {
     for function in functions {
-        let hash = image.hash(&Subject::of(image, *function)?.walked.visited);
+        let hash = image.hash(&expression(image, *function)?.visited);
         hash_of(page, robot, *function, &hash)?;
     }
     Ok(())

@@ -18,7 +18,7 @@ use dynamics_core::trig::{Minimax, Table};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
-use crate::bound::{Bounder, Enclosure, SineErrors};
+use crate::bound::{Bounder, SineErrors};
 use crate::branch;
 use crate::certificate::in_parallel;
 use crate::error::{Error, Result};
@@ -257,7 +257,7 @@ pub fn each(
     let joints = in_parallel(own.outputs.len(), |output| {
         let graph = own.of_output(output);
         let by_parts = |sines: &SineErrors| {
-            let mut bounder = Bounder::new(own, output, robot, *sines, Enclosure::WrittenOut)?;
+            let mut bounder = Bounder::new(own, output, robot, *sines)?;
             let proven = branch::prove(&mut bounder, &robot.whole(), spent.parts);
             Some(proven.bound.total())
         };

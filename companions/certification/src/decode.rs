@@ -92,8 +92,6 @@ pub enum Instruction {
     Arithmetic { op: Arithmetic, d: u8, n: u8, m: u8 },
     /// d = −m
     Negate { d: u8, m: u8 },
-    /// d = |m|
-    Absolute { d: u8, m: u8 },
     /// d = √m
     Root { d: u8, m: u8 },
     /// Compares d with m, or with zero if there is none.
@@ -120,11 +118,6 @@ pub enum Instruction {
     IfThen { state: u8 },
     /// d = n m + a
     MultiplyAdd { d: u8, n: u8, m: u8, a: u8 },
-    /// d = the number of zeros before the first one of m
-    LeadingZeros { d: u8, m: u8 },
-    /// TBB, TBH: branches forward by twice entry m of the table at n, whose entries are bytes or
-    /// halfwords.
-    TableBranch { n: u8, m: u8, shift: u8 },
     /// Memory of any size at n + offset; n may be the program counter.
     Access(Access),
     /// Several registers are loaded from or stored to consecutive words.
@@ -286,11 +279,6 @@ fn of_core(name: &str, of: Operation) -> Option<Instruction> {
             Instruction::Integer { op: Integer::Xor, d, n: m, by: Operand::Constant(!0), flags }
         }
         "multiply_add" => Instruction::MultiplyAdd { d, n, m, a: register(of, "a") },
-        "leading_zeros" => Instruction::LeadingZeros { d, m },
-        "table_branch" => {
-            let shift = number("h") as u8;
-            Instruction::TableBranch { n, m, shift }
-        }
         "ldm" | "stm" => {
             let mut registers = of.field("l").unwrap_or(1 << (t & 15)) as u16;
             // The ninth bit of PUSH and POP.
@@ -361,7 +349,6 @@ fn of_reals(name: &str, of: Operation) -> Option<Instruction> {
         "vnmul" => op(Arithmetic::NegatedMul),
         "vdiv" => op(Arithmetic::Div),
         "vneg" => Instruction::Negate { d, m },
-        "vabs" => Instruction::Absolute { d, m },
         "vsqrt" => Instruction::Root { d, m },
         "vmov" => Instruction::Copy { d, m },
         // For numbers that are no NaN, the form that signals NaNs compares in the same way.

@@ -17,12 +17,6 @@ pub enum Error {
     /// The program has no such variable.
     #[error("the program has no {0}")]
     Missing(String),
-    /// Machine code of forward dynamics is not that of the factors of M.
-    #[error("forward dynamics: {what} is not as the recursion of LᵀDL has it")]
-    Factors {
-        /// The part of the computation that differs.
-        what: String,
-    },
     /// A page or file is of other machine code.
     #[error("{0} is not of today's machine code: run `certify --write`")]
     Stale(String),
@@ -87,14 +81,6 @@ pub enum Error {
         bound: f64,
         /// The error of a state that was found.
         observed: f64,
-    },
-    /// A position has a lesser eigenvalue than is proven.
-    #[error("the inertia matrix is proven to be above {proven:e}, and {found:e} was found")]
-    Floor {
-        /// The proven lower bound of the eigenvalues.
-        proven: f64,
-        /// The lesser eigenvalue that a position has.
-        found: f64,
     },
     /// A call took more cycles than its machine code says, or not as many although nothing branches
     /// on data.

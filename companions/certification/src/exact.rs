@@ -9,7 +9,7 @@ use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::state::State;
 use firmware_demo::robots::FourBarLeg;
 
-use crate::bodies::{Body, Moves, Position, Vector, cross, inertia_matrix, plus};
+use crate::bodies::{Body, Moves, Position, Vector, cross, plus};
 use crate::error::Result;
 use crate::function::Function;
 
@@ -59,29 +59,12 @@ impl Exact {
             }
         };
         let still = vec![0.0; n];
-        // The results of forward dynamics are the biases, then the matrix.
-        let (first, [qd, qdd]) = match self.function {
-            one if one.is_matrix() => (0, [&*still; 2]),
-            one if one.matrix().is_some() => (n, [part(1), &still]),
-            Function::Gravity => (usize::MAX, [&*still; 2]),
-            _ => (usize::MAX, [part(1), part(2)]),
+        let [qd, qdd] = match self.function {
+            Function::Gravity => [&*still; 2],
+            _ => [part(1), part(2)],
         };
-        let torques = match first {
-            0 => Vec::new(),
-            _ => torques(bodies, part(0), qd, qdd),
-        };
-        let matrix = match first {
-            usize::MAX => Vec::new(),
-            _ => {
-                let at: Vec<Position<f64>> = part(0).iter().map(|q| Position::at(*q)).collect();
-                inertia_matrix(bodies, n, &at)
-            }
-        };
-        let result = |place: usize| match place.checked_sub(first) {
-            None => torques[place],
-            Some(entry) => matrix[(entry / n).max(entry % n)][(entry / n).min(entry % n)],
-        };
-        places.map(result).collect()
+        let torques = torques(bodies, part(0), qd, qdd);
+        places.map(|place| torques[place]).collect()
     }
 }
 
@@ -89,13 +72,13 @@ impl Exact {
 const EARTH: f64 = 9.81;
 
 /// Inverse dynamics by Newton's and Euler's equations, each body in its own frame.
-pub fn torques(bodies: &[Body], q: &[f64], qd: &[f64], qdd: &[f64]) -> Vec<f64> {
-    let at: Vec<Position<f64>> = q.iter().map(|q| Position::at(*q)).collect();
-    let dot = |a: Vector<f64>, b: Vector<f64>| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+fn torques(bodies: &[Body], q: &[f64], qd: &[f64], qdd: &[f64]) -> Vec<f64> {
+    let at: Vec<Position> = q.iter().map(|q| Position::at(*q)).collect();
+    let dot = |a: Vector, b: Vector| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     let none = [0.0; 3];
     // For each body, its angular velocity and acceleration, and the acceleration of its origin.
-    let mut moving: Vec<[Vector<f64>; 3]> = Vec::new();
-    let mut loads: Vec<[Vector<f64>; 2]> = Vec::new();
+    let mut moving: Vec<[Vector; 3]> = Vec::new();
+    let mut loads: Vec<[Vector; 2]> = Vec::new();
     for body in bodies {
         let base = [none, none, [0.0, 0.0, EARTH]];
         let [w, dw, a] = body.parent.map_or(base, |parent| moving[parent]);
@@ -115,8 +98,7 @@ pub fn torques(bodies: &[Body], q: &[f64], qd: &[f64], qdd: &[f64]) -> Vec<f64> 
         }
         let [mass, x, y, z, xx, xy, xz, yy, yz, zz] = body.inertia;
         let first = [x, y, z];
-        let second =
-            |x: Vector<f64>| [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]].map(|row| dot(row, x));
+        let second = |x: Vector| [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]].map(|row| dot(row, x));
         let spin = plus(cross(dw, first), cross(w, cross(w, first)));
         let force = plus(a.map(|a| a * mass), spin);
         let moment = plus(second(dw), plus(cross(w, second(w)), cross(first, a)));

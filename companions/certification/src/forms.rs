@@ -37,8 +37,8 @@ pub struct Form {
     pub rotations: Vec<Rotation>,
     /// The nodes whose rounding errors the sum has beside these.
     pub errors: Sum,
-    /// For adjoints: the nodes that are quotients, roots or absolute values, and which operand is
-    /// meant, the first or the second.
+    /// For adjoints: the nodes that are quotients or roots, and which operand is meant, the first
+    /// or the second.
     pub steep: Vec<(usize, usize)>,
 }
 
@@ -152,7 +152,7 @@ pub fn of_adjoints(graph: &Graph, leaves: &[Option<Leaf>]) -> Vec<Form> {
                 steep[a].push((k, 0));
                 steep[b].push((k, 1));
             }
-            Node::Sqrt(a) | Node::InverseRoot(a, _) | Node::Abs(a) => steep[a].push((k, 0)),
+            Node::Sqrt(a) | Node::InverseRoot(a, _) => steep[a].push((k, 0)),
             Node::Input(_) | Node::Literal(_) => {}
         }
     }

@@ -30,8 +30,6 @@ pub enum Node {
     InverseRoot(usize, Guess),
     /// −a, exact
     Neg(usize),
-    /// |a|, exact
-    Abs(usize),
 }
 
 /// A guess of 1/√x, the number whose bits are a magic number less half of those of x, and the steps
@@ -69,7 +67,6 @@ impl Node {
             Self::Sqrt(a) => Self::Sqrt(to(a)),
             Self::InverseRoot(a, guess) => Self::InverseRoot(to(a), guess),
             Self::Neg(a) => Self::Neg(to(a)),
-            Self::Abs(a) => Self::Abs(to(a)),
         }
     }
 }
@@ -97,8 +94,6 @@ pub trait Number: Copy + std::ops::Neg<Output = Self> {
     fn div(self, b: Self) -> Self;
     /// √a
     fn sqrt(self) -> Self;
-    /// |a|
-    fn abs(self) -> Self;
     /// 1/√a
     fn inverse_root(self, guess: Guess) -> Self;
 }
@@ -123,9 +118,6 @@ macro_rules! number {
             }
             fn sqrt(self) -> Self {
                 <$type>::sqrt(self)
-            }
-            fn abs(self) -> Self {
-                <$type>::abs(self)
             }
             fn inverse_root(self, guess: Guess) -> Self {
                 $inverse_root(guess, self)
@@ -156,7 +148,6 @@ impl Graph {
                 Node::Sqrt(a) => values[a].sqrt(),
                 Node::InverseRoot(a, guess) => values[a].inverse_root(guess),
                 Node::Neg(a) => -values[a],
-                Node::Abs(a) => values[a].abs(),
             };
             values.push(value);
         }
@@ -192,10 +183,8 @@ impl Graph {
 
     /// The number of rounded operations.
     pub fn operations(&self) -> usize {
-        let rounds = |node: &&Node| {
-            use Node::{Abs, Input, Literal, Neg};
-            !matches!(node, Input(_) | Literal(_) | Neg(_) | Abs(_))
-        };
+        let rounds =
+            |node: &&Node| !matches!(node, Node::Input(_) | Node::Literal(_) | Node::Neg(_));
         self.nodes.iter().filter(rounds).count()
     }
 }
@@ -205,6 +194,6 @@ pub fn operands(node: Node) -> [Option<usize>; 2] {
     match node {
         Node::Input(_) | Node::Literal(_) => [None, None],
         Node::Add(a, b) | Node::Sub(a, b) | Node::Mul(a, b) | Node::Div(a, b) => [Some(a), Some(b)],
-        Node::Sqrt(a) | Node::InverseRoot(a, _) | Node::Neg(a) | Node::Abs(a) => [Some(a), None],
+        Node::Sqrt(a) | Node::InverseRoot(a, _) | Node::Neg(a) => [Some(a), None],
     }
 }

@@ -187,7 +187,6 @@ impl Builder<'_> {
             Node::Literal(0.0) => Polynomial::new(),
             Node::Literal(x) => self.literal(x.into()),
             Node::Neg(a) => negated(&self.values[a]),
-            Node::Abs(_) => return None,
             Node::Add(a, b) | Node::Sub(a, b) => {
                 let (a, b) = (self.values[a].clone(), self.values[b].clone());
                 let mut sum = self.product(&a, &one, false)?;
@@ -332,7 +331,7 @@ fn times(m: Monomial, n: Monomial) -> Option<Monomial> {
 
 impl Program {
     /// Translates a graph of one output; `None` if it is no such polynomial, since it has a higher
-    /// degree in speeds, a quotient by speeds, a root of them, or an absolute value.
+    /// degree in speeds, a quotient by speeds, or a root of them.
     pub fn new(graph: &Graph, robot: &Robot) -> Option<Self> {
         let n = robot.joints.len();
         let whole = robot.whole();
@@ -400,7 +399,7 @@ impl Program {
                     None => (vec![0; n], 0.0),
                 },
                 Node::Literal(x) => (vec![0; n], f64::from(x).abs()),
-                Node::Neg(a) | Node::Abs(a) => (degrees[a].clone(), absolute[a]),
+                Node::Neg(a) => (degrees[a].clone(), absolute[a]),
                 Node::Add(a, b) | Node::Sub(a, b) => {
                     (larger(&degrees[a], &degrees[b]), absolute[a] + absolute[b])
                 }
@@ -414,7 +413,7 @@ impl Program {
         for k in (0..nodes).rev() {
             let (degree, size) = (degrees[nodes + k].clone(), absolute[nodes + k]);
             let propagated = match graph.nodes[k] {
-                Node::Neg(a) | Node::Abs(a) => vec![(a, degree, size)],
+                Node::Neg(a) => vec![(a, degree, size)],
                 Node::Add(a, b) | Node::Sub(a, b) => {
                     vec![(a, degree.clone(), size), (b, degree, size)]
                 }

@@ -90,14 +90,6 @@ impl Interval {
         let low = if self.low <= 0.0 && self.high >= 0.0 { 0.0 } else { down(a.min(b)).max(0.0) };
         Self::new(low, up(a.max(b)))
     }
-}
-
-impl Interval {
-    /// The range of |x|.
-    #[inline]
-    pub fn abs(self) -> Self {
-        Self::new(self.low.max(-self.high).max(0.0), self.magnitude())
-    }
 
     /// √x of the numbers that have one.
     #[inline]

@@ -9,10 +9,7 @@
 //! | [`grid`] | the error over all angles, by a grid of them |
 //! | [`sines`], [`roots`] | the errors of sines and of reciprocal roots, by trying every number |
 //! | [`paths`] | that every state of the box takes the path that was followed at a branch |
-//! | [`bodies`], [`taylor`] | the robot's bodies, in numbers and over parts of the box |
-//! | [`floor`], [`peel`], `positive` | the least eigenvalue of the inertia matrix |
-//! | [`exact`] | the functions that are proven, in f64 |
-//! | [`factors`], [`forward`] | that forward dynamics solves with factors of the inertia matrix, and its error relative to the condition of that |
+//! | [`bodies`], [`exact`] | the robot's bodies, and the functions that are proven, in f64 |
 //! | [`configurations`] | the errors of other kernels of sines and of other models |
 //! | [`search`] | the worst error that is found |
 //! | [`certificate`], `output`, [`page`] | what was proven, as data and text |
@@ -35,12 +32,9 @@ mod digits;
 pub mod emulation;
 pub mod error;
 pub mod exact;
-pub mod factors;
 mod flags;
-pub mod floor;
 mod flow;
 pub mod forms;
-pub mod forward;
 mod function;
 pub mod graph;
 pub mod grid;
@@ -52,8 +46,6 @@ mod output;
 pub mod page;
 mod parts;
 pub mod paths;
-pub mod peel;
-mod positive;
 pub mod program;
 pub mod roots;
 pub mod search;
@@ -61,6 +53,5 @@ pub mod sines;
 pub mod stack;
 pub mod state_box;
 pub mod target;
-pub mod taylor;
 pub mod walk;
 mod words;

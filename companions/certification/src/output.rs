@@ -8,7 +8,7 @@ use crate::interval::Interval;
 /// The proven bound of one output, and the errors that were found.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Output {
-    /// Joint or entry of the matrix, from 1.
+    /// The number of the joint, from 1.
     pub name: String,
     /// The proven bound of its error.
     pub bound: f64,

@@ -47,24 +47,3 @@ impl Part {
         })
     }
 }
-
-/// A small part of the box, where no slope is zero by chance.
-pub(crate) fn somewhere(positions: &[Interval]) -> Vec<Interval> {
-    let small = (0..).zip(positions).map(|(k, x)| {
-        let share = 0.3 + 0.4 * (0.618 * f64::from(k)).fract();
-        let middle = x.low + share * (x.high - x.low);
-        let half = 0.01 * (x.high - x.low);
-        Interval::new(middle - half, middle + half)
-    });
-    small.collect()
-}
-
-/// The slope along a coordinate wider than this says little about the range.
-pub(crate) const WIDE: f64 = 1.6;
-
-/// The widest of these coordinates, if it is wider than that.
-pub(crate) fn wide(axes: &[usize], part: &[Interval], least: f64) -> Option<usize> {
-    let width = |k: usize| part[k].high - part[k].low;
-    let wide = axes.iter().copied().filter(|k| width(*k) > least);
-    wide.max_by(|a, b| width(*a).total_cmp(&width(*b)))
-}

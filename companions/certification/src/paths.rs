@@ -7,7 +7,7 @@
 
 use std::cmp::Ordering;
 
-use crate::bound::{Bounder, Enclosure, SineErrors};
+use crate::bound::{Bounder, SineErrors};
 use crate::error::{Error, Result};
 use crate::graph::Graph;
 use crate::interval::Interval;
@@ -44,7 +44,7 @@ fn each(
 ) -> Result<Option<Vec<Interval>>> {
     let [a, b] = comparison.nodes;
     let graph = graph.of_difference(a, b);
-    let bounder = Bounder::new(&graph, 0, robot, sines, Enclosure::WrittenOut);
+    let bounder = Bounder::new(&graph, 0, robot, sines);
     let mut bounder =
         bounder.ok_or_else(|| Error::Missing("an input that the box bounds".to_owned()))?;
     let (mut open, mut left) = (vec![robot.whole()], parts);

@@ -5,7 +5,6 @@
 //! them, changed at random by less and less.
 
 use fastrand::Rng;
-use serde::{Deserialize, Serialize};
 
 use crate::exact::Exact;
 use crate::graph::{Graph, Input};
@@ -31,7 +30,7 @@ impl Effort {
 }
 
 /// The worst error of one output that was found, and where.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default)]
 pub struct Observed {
     /// The error |f32 − exact|.
     pub error: f64,
@@ -133,7 +132,7 @@ pub fn search(graph: &Graph, robot: &Robot, effort: Effort, seed: u64) -> Vec<Ob
 }
 
 /// Searches the states at which each of so many numbers is the greatest.
-pub fn worst(
+fn worst(
     robot: &Robot,
     numbers: usize,
     effort: Effort,

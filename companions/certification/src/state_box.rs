@@ -121,20 +121,8 @@ impl Robot {
                 let axis = input.offset as usize / 4;
                 (axis < 3 * n).then_some(Leaf::Axis(axis))
             }
-            // Torques, of forward dynamics, in place of accelerations.
-            3 => {
-                let joint = input.offset as usize / 4;
-                (joint < n).then_some(Leaf::Axis(2 * n + joint))
-            }
             _ => None,
         }
-    }
-
-    /// The kind of a coordinate, and the number of its joint.
-    pub fn axis(&self, axis: usize) -> (Kind, usize) {
-        let n = self.joints.len();
-        let kinds = [Kind::Position, Kind::Velocity, Kind::Acceleration];
-        (kinds[axis / n], axis % n)
     }
 }
 

@@ -3,25 +3,25 @@
 //! The walk executes the code with real numbers as nodes of a graph and everything else, addresses
 //! and counters, as it is. So it follows calls and loops with constant bounds. At a branch by a
 //! comparison of real numbers it goes on as the state zero does, and notes the comparison, of which
-//! [`crate::paths`] proves that all states of the box decide it so. Operations on the bits of a
-//! real number are followed as far as they are the same for all positive numbers. Calls of the
-//! function that the program names `CERTIFIED_SINES` are not followed: they are inputs, the sine
-//! and the cosine of a coordinate.
+//! [`crate::paths`] proves that all states of the box decide it so. Calls of the function that the
+//! program names `CERTIFIED_SINES` are not followed: they are inputs, the sine and the cosine of a
+//! coordinate.
 
 use std::cmp::Ordering;
 use std::collections::{BTreeSet, HashMap};
 
-use crate::decode::{self, Arithmetic, Instruction, Integer, LR, NOWHERE, Operand, PC, SP};
+use crate::decode::{
+    self, ALWAYS, Arithmetic, Condition, Instruction, Integer, LR, NOWHERE, Operand, PC, SP,
+};
 use crate::error::{Error, Result};
+use crate::flags;
 use crate::graph::{Graph, Guess, Input, Node};
 use crate::image::Image;
 use crate::roots;
 
-mod bits;
 mod memory;
 mod sines;
 
-use bits::within;
 use sines::Sines;
 
 /// Addresses at which nothing lies: of what the arguments point to, a range for each; of the stack;
@@ -38,8 +38,6 @@ const MOST: usize = 200_000;
 enum Word {
     /// Bits that do not depend on inputs.
     Bits(u32),
-    /// Bits that lie between two others, as those of a positive number do.
-    Within(u32, u32),
     /// The real number of a node.
     Real(usize),
     /// A guess of the reciprocal root of a real number: a magic number less half of its bits.
@@ -78,8 +76,6 @@ struct Walk<'a> {
     core: [Option<Word>; 16],
     real: [Option<Word>; 32],
     memory: HashMap<u32, Word>,
-    /// Bytes of words of which not all are known.
-    bytes: HashMap<u32, u8>,
     /// Negative, zero, carry, overflow, as far as they are known.
     flags: [Option<bool>; 4],
     /// The conditions of the next instructions: ITSTATE.
@@ -95,16 +91,11 @@ struct Walk<'a> {
 }
 
 /// Walks the function at an address. An argument is a pointer to inputs, or to what lies at an
-/// address of the program; the first one is where results go. From the fifth on they are on the
-/// stack.
+/// address of the program; the first one is where results go.
 ///
 /// # Errors
 /// [`Error::Declined`].
-pub fn walk<const N: usize>(
-    image: &Image,
-    function: u32,
-    arguments: [Option<u32>; N],
-) -> Result<Walked> {
+pub fn walk(image: &Image, function: u32, arguments: [Option<u32>; 4]) -> Result<Walked> {
     let mut walk = Walk {
         image,
         graph: Graph::default(),
@@ -113,7 +104,6 @@ pub fn walk<const N: usize>(
         core: [None; 16],
         real: [None; 32],
         memory: HashMap::new(),
-        bytes: HashMap::new(),
         flags: [None; 4],
         conditions: 0,
         sines: Sines::of(image),
@@ -123,14 +113,8 @@ pub fn walk<const N: usize>(
         next: function & !1,
         code: 0,
     };
-    for (i, given) in (0..).zip(arguments) {
-        let word = Word::Bits(given.unwrap_or(ARGUMENTS + i * RANGE));
-        match i {
-            0..4 => walk.core[i as usize] = Some(word),
-            _ => {
-                walk.memory.insert(STACK + 4 * (i - 4), word);
-            }
-        }
+    for ((i, given), register) in (0..).zip(arguments).zip(&mut walk.core) {
+        *register = Some(Word::Bits(given.unwrap_or(ARGUMENTS + i * RANGE)));
     }
     // Registers that a function must keep hold what its caller left there, of which nothing is
     // known but that it is kept.
@@ -158,7 +142,7 @@ pub fn walk<const N: usize>(
         .collect();
     outputs.sort_by_key(|output| output.0);
     for (offset, word) in outputs {
-        let node = walk.node(word)?;
+        let node = walk.node(word);
         walk.graph.outputs.push((offset, node));
     }
     roots::join_steps(&mut walk.graph);
@@ -181,10 +165,9 @@ impl Walk<'_> {
     }
 
     /// The node of a word that is used as a real number.
-    fn node(&mut self, word: Word) -> Result<usize> {
-        Ok(match word {
+    fn node(&mut self, word: Word) -> usize {
+        match word {
             Word::Real(node) => node,
-            Word::Within(..) => return Err(self.declined("a number of bits that are not known")),
             Word::Guess(a, magic) => self.push(Node::InverseRoot(a, Guess { magic, steps: 0 })),
             Word::Bits(bits) => match self.literals.get(&bits) {
                 Some(node) => *node,
@@ -194,7 +177,7 @@ impl Walk<'_> {
                     node
                 }
             },
-        })
+        }
     }
 
     fn core(&self, register: u8) -> Result<Word> {
@@ -203,6 +186,29 @@ impl Walk<'_> {
         }
         self.core[usize::from(register)]
             .ok_or_else(|| self.declined("a core register that nothing has set"))
+    }
+
+    fn bits(&self, register: u8) -> Result<u32> {
+        match self.core(register)? {
+            Word::Bits(bits) => Ok(bits),
+            _ => Err(self.declined("an integer operation on a real number")),
+        }
+    }
+
+    fn operand(&self, operand: Operand) -> Result<u32> {
+        match operand {
+            Operand::Constant(value) => Ok(value),
+            Operand::Register(m, shift) => Ok(self.bits(m)? << shift),
+            Operand::Right(m, shift) => Ok(self.bits(m)? >> shift),
+        }
+    }
+
+    fn holds(&self, condition: Condition) -> Result<bool> {
+        if condition == ALWAYS {
+            return Ok(true);
+        }
+        let unknown = || self.declined("a branch by flags that are not followed");
+        flags::holds(condition, self.flags).ok_or_else(unknown)
     }
 
     fn real(&self, register: u8) -> Result<Word> {
@@ -278,21 +284,6 @@ impl Walk<'_> {
                 let more = if a == NOWHERE { 0 } else { self.bits(a)? };
                 self.set(d, Word::Bits(product.wrapping_add(more)))
             }
-            I::LeadingZeros { d, m } => {
-                let (low, high) = self.range(m)?;
-                self.set(d, within(high.leading_zeros(), low.leading_zeros()))
-            }
-            I::TableBranch { n, m, shift } => {
-                let table = if n == PC { self.here + 4 } else { self.bits(n)? };
-                let at = table.wrapping_add(self.bits(m)? << shift);
-                let bytes = [self.byte(at)?, self.byte(at + u32::from(shift))?];
-                let entry = match shift {
-                    0 => bytes[0].into(),
-                    _ => u16::from_le_bytes(bytes),
-                };
-                self.next = self.here + 4 + 2 * u32::from(entry);
-                Ok(())
-            }
             I::Upper { d, value } => {
                 let low = self.bits(d)? & 0xffff;
                 self.set(d, Word::Bits(value << 16 | low))
@@ -304,12 +295,11 @@ impl Walk<'_> {
             I::Several(one) => self.several(one),
             I::Arithmetic { op, d, n, m } => self.arithmetic(op, d, n, m),
             I::Negate { d, m } => self.function(Node::Neg, d, m),
-            I::Absolute { d, m } => self.function(Node::Abs, d, m),
             I::Root { d, m } => self.function(Node::Sqrt, d, m),
             I::Compare { d, m } => {
                 let a = self.real(d)?;
                 let b = m.map_or(Ok(Word::Bits(0)), |m| self.real(m))?;
-                self.compared = Some([self.node(a)?, self.node(b)?]);
+                self.compared = Some([self.node(a), self.node(b)]);
                 Ok(())
             }
             I::TakeFlags => self.take_flags(),
@@ -322,24 +312,17 @@ impl Walk<'_> {
                 }
             }
             I::Integer { op, d, n, by, flags } => {
-                let ((low, high), by) = (self.range(n)?, self.operand(by)?);
-                let sum = match op {
-                    Integer::Add => Some((by, false)),
-                    Integer::Sub => Some((!by, true)),
-                    _ => None,
-                };
-                if let Some((by, carry)) = sum {
-                    let sum = self.sum(flags, (low, high), by, carry)?;
-                    return self.set(d, sum);
+                let (a, b) = (self.bits(n)?, self.operand(by)?);
+                let result = op.of(a, b);
+                if flags {
+                    self.flags = match op {
+                        Integer::Add => flags::of_sum(a, b, false).map(Some),
+                        Integer::Sub => flags::of_sum(a, !b, true).map(Some),
+                        // Carry and overflow are those of no sum.
+                        _ => [Some(result >> 31 != 0), Some(result == 0), None, None],
+                    };
                 }
-                let result = match op {
-                    _ if low == high => Word::Bits(op.of(low, by)),
-                    Integer::Right => within(op.of(low, by), op.of(high, by)),
-                    Integer::Clear if by == 1 << 31 && high < by => within(low, high),
-                    _ => return Err(self.declined("an integer operation on a real number")),
-                };
-                self.note(flags, result);
-                self.set(d, result)
+                self.set(d, Word::Bits(result))
             }
             I::Copy { d, m } => {
                 self.real[usize::from(d)] = Some(self.real(m)?);
@@ -356,7 +339,7 @@ impl Walk<'_> {
                 }
                 let mut word = self.core(core)?;
                 if let Word::Guess(..) = word {
-                    word = Word::Real(self.node(word)?);
+                    word = Word::Real(self.node(word));
                 }
                 self.real[usize::from(real)] = Some(word);
                 Ok(())
@@ -384,7 +367,8 @@ impl Walk<'_> {
                 self.next = self.bits(m)? & !1;
                 Ok(())
             }
-            I::Access(one) if one.bytes == 4 || one.second == NOWHERE && !one.is_signed => {
+            I::Access(one) if one.bytes == 4 => self.access(one),
+            I::Access(one) if one.load && one.second == NOWHERE && !one.is_signed => {
                 self.access(one)
             }
             _ => Err(self.declined("an instruction of which nothing is proven")),
@@ -393,7 +377,7 @@ impl Walk<'_> {
 
     fn function(&mut self, of: fn(usize) -> Node, d: u8, m: u8) -> Result<()> {
         let word = self.real(m)?;
-        let a = self.node(word)?;
+        let a = self.node(word);
         let node = self.push(of(a));
         self.real[usize::from(d)] = Some(Word::Real(node));
         Ok(())
@@ -401,7 +385,7 @@ impl Walk<'_> {
 
     fn arithmetic(&mut self, op: Arithmetic, d: u8, n: u8, m: u8) -> Result<()> {
         let (n, m) = (self.real(n)?, self.real(m)?);
-        let (a, b) = (self.node(n)?, self.node(m)?);
+        let (a, b) = (self.node(n), self.node(m));
         let mut node = self.push(match op {
             Arithmetic::Add => Node::Add(a, b),
             Arithmetic::Sub => Node::Sub(a, b),

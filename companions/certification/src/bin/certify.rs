@@ -73,7 +73,6 @@ struct Args {
 /// The default of [`Args::points`].
 const POINTS: usize = 1_000_000;
 const PAGE_POINTS: usize = 5_000_000;
-const LOOSEST: &str = "panda";
 /// Points of each grid and parts of each box of `--configurations`, which proves a hundred of them.
 const CONFIGURED_POINTS: usize = 300_000;
 const CONFIGURED_PARTS: usize = 300;
@@ -82,15 +81,8 @@ const CONFIGURED_FINE: usize = 4_000_000;
 /// Points of the grids of a robot with a loop, over all parts of the coordinates that it depends on
 /// by quotients and roots.
 const LOOP_POINTS: usize = 100_000;
-/// The functions of their own part of the page.
-const FORWARD: [Function; 2] = [Function::ForwardDynamics, Function::CoreForwardDynamics];
-/// A function without a certificate: it loads a word of its stack that nothing has written, and that
-/// nothing uses, which is declined.
-const DECLINED: (&str, Function) = ("a1_leg", Function::CoreForwardDynamics);
-/// The page, the worst states of [`FORWARD`] for `forward.py`, and the record of the
-/// configurations.
+/// The page, and the record of the configurations.
 const PAGE: &str = "certificates.md";
-const WORST: &str = "forward.json";
 const CONFIGURED: &str = "../../docs/accuracy-proven.json";
 
 fn main() -> ExitCode {
@@ -135,7 +127,7 @@ fn run(args: &Args) -> Result<String> {
     let sines = sines::enumerate(&joints.copied().collect::<Vec<_>>());
     let mut certificates = Vec::new();
     for (program, robot) in &programs {
-        let mut functions = program.functions(&asked(args, !args.write.is_empty(), program));
+        let mut functions = program.functions(&args.function);
         functions.retain(|one| args.write.is_empty() || args.write.contains(&part(*one)));
         if functions.is_empty() {
             continue;
@@ -145,7 +137,7 @@ fn run(args: &Args) -> Result<String> {
         for function in functions {
             let start = Instant::now();
             let target = Target::of(&image, function, robot, &emulation)?;
-            let spent = spent(args, function, &program.robot);
+            let spent = spent(args, function);
             let mut one = certificate::certify(program, function, robot, sines, spent)?;
             one.target = Some(target);
             let (name, seconds) = (function.name(), start.elapsed().as_secs_f64());
@@ -159,13 +151,9 @@ fn run(args: &Args) -> Result<String> {
         mine.collect::<Vec<Certificate>>()
     };
     for part in &args.write {
-        match part {
-            Part::Configurations => {
-                program::write(&kept(CONFIGURED), &proven_configurations(args)?)?;
-                continue;
-            }
-            Part::Forward => program::write(&kept(WORST), &page::worst_states(&of(*part))?)?,
-            _ => {}
+        if *part == Part::Configurations {
+            program::write(&kept(CONFIGURED), &proven_configurations(args)?)?;
+            continue;
         }
         let page = check::page(&read(PAGE)?, *part, &page::tables(&of(*part)))?;
         program::write(&kept(PAGE), &page)?;
@@ -185,16 +173,6 @@ fn kept(name: &str) -> PathBuf {
 fn read(name: &str) -> Result<String> {
     let path = kept(name);
     std::fs::read_to_string(&path).map_err(|source| Error::File { path, source })
-}
-
-/// The functions that are asked for, and those of forward dynamics besides if the page is meant.
-fn asked(args: &Args, is_page: bool, program: &Program) -> Vec<Function> {
-    if !is_page {
-        return args.function.clone();
-    }
-    let mut functions = [&*args.function, &FORWARD].concat();
-    functions.retain(|function| (&*program.robot, *function) != DECLINED);
-    functions
 }
 
 /// The box of a program's robot.
@@ -240,7 +218,7 @@ fn hashes(args: &Args, programs: &[(Program, Robot)]) -> Result<String> {
     check::numbers(&page)?;
     for (program, _) in programs {
         let image = Image::read(&program.elf)?;
-        let functions = program.functions(&asked(args, true, program));
+        let functions = program.functions(&args.function);
         check::hashes(&image, &functions, &program.robot, &page)?;
     }
     let recorded: Vec<Configurations> =
@@ -256,12 +234,11 @@ fn hashes(args: &Args, programs: &[(Program, Robot)]) -> Result<String> {
 fn part(function: Function) -> Part {
     match function {
         Function::Clustered => Part::Clusters,
-        _ if function.matrix().is_some() => Part::Forward,
         _ => Part::Certificates,
     }
 }
 
-fn spent(args: &Args, function: Function, robot: &str) -> Spent {
+fn spent(args: &Args, function: Function) -> Spent {
     // The loop has three results, each of which needs a million states.
     let states = match function {
         Function::Clustered => 2 * args.states,
@@ -269,16 +246,11 @@ fn spent(args: &Args, function: Function, robot: &str) -> Spent {
     };
     // A third of the states at random, the rest in generations.
     let children = states / 3 * 2 / 96;
-    let is_page = !args.write.is_empty();
     Spent {
         parts: args.parts,
         points: args.points.unwrap_or(match function {
-            // It has the most results: 27 of six joints, 35 of seven. Those of the engine's bias
-            // for a Panda are the loosest.
-            Function::ForwardDynamics if robot == LOOSEST && is_page => PAGE_POINTS,
             Function::Clustered => LOOP_POINTS,
-            _ if function.matrix().is_some() => POINTS,
-            _ if is_page => PAGE_POINTS,
+            _ if !args.write.is_empty() => PAGE_POINTS,
             _ => POINTS,
         }),
         search: Effort { random: states / 3, generations: 96, children },

@@ -184,7 +184,7 @@ impl Program {
             let higher = |t: f64, of: f64| if t < 1.0 { of } else { f64::INFINITY };
             let (propagated, second_order) = match *node {
                 Node::Input(_) | Node::Literal(_) => (0.0, 0.0),
-                Node::Neg(a) | Node::Abs(a) => (errors[a], 0.0),
+                Node::Neg(a) => (errors[a], 0.0),
                 Node::Add(a, b) | Node::Sub(a, b) => (errors[a] + errors[b], 0.0),
                 Node::Mul(a, b) => {
                     (values[a][0] * errors[b] + values[b][0] * errors[a], errors[a] * errors[b])
@@ -213,7 +213,7 @@ impl Program {
                     Some(Leaf::Cosine(_)) => sines.cosine,
                     _ => 0.0,
                 },
-                Node::Literal(0.0) | Node::Neg(_) | Node::Abs(_) => 0.0,
+                Node::Literal(0.0) | Node::Neg(_) => 0.0,
                 Node::Literal(_) if counted == Counted::WithoutLiterals => 0.0,
                 Node::Literal(x) => half_ulp(f64::from(x).abs()),
                 _ if most == 0.0 || !rounds => 0.0,

@@ -1,4 +1,4 @@
-//! The content of memory: words, and bytes of words of which not all are known.
+//! The content of memory, by words.
 
 use super::{ARGUMENTS, RANGE, Walk, Word};
 use crate::decode::{Access, NOWHERE, PC, Several};
@@ -12,11 +12,6 @@ impl Walk<'_> {
         }
         if let Some(word) = self.memory.get(&address) {
             return Ok(*word);
-        }
-        if let [Some(a), Some(b), Some(c), Some(d)] =
-            [0, 1, 2, 3].map(|i| self.bytes.get(&(address + i)))
-        {
-            return Ok(Word::Bits(u32::from_le_bytes([*a, *b, *c, *d])));
         }
         if let Some(bits) = self.image.word(address) {
             return Ok(Word::Bits(bits));
@@ -34,24 +29,19 @@ impl Walk<'_> {
         Ok(Word::Real(node))
     }
 
-    /// Whether a word is an input or the program's: a load has it whatever was stored.
-    fn is_given(&self, word: u32) -> bool {
-        let is_input = (ARGUMENTS + RANGE..ARGUMENTS + 4 * RANGE).contains(&word);
-        is_input || self.image.word(word).is_some()
-    }
-
     pub(super) fn store(&mut self, address: u32, word: Word) -> Result<()> {
-        if address & 3 != 0 || self.is_given(address) {
+        // A load of an input or of the program has it whatever was stored.
+        let is_input = (ARGUMENTS + RANGE..ARGUMENTS + 4 * RANGE).contains(&address);
+        if address & 3 != 0 || is_input || self.image.word(address).is_some() {
             return Err(
                 self.declined("a store to an input, to the program, or beside a word's address")
             );
         }
-        self.bytes.retain(|at, _| *at & !3 != address);
         self.memory.insert(address, word);
         Ok(())
     }
 
-    pub(super) fn byte(&self, address: u32) -> Result<u8> {
+    fn byte(&self, address: u32) -> Result<u8> {
         let within = address & 3;
         let word = match self.memory.get(&(address - within)) {
             Some(Word::Bits(bits)) => Some(*bits),
@@ -59,28 +49,10 @@ impl Walk<'_> {
             None => self.image.word(address - within),
         };
         let byte = word.map(|word| word.to_le_bytes()[within as usize]);
-        let byte = self.bytes.get(&address).copied().or(byte);
         byte.ok_or_else(|| self.declined("a part of a word that is not known"))
     }
 
-    /// After a byte is written into a real number, its other bytes are no longer known.
-    pub(super) fn store_byte(&mut self, address: u32, byte: u8) -> Result<()> {
-        let within = address & 3;
-        let word = address - within;
-        if self.is_given(word) {
-            return Err(self.declined("a store to a byte of an input or of the program"));
-        }
-        if let Some(Word::Bits(bits)) = self.memory.get(&word) {
-            let mut bytes = bits.to_le_bytes();
-            bytes[within as usize] = byte;
-            return self.store(word, Word::Bits(u32::from_le_bytes(bytes)));
-        }
-        self.memory.remove(&word);
-        self.bytes.insert(address, byte);
-        Ok(())
-    }
-
-    /// Loads or stores one word or two.
+    /// Loads or stores one word or two, or loads a part of one.
     pub(super) fn access(&mut self, one: Access) -> Result<()> {
         let (base, by) = (self.base(one.n)?, self.operand(one.offset)?);
         let moved = base.wrapping_add(by);
@@ -90,17 +62,12 @@ impl Walk<'_> {
         }
         let registers = [one.t, one.second].into_iter().filter(|t| *t != NOWHERE);
         for (t, at) in registers.zip([at, at.wrapping_add(4)]) {
-            if one.bytes < 4 && one.load {
+            if one.bytes < 4 {
                 let bytes = (at..).take(one.bytes.into()).map(|at| self.byte(at));
                 let bytes = bytes.collect::<Result<Vec<_>>>()?;
                 let number =
                     bytes.iter().rev().fold(0, |number, byte| number << 8 | u32::from(*byte));
                 self.set(t, Word::Bits(number))?;
-            } else if one.bytes < 4 {
-                let number = self.bits(t)?.to_le_bytes();
-                for (at, byte) in (at..).zip(&number[..one.bytes.into()]) {
-                    self.store_byte(at, *byte)?;
-                }
             } else if one.load {
                 let word = self.load(at)?;
                 self.set(t, word)?;

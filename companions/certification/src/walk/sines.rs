@@ -27,24 +27,9 @@ impl Sines {
 }
 
 impl Walk<'_> {
-    /// The flags of the comparison of real numbers: those of the state zero.
+    /// The flags of the comparison of real numbers: those of the state zero, which is noted.
     pub fn take_flags(&mut self) -> Result<()> {
         let nodes = self.compared.ok_or_else(|| self.declined("no comparison"))?;
-        let flags = match self.compare(nodes)? {
-            Ordering::Less => [true, false, false, false],
-            Ordering::Equal => [false, true, true, false],
-            Ordering::Greater => [false, false, true, false],
-        };
-        self.flags = flags.map(Some);
-        Ok(())
-    }
-
-    /// The order of two real numbers at the state zero, which is noted.
-    pub fn compare(&mut self, nodes: [usize; 2]) -> Result<Ordering> {
-        let mut known = self.comparisons.iter();
-        if let Some(known) = known.find(|one| one.nodes == nodes) {
-            return Ok(known.ordering);
-        }
         let trig = trig(self.image);
         // Cosines are one, all else is zero.
         let zero = |input: Input| match trig {
@@ -60,7 +45,13 @@ impl Walk<'_> {
             .partial_cmp(&b)
             .ok_or_else(|| self.declined("a comparison with what is no number"))?;
         self.comparisons.push(Comparison { address: self.here, nodes, ordering });
-        Ok(ordering)
+        let flags = match ordering {
+            Ordering::Less => [true, false, false, false],
+            Ordering::Equal => [false, true, true, false],
+            Ordering::Greater => [false, false, true, false],
+        };
+        self.flags = flags.map(Some);
+        Ok(())
     }
 
     /// A call of the function for sines: of a position, the first numbers of the state.

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use certification::bound::{Bound, Bounder, Enclosure, SineErrors};
+use certification::bound::{Bound, Bounder, SineErrors};
 use certification::branch::prove;
 use certification::graph::{Graph, Input, Node};
 use certification::grid::{Program, between};
@@ -116,8 +116,7 @@ fn values_that_are_known_to_be_less_count() {
         let bound = program.prove(&graph, &robot, SINES, POINTS, known);
         bound.expect("enough points").total()
     };
-    let mut bounder = Bounder::new(&graph, 0, &robot, SINES, Enclosure::WrittenOut)
-        .expect("its inputs are the robot's");
+    let mut bounder = Bounder::new(&graph, 0, &robot, SINES).expect("its inputs are the robot's");
     let known = prove(&mut bounder, &robot.whole(), 200).magnitudes;
     let mut evaluation = Evaluation::new(&graph, &robot);
     let whole: Vec<f64> = robot.whole().iter().map(|x| x.high).collect();
@@ -144,7 +143,7 @@ fn what_cancels_has_no_part_in_the_bound() {
     let (graph, robot) = (graph(GRAVITY).of_output(0), robot(6));
     let program = Program::new(&graph, &robot).expect("angles alone");
     let by_grid = program.prove(&graph, &robot, SINES, POINTS, &[]).expect("enough points");
-    let by_parts = Bounder::new(&graph, 0, &robot, SINES, Enclosure::WrittenOut)
+    let by_parts = Bounder::new(&graph, 0, &robot, SINES)
         .expect("its inputs are the robot's")
         .bound(&robot.whole());
     assert!(by_grid.sines < 1e-12 * by_parts.sines, "{by_grid:?} {by_parts:?}");

@@ -3,7 +3,7 @@
 
 use std::cmp::Ordering;
 
-use certification::bound::{Bounder, Enclosure};
+use certification::bound::Bounder;
 use certification::branch::prove;
 use certification::certificate::{Function, expression};
 use certification::error::Error;
@@ -73,8 +73,8 @@ fn quotients_roots_and_comparisons_are_read() {
     assert!(matches!(said, Error::Branch { address, .. } if address == BASE + 24), "{said}");
     robot.joints[0].position = Interval::new(-2.0, 1.0);
     assert!(paths::prove(&walked, &robot, SINES, 50).is_ok());
-    let mut bounder = Bounder::new(&walked.graph, 0, &robot, SINES, Enclosure::Plain)
-        .expect("its input is the robot's");
+    let mut bounder =
+        Bounder::new(&walked.graph, 0, &robot, SINES).expect("its input is the robot's");
     for (x, root) in [(-2.0, 3.0_f64.sqrt()), (1.0, 0.75_f64.sqrt())] {
         bounder.bound(&[Interval::point(x), Interval::default(), Interval::default()]);
         let range = bounder.range();
@@ -117,9 +117,8 @@ fn the_four_bar_is_that_of_the_core_within_its_bound() {
     let observed = search(&walked.graph, &robot, LITTLE, 1);
     let bounds: Vec<f64> = (0..3)
         .map(|output| {
-            let mut bounder =
-                Bounder::new(&walked.graph, output, &robot, SINES, Enclosure::WrittenOut)
-                    .expect("its inputs are the robot's");
+            let mut bounder = Bounder::new(&walked.graph, output, &robot, SINES)
+                .expect("its inputs are the robot's");
             let proven = prove(&mut bounder, &robot.whole(), 500).bound.total();
             let one = walked.graph.of_output(output);
             let program = Program::new(&one, &robot).expect("speeds are not divided by");

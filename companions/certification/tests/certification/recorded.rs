@@ -1,5 +1,6 @@
-//! Machine code that was compiled one day, and a robot for it.
+//! Machine code that was compiled one day, and robots for it.
 
+use certification::bodies::{Body, Moves};
 use certification::bound::SineErrors;
 use certification::graph::Graph;
 use certification::image::Image;
@@ -7,6 +8,7 @@ use certification::interval::Interval;
 use certification::search::Effort;
 use certification::state_box::{Joint, Robot};
 use certification::walk::walk;
+use dynamics_core::model::{BASE as NONE, JointKind, Link, Model};
 
 /// `Engine::<Ur5e>::rnea` and the same of gravity alone as they were compiled one day.
 pub const RNEA: &str = include_str!("ur5e_rnea.hex");
@@ -32,17 +34,25 @@ pub fn program(mut code: Vec<u8>, name: &str) -> Image {
         .with_function(&format!("CERTIFIED_{name}"), pointer, 4)
 }
 
-/// A program of forward dynamics and of M at these addresses.
-pub fn forward_program(mut code: Vec<u8>, functions: [u32; 2], of_core: &str) -> Image {
-    let end = BASE + code.len() as u32;
-    let words = functions.into_iter().chain([12, 4, 8, 0]);
-    code.extend(words.flat_map(u32::to_le_bytes));
-    code.extend(bytes(EFFECTS));
-    Image::of(BASE, &code)
-        .with_function(&format!("CERTIFIED_{of_core}FORWARD"), end, 4)
-        .with_function(&format!("CERTIFIED_{of_core}CRBA"), end + 4, 4)
-        .with_function("CERTIFIED_TRIG", end + 8, 16)
-        .with_function("CERTIFIED_EFFECTS", end + 24, 16)
+/// As the firmware writes it.
+pub fn bodies<const B: usize, const N: usize>(model: &Model<f64, B, N, N>) -> Vec<Body> {
+    let body = |link: &Link<f64>| {
+        let columns = link.placement.rot.to_cols_array_2d();
+        let i = link.inertia.rotational.to_cols_array();
+        let [x, y, z] = link.inertia.first_moment.to_array();
+        Body {
+            parent: (link.parent != NONE).then_some(link.parent),
+            moves: match link.joint.kind {
+                JointKind::Fixed => Moves::Fixed,
+                JointKind::Prismatic => Moves::Slides(link.idx_v),
+                _ => Moves::Turns(link.idx_v),
+            },
+            rot: std::array::from_fn(|row| std::array::from_fn(|column| columns[column][row])),
+            pos: link.placement.pos.to_array(),
+            inertia: [link.inertia.mass, x, y, z, i[0], i[1], i[2], i[4], i[5], i[8]],
+        }
+    };
+    model.links.iter().map(body).collect()
 }
 
 pub fn graph(hex: &str) -> Graph {

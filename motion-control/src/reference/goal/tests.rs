@@ -180,7 +180,7 @@ fn braked<const V: usize>(random: &mut Random) -> u32 {
         let mut goal = MovingGoal::try_new(&[0.0; V], fast, h).unwrap();
         let last = goal.set(0, &fast.map(|limits| limits.velocity)).unwrap();
         let start = (f64::from(last) * random.next()) as u32;
-        let (from, is_far, share) = (goal.at(start), case % 4 == 0, [1.1, 0.6][case % 2]);
+        let (from, is_far, share) = (goal.at(start), case % 4 == 0, [f32::INFINITY, 0.6][case % 2]);
         let (mut slow, mut goals, mut most) = (fast, from.q, [0.0; V]);
         for (j, JerkLimits { velocity, acceleration, jerk }) in fast.into_iter().enumerate() {
             let (v, reach) = (from.qd[j], if is_far { 50.0 } else { 1.5 * random.next() - 0.3 });
@@ -189,10 +189,7 @@ fn braked<const V: usize>(random: &mut Random) -> u32 {
             most[j] = f32::max(share * acceleration, 1.05 * from.qdd[j].abs());
         }
         goal.set_limits(slow).unwrap();
-        let arrival = match case % 2 {
-            0 => goal.set(start, &goals).unwrap(),
-            _ => goal.set_within(start, &goals, &most, |state| state.qdd).unwrap(),
-        };
+        let arrival = goal.set_within(start, &goals, &most, |state| state.qdd).unwrap();
         assert_eq!(goal.at(arrival), State::at(goals));
         for (j, JerkLimits { velocity, acceleration, jerk }) in slow.into_iter().enumerate() {
             let [v, a] = [from.qd[j].abs(), from.qdd[j] * from.qd[j].signum()];

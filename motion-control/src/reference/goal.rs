@@ -183,17 +183,19 @@ impl<R: Real, const V: usize> MovingGoal<R, V> {
         Ok(Self { limits, is_relimited, tick, joints, start: 0, ticks: 0, seconds: R::ZERO })
     }
 
-    /// Replaces the limits (rad/s, rad/s² and rad/s³, or m) of the motions that are set from now on.
-    /// The motion that is under way keeps its own until then; the next one starts anew, also if it
-    /// goes to the same goal. Calls with limits that are not new do nothing.
+    /// Replaces the limits of velocity, acceleration and jerk (rad/s, rad/s² and rad/s³, or with m)
+    /// of the motions that are set from now on. The motion that is under way keeps its own until
+    /// then; the next one starts anew, also if it goes to the same goal. Calls with limits that are
+    /// not new do nothing.
     ///
-    /// A joint that is faster than its new limit of velocity then brakes. The limits of acceleration
-    /// and jerk hold in every tick, and that of velocity from the end of the braking on. Until then
-    /// the speed is at most the greater of |v₀| and |v₀ + a₀|a₀|/2j|, at which the acceleration of the
-    /// change can end at the earliest. The speed falls to the limit and not below it, unless the
-    /// joint decelerates already so much that it must. If the goal is too near for a stop from the
-    /// limit, the joint brakes further; if it is too near for any stop, the joint turns back.
-    /// A goal that is refused leaves the motion under way, and its limits, as they are.
+    /// A joint that is faster than its new limit of velocity then brakes. The limits of
+    /// acceleration and jerk hold in every tick, and that of velocity from the end of the braking
+    /// on. Until then the speed is at most the greater of |v₀| and |v₀ + a₀|a₀|/2j|, at which the
+    /// acceleration of the change can end at the earliest. The speed falls to the limit and not
+    /// below it, unless the joint decelerates already so much that it must. If the goal is too near
+    /// for a stop from the limit, the joint brakes further; if it is too near for any stop, the
+    /// joint turns back. A goal that is refused leaves the motion under way, and its limits, as they
+    /// are.
     ///
     /// ```
     /// use motion_control::reference::{JerkLimits, MovingGoal, Reference};
@@ -213,9 +215,9 @@ impl<R: Real, const V: usize> MovingGoal<R, V> {
     /// Three comparisons for each joint, and those of the next motion.
     ///
     /// # Errors
-    /// [`ConfigError::OutOfRange`] of a limit that is not within 10⁻⁹ and 10⁹, which changes nothing.
-    /// The next motion is refused by [`GoalError::Start`] while a joint accelerates more than a lower
-    /// limit of acceleration allows: lower that of velocity first.
+    /// [`ConfigError::OutOfRange`] of a limit that is not within 10⁻⁹ and 10⁹, which changes
+    /// nothing. The next motion is refused by [`GoalError::Start`] while a joint accelerates more
+    /// than a lower limit of acceleration allows: lower that of velocity first.
     ///
     /// # Source
     /// The brake before the motion of Berscheid & Kröger (2021), which here ends without

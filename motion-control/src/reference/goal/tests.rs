@@ -171,8 +171,8 @@ fn a_change_that_misses_its_tick_or_its_motion_changes_nothing() {
     assert_eq!(slow.take(302, &change), Err(GoalError::Missed));
 }
 
-/// Limits of velocity that are lowered on the way to other goals, near and far, in every second case
-/// within limits of torque: the number of joints that brake. The samples keep what is promised.
+/// Limits of velocity that are lowered on the way to other goals, near and far, in every second
+/// case within limits of torque: the number of joints that brake. The samples keep the limits.
 fn braked<const V: usize>(random: &mut Random) -> u32 {
     let (h, mut braked) = (1e-3, 0);
     for case in 0..2000 {

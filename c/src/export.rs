@@ -135,6 +135,7 @@ macro_rules! export {
             controller_reset(memory: Handle, at: &mut Where);
             controller_report(memory: Handle, report: &mut Report);
             goal_init(goal: &mut Goal, config: &Config, jerk: &Joints, at: &mut Where);
+            goal_limits(goal: &mut Goal, config: &Config, jerk: &Joints, at: &mut Where);
             controller_goal(
                 memory: Handle, goal: &mut Goal, q: &Joints, ticks: &mut u32, at: &mut Where
             );

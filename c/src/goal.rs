@@ -1,6 +1,7 @@
 //! A goal that may change at any tick: `..._goal_...` of the header.
 
-use motion_control::limits::{ConfigError, ConfigParameter};
+use motion_control::limits::ConfigError;
+use motion_control::limits::ConfigParameter::JerkLimit;
 use motion_control::reference::{GoalError, JerkLimits, MovingGoal, Reference};
 
 use crate::control::{Config, Rejected, Where};
@@ -20,7 +21,7 @@ fn refused(error: GoalError) -> Rejected {
             (status::NOT_FINITE, Where::of(field::POSITION, Some(joint), None))
         }
         GoalError::Start { joint } => {
-            (status::TOO_FAST, Where::of(field::VELOCITY, Some(joint), None))
+            (status::TOO_FAST, Where::of(field::ACCELERATION, Some(joint), None))
         }
         GoalError::Torque { joint } => {
             (status::TORQUE_LIMIT, Where::of(field::TORQUE, Some(joint), None))
@@ -28,6 +29,29 @@ fn refused(error: GoalError) -> Rejected {
         GoalError::Missed => bare(status::LATE),
         _ => bare(status::TOO_LONG),
     }
+}
+
+/// Gives the tick and the limits of motions to `take`.
+fn limit<T, const N: usize>(
+    config: Option<&Config<N>>,
+    jerk: Option<&[f32; N]>,
+    take: impl FnOnce(f32, [JerkLimits<f32>; N]) -> Result<T, ConfigError>,
+) -> Result<T, Rejected> {
+    let (config, jerk) = config.zip(jerk).ok_or(bare(NULL))?;
+    config.check_motion()?;
+    let limits = core::array::from_fn(|j| {
+        let (velocity, acceleration) = (config.speed[j], config.acceleration[j]);
+        JerkLimits { velocity, acceleration, jerk: jerk[j] }
+    });
+    take(config.tick, limits).map_err(|error| {
+        let (field, joint) = match error {
+            ConfigError::OutOfRange { parameter: JerkLimit { joint } } => {
+                (field::JERK, Some(joint))
+            }
+            _ => (field::TICK, None),
+        };
+        (status::CONFIG, Where::of(field, joint, None))
+    })
 }
 
 impl<L: Library<N, TOOL, POINTS>, const N: usize, const TOOL: usize, const POINTS: usize>
@@ -40,27 +64,21 @@ impl<L: Library<N, TOOL, POINTS>, const N: usize, const TOOL: usize, const POINT
         jerk: Option<&[f32; N]>,
         at: Option<&mut Where>,
     ) -> i32 {
-        let (Some(goal), Some(config), Some(jerk)) = (goal, config, jerk) else {
-            return NULL;
-        };
-        let (velocity, acceleration) = (&config.speed, &config.acceleration);
-        let limits = core::array::from_fn(|j| JerkLimits {
-            velocity: velocity[j],
-            acceleration: acceleration[j],
-            jerk: jerk[j],
-        });
-        let made = config.check_motion().and_then(|()| {
-            MovingGoal::try_new(&[0.0; N], limits, config.tick).map_err(|error| {
-                let (field, joint) = match error {
-                    ConfigError::OutOfRange { parameter: ConfigParameter::JerkLimit { joint } } => {
-                        (field::JERK, Some(joint))
-                    }
-                    _ => (field::TICK, None),
-                };
-                (status::CONFIG, Where::of(field, joint, None))
-            })
-        });
+        let Some(goal) = goal else { return NULL };
+        let made = limit(config, jerk, |tick, limits| MovingGoal::try_new(&[0.0; N], limits, tick));
         located(made.map(|motion| *goal = Kept::of(motion)), at)
+    }
+
+    /// Other limits of the motions that are set from now on.
+    pub fn goal_limits(
+        goal: Option<&mut Goal<L, N>>,
+        config: Option<&Config<N>>,
+        jerk: Option<&[f32; N]>,
+        at: Option<&mut Where>,
+    ) -> i32 {
+        let goal = Kept::get_mut(goal).map_err(bare);
+        let take = |goal: &mut MovingGoal<_, N>| limit(config, jerk, |_, new| goal.set_limits(new));
+        located(goal.and_then(take), at)
     }
 
     /// Leads an arm to a goal, whatever it does.

@@ -34,8 +34,11 @@ fn a_moving_arm_takes_a_goal_at_any_tick_and_arrives() {
         c::controller_move(handle, Some(&there_and_back(&config, 500)), Some(&mut at)),
         STATE
     );
-    // The goal moves while the arm moves to it.
-    for (target, most) in [(away, 200), (home, 70), (away, u32::MAX)] {
+    // The goal moves while the arm moves to it, and a lower limit of speed is met by braking.
+    for (target, most, speed) in [(away, 200, 2.0), (home, 70, 2.0), (away, u32::MAX, 0.5)] {
+        let slow = Config { speed: [speed; N], ..config };
+        assert_eq!(c::goal_limits(Some(&mut motion), Some(&slow), Some(&[200.0; N]), None), OK);
+        assert!(speed > 1.0 || last.qd.iter().any(|qd| qd.abs() > speed), "{last:?}");
         let found = c::controller_goal(
             handle,
             Some(&mut motion),
@@ -52,7 +55,8 @@ fn a_moving_arm_takes_a_goal_at_any_tick_and_arrives() {
                     k > 0 || next.q[joint] == last.q[joint] && next.qd[joint] == last.qd[joint],
                     "{next:?} {last:?}"
                 );
-                assert!(next.qd[joint].abs() <= 2.0 && next.qdd[joint].abs() <= 20.0, "{next:?}");
+                let most = if k < 200 { 2.0 } else { speed };
+                assert!(next.qd[joint].abs() <= most && next.qdd[joint].abs() <= 20.0, "{next:?}");
                 assert!((next.qdd[joint] - last.qdd[joint]).abs() <= 0.201, "{next:?} {last:?}");
             }
             assert_eq!(c::goal_state(Some(&motion), k + 1, Some(&mut next)), OK);
@@ -132,7 +136,9 @@ fn wrong_goals_are_named_and_a_stopped_arm_starts_where_it_is() {
     let mut wrong = home;
     wrong[N - 1] = f32::NAN;
     assert_eq!(refused(&mut slow, wrong), (NOT_FINITE, field::POSITION));
-    assert_eq!(refused(&mut slow, home), (TOO_FAST, field::VELOCITY));
+    assert_eq!(refused(&mut slow, home), (OK, field::NONE));
+    let hard = Config { acceleration: [1e-3; N], ..config };
+    assert_eq!(refused(&mut goal(&hard, 200.0), home), (TOO_FAST, field::ACCELERATION));
     assert_eq!(refused(&mut numbers(), home).0, MEMORY);
     assert_eq!(c::controller_off(handle), OK);
     tick(&mut memory, &home);
@@ -144,7 +150,8 @@ fn wrong_goals_are_named_and_a_stopped_arm_starts_where_it_is() {
     for (config, jerk, field) in
         [(config, f32::NAN, field::JERK), (Config { tick: 0.0, ..config }, 1.0, field::TICK)]
     {
-        let found = c::goal_init(Some(&mut slow), Some(&config), Some(&[jerk; N]), Some(&mut at));
+        let init = if jerk.is_nan() { c::goal_limits } else { c::goal_init };
+        let found = init(Some(&mut slow), Some(&config), Some(&[jerk; N]), Some(&mut at));
         assert_eq!(
             (found, at.field, at.joint),
             (CONFIG, field, if field == field::JERK { 0 } else { -1 })

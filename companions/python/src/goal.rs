@@ -96,7 +96,7 @@ impl PyMovingGoal {
     /// Moves the goal at a tick, rad or m: from the state there, or from one that is given (q, q̇,
     /// q̈), to rest at the goal. Returns the tick of the arrival.
     ///
-    /// Raises MotionError of a goal that is not finite, or of a state beyond the limits.
+    /// Raises MotionError of a goal that is not finite, or of an acceleration beyond its limit.
     #[pyo3(signature = (tick, goal, start = None))]
     fn set(
         &mut self,

@@ -31,7 +31,7 @@ def test_wrong_goals_name_the_joint():
     still = [0.0, 0.0]
     for call, joint in (
         (lambda: goal.set(0, [0.0, np.nan]), 1),
-        (lambda: goal.set(0, still, (still, [0.0, 3.0], still)), 1),
+        (lambda: goal.set(0, still, (still, still, [0.0, 11.0])), 1),
         (lambda: goal.set(0, [1.0]), None),
         (lambda: rd.MovingGoal(still, 1e-3, [2.0] * 2, [0.0, 1.0], [1.0] * 2), 0),
         (lambda: rd.MovingGoal(still, 0.0, [2.0] * 2, [1.0] * 2, [1.0] * 2), None),

@@ -455,6 +455,8 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
     /// have been reached.
     ///
     /// Limits of torque, rate and position hold at once, a torque falls to its limit at that rate.
+    /// A limit of torque above that of the configuration, which the drives and gears bear, does not
+    /// lift it: the least of both holds, and of those of [`Self::limit_torques`].
     /// In each call a limit of speed falls by `deceleration` (rad/s² or m/s², which may be infinite)
     /// times a tick, and rises at once; an infinite one begins at twice the estimated speed. An arm
     /// that decelerates as fast has no fault, one that does not has [`Fault::Speed`]: lead the
@@ -514,8 +516,8 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
 
     /// Lowers the limits of torque to those of a thermal model, before each tick; the tick's
     /// [`Command::torque`](crate::limits::Command::torque) then goes to [`ThermalLimit::update`]. The
-    /// least of these limits and of those of [`Self::set_limits`] holds, in whatever order they are
-    /// given.
+    /// least of these limits, of the configuration's and of those of [`Self::set_limits`] holds, in
+    /// whatever order they are given.
     ///
     /// ```
     /// # use motion_control::limits::{Reaction, SafetyLimits};

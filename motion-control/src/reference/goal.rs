@@ -41,7 +41,7 @@ pub struct JerkLimits<R> {
 /// stay between them, but for what a joint needs to turn back.
 ///
 /// Limits of torque are kept as well by [`MovingGoal::set_within`], which lowers the limits of
-/// velocity and acceleration.
+/// velocity and acceleration. The limits may change on the way: [`MovingGoal::set_limits`].
 ///
 /// ```
 /// use motion_control::reference::{JerkLimits, MovingGoal, Reference};
@@ -63,6 +63,8 @@ pub struct JerkLimits<R> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MovingGoal<R, const V: usize> {
     limits: [JerkLimits<R>; V],
+    /// Whether they have changed since the motion was found.
+    is_relimited: bool,
     tick: R,
     joints: [[Knot<R>; KNOTS]; V],
     /// The tick of the last change of the goal, the ticks from there to the arrival, and the
@@ -88,6 +90,8 @@ struct Knot<R> {
 
 /// The share of the limits that is left for rounding.
 const MARGIN: f64 = 1.0 / 65536.0;
+/// A share of a limit by which rounding may exceed it.
+const ROUNDED: f64 = 1.0 + MARGIN / 16.0;
 
 /// The reason why a goal is refused; the motion is then as before. Joints are numbered from 0.
 ///
@@ -109,7 +113,7 @@ pub enum GoalError {
         /// The joint.
         joint: usize,
     },
-    /// A joint is too fast, or would be before its acceleration has ended.
+    /// A joint accelerates more than its limit allows. A velocity above its limit is no error.
     Start {
         /// The joint.
         joint: usize,
@@ -117,7 +121,7 @@ pub enum GoalError {
     /// The motion takes 2³² ticks or more.
     TooLong,
     /// The tick in which a motion starts is over, or comes before the motion is found, or the goal
-    /// was set meanwhile.
+    /// was set meanwhile, or its limits.
     Missed,
     /// No slower motion from this state keeps the joint's limit of torque.
     Torque {
@@ -133,7 +137,7 @@ impl fmt::Display for GoalError {
                 write!(out, "joint {joint}: its goal or its state is not finite")
             }
             Self::Start { joint } => {
-                write!(out, "joint {joint}: its velocity or acceleration is beyond its limits")
+                write!(out, "joint {joint}: its acceleration is beyond its limit")
             }
             Self::TooLong => out.write_str("the motion takes 2^32 ticks or more"),
             Self::Missed => out.write_str("the tick of the change is over, or the goal was set"),
@@ -147,12 +151,20 @@ impl fmt::Display for GoalError {
 impl core::error::Error for GoalError {}
 
 impl<R: Real> JerkLimits<R> {
-    /// Whether a joint in this state stays within its velocity while its acceleration ends.
-    fn admit(&self, v: R, a: R) -> bool {
-        let one = R::from_f64(1.0 + MARGIN / 16.0);
-        let level = v + a * a.abs() / (self.jerk + self.jerk);
-        let speed = if v.abs() > level.abs() { v.abs() } else { level.abs() };
-        (speed <= one * self.velocity) & (a.abs() <= one * self.acceleration)
+    /// These limits of each joint without the share that is left for rounding.
+    fn within<const V: usize>(limits: [Self; V]) -> Result<[Self; V], ConfigError> {
+        for (joint, Self { velocity, acceleration, jerk }) in limits.into_iter().enumerate() {
+            for limit in [velocity, acceleration, jerk] {
+                let is_usual = (limit >= R::from_f64(1e-9)) & (limit <= R::from_f64(1e9));
+                ConfigParameter::JerkLimit { joint }.require(is_usual)?;
+            }
+        }
+        let less = |x| x * R::from_f64(1.0 - MARGIN);
+        Ok(limits.map(|Self { velocity, acceleration, jerk }| Self {
+            velocity: less(velocity),
+            acceleration: less(acceleration),
+            jerk: less(jerk),
+        }))
     }
 }
 
@@ -165,20 +177,56 @@ impl<R: Real, const V: usize> MovingGoal<R, V> {
     pub fn try_new(q: &[R; V], limits: [JerkLimits<R>; V], tick: R) -> Result<Self, ConfigError> {
         ConfigParameter::Tick.positive(tick)?;
         ConfigParameter::RestPosition.require(all_finite(q))?;
-        for (joint, JerkLimits { velocity, acceleration, jerk }) in limits.into_iter().enumerate() {
-            for limit in [velocity, acceleration, jerk] {
-                let is_usual = (limit >= R::from_f64(1e-9)) & (limit <= R::from_f64(1e9));
-                ConfigParameter::JerkLimit { joint }.require(is_usual)?;
-            }
-        }
-        let less = |x| x * R::from_f64(1.0 - MARGIN);
-        let limits = limits.map(|JerkLimits { velocity, acceleration, jerk }| JerkLimits {
-            velocity: less(velocity),
-            acceleration: less(acceleration),
-            jerk: less(jerk),
-        });
+        let limits = JerkLimits::within(limits)?;
         let joints = q.map(|q| [Knot::rest(R::ZERO, q); KNOTS]);
-        Ok(Self { limits, tick, joints, start: 0, ticks: 0, seconds: R::ZERO })
+        let is_relimited = false;
+        Ok(Self { limits, is_relimited, tick, joints, start: 0, ticks: 0, seconds: R::ZERO })
+    }
+
+    /// Replaces the limits of velocity, acceleration and jerk (rad/s, rad/s² and rad/s³, or with m)
+    /// of the motions that are set from now on. The motion that is under way keeps its own until
+    /// then; the next one starts anew, also if it goes to the same goal. Calls with limits that are
+    /// not new do nothing.
+    ///
+    /// A joint that is faster than its new limit of velocity then brakes. The limits of
+    /// acceleration and jerk hold in every tick, and that of velocity from the end of the braking
+    /// on. Until then the speed is at most the greater of |v₀| and |v₀ + a₀|a₀|/2j|, at which the
+    /// acceleration of the change can end at the earliest. The speed falls to the limit and not
+    /// below it, unless the joint decelerates already so much that it must. If the goal is too near
+    /// for a stop from the limit, the joint brakes further; if it is too near for any stop, the
+    /// joint turns back. A goal that is refused leaves the motion under way, and its limits, as they
+    /// are.
+    ///
+    /// ```
+    /// use motion_control::reference::{JerkLimits, MovingGoal, Reference};
+    /// let fast = JerkLimits { velocity: 2.0, acceleration: 10.0, jerk: 100.0 };
+    /// let mut goal = MovingGoal::try_new(&[0.0_f32], [fast], 1e-3)?;
+    /// goal.set(0, &[3.0])?;
+    /// // A door opens while the joint has 2 rad/s: from there 1.5/10 + 10/100 s to 0.5 rad/s.
+    /// goal.set_limits([JerkLimits { velocity: 0.5, ..fast }])?;
+    /// let arrival = goal.set(500, &[3.0])?;
+    /// assert!(goal.at(500).qd[0] > 1.99 && goal.at(700).qd[0] > 0.5);
+    /// assert!((751..arrival).all(|tick| goal.at(tick).qd[0] <= 0.5));
+    /// assert_eq!(goal.at(arrival).q, [3.0]);
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    ///
+    /// # Cost
+    /// Three comparisons for each joint, and those of the next motion.
+    ///
+    /// # Errors
+    /// [`ConfigError::OutOfRange`] of a limit that is not within 10⁻⁹ and 10⁹, which changes
+    /// nothing. The next motion is refused by [`GoalError::Start`] while a joint accelerates more
+    /// than a lower limit of acceleration allows: lower that of velocity first.
+    ///
+    /// # Source
+    /// The brake before the motion of Berscheid & Kröger (2021), which here ends without
+    /// acceleration.
+    pub fn set_limits(&mut self, limits: [JerkLimits<R>; V]) -> Result<(), ConfigError> {
+        let limits = JerkLimits::within(limits)?;
+        self.is_relimited |= limits != self.limits;
+        self.limits = limits;
+        Ok(())
     }
 
     /// Moves the goal at a tick: from its state there, the reference goes to rest at `goal`, rad or
@@ -202,11 +250,11 @@ impl<R: Real, const V: usize> MovingGoal<R, V> {
             return Ok(tick.max(self.ticks()));
         }
         let state = self.at(tick);
-        self.plan(tick, &state, goal)
+        self.plan(tick, &state, goal, self.is_relimited)
     }
 
     /// Moves the goal as [`Self::set`], from a state that replaces that of the reference: of an arm
-    /// that was led elsewhere.
+    /// that was led elsewhere. A joint that is too fast brakes as after [`Self::set_limits`].
     ///
     /// # Errors
     /// [`GoalError`]; the motion is then as before.
@@ -216,13 +264,7 @@ impl<R: Real, const V: usize> MovingGoal<R, V> {
         from: &State<R, V, V>,
         goal: &[R; V],
     ) -> Result<u32, GoalError> {
-        let rates = from.qd.iter().zip(&from.qdd);
-        for (joint, (limits, (&v, &a))) in self.limits.iter().zip(rates).enumerate() {
-            if !limits.admit(v, a) {
-                return Err(GoalError::Start { joint });
-            }
-        }
-        self.plan(tick, from, goal)
+        self.plan(tick, from, goal, true)
     }
 
     /// The duration of the motion since the goal has moved, s.
@@ -231,11 +273,17 @@ impl<R: Real, const V: usize> MovingGoal<R, V> {
     }
 
     fn goes_to(&self, goal: &[R; V]) -> bool {
-        self.joints.iter().zip(goal).all(|([.., end], q)| end.q == *q)
+        !self.is_relimited && self.joints.iter().zip(goal).all(|([.., end], q)| end.q == *q)
     }
 
-    fn plan(&mut self, tick: u32, from: &State<R, V, V>, goal: &[R; V]) -> Result<u32, GoalError> {
-        Self::check(from, goal)?;
+    fn plan(
+        &mut self,
+        tick: u32,
+        from: &State<R, V, V>,
+        goal: &[R; V],
+        is_new: bool,
+    ) -> Result<u32, GoalError> {
+        self.check(from, goal, is_new)?;
         let joints = core::array::from_fn(|joint| {
             let start = self.joint(joint, from, goal);
             (start, start.fastest())
@@ -243,12 +291,19 @@ impl<R: Real, const V: usize> MovingGoal<R, V> {
         self.adopt(tick, (from, goal), &joints)
     }
 
-    fn check(from: &State<R, V, V>, goal: &[R; V]) -> Result<(), GoalError> {
-        for joint in 0..V {
+    /// A state that is `is_new` to the limits may be beyond them.
+    fn check(&self, from: &State<R, V, V>, goal: &[R; V], is_new: bool) -> Result<(), GoalError> {
+        for (joint, limits) in self.limits.iter().enumerate() {
             let [v, a] = [&from.qd, &from.qdd].map(|rate| entry(rate, joint));
             let length = entry(goal, joint) - entry(&from.q, joint);
             if !all_finite(&[length, v, a]) {
                 return Err(GoalError::NotFinite { joint });
+            }
+            // A time is rounded, too.
+            let late = || R::from_f64(2.0) * R::EPSILON * self.seconds;
+            let most = || limits.acceleration * R::from_f64(ROUNDED) + limits.jerk * late();
+            if is_new && a.abs() > most() {
+                return Err(GoalError::Start { joint });
             }
         }
         Ok(())
@@ -292,6 +347,7 @@ impl<R: Real, const V: usize> MovingGoal<R, V> {
             *knots = Knot::knots(q, start.direction, &course, goal);
         }
         (self.start, self.ticks, self.seconds) = (tick, ticks, seconds);
+        self.is_relimited = false;
         Ok(arrival)
     }
 

@@ -156,7 +156,9 @@ pub(crate) struct Supervisor<R, const V: usize> {
     /// Greatest torque, the least of the limits and of what the motors bear; its greatest change in a
     /// tick, and greatest speed.
     torque_limit: [R; V],
-    /// The limits of torque without the motors', and whether the motors' are given in each tick.
+    /// The limits of torque of the configuration, which no other lifts; those without the motors',
+    /// and whether the motors' are given in each tick.
+    configured_torque: [R; V],
     limits_torque: [R; V],
     is_thermal: bool,
     rate_limit: [R; V],
@@ -218,6 +220,7 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         let resolution = allowed(config.resolution);
         Self {
             torque_limit: limits.torque.map(finite),
+            configured_torque: limits.torque.map(finite),
             limits_torque: limits.torque.map(finite),
             is_thermal: false,
             rate_limit: limits.rate.map(allowed),

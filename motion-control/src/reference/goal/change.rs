@@ -11,9 +11,10 @@
 //! so that velocities √β, accelerations β and jerks β^(3/2) times as great are within the limit. If
 //! the accelerations alone take little more off, the velocities stay. A motion to rest from a state
 //! that moves is no such path, and friction no such torque: the samples are then taken anew, in at
-//! most [`ROUNDS`] rounds. No limit is lowered below what the state at the start has.
+//! most [`ROUNDS`] rounds. No limit is lowered below what the state at the start has, but that of
+//! velocity of a joint which is faster than the user allows, and brakes.
 
-use super::{Fastest, GoalError, JerkLimits, KNOTS, Knot, MovingGoal, Start};
+use super::{Fastest, GoalError, JerkLimits, KNOTS, Knot, MARGIN, MovingGoal, Start};
 use crate::reference::Reference;
 use crate::{entry, real, root};
 use dynamics_core::scalar::{Real, positive_part};
@@ -77,8 +78,10 @@ impl<R: Real> JerkLimits<R> {
         let needed = half * a * a / (positive_part(self.velocity - along) + R::MIN_POSITIVE);
         let jerk = needed.clamped(self.jerk * share * root(share), self.jerk);
         let level = v + half * a * a.abs() / jerk;
+        let has = greatest(v.abs(), level.abs());
+        let brakes = has > self.velocity * R::from_f64(1.0 + 0.5 * MARGIN);
         Self {
-            velocity: greatest(speed * self.velocity, greatest(v.abs(), level.abs())),
+            velocity: greatest(speed * self.velocity, R::either(brakes, R::ZERO, has)),
             acceleration: greatest(share * self.acceleration, a.abs()),
             jerk,
         }
@@ -171,7 +174,7 @@ impl<R: Real, const V: usize> MovingGoal<R, V> {
         torque: &[R; V],
     ) -> Result<GoalChange<R, V>, GoalError> {
         let from = self.at(start);
-        Self::check(&from, goal)?;
+        self.check(&from, goal, self.is_relimited)?;
         // Written so that a NaN is refused, too.
         let allows = |limit: &R| *limit > R::ZERO;
         if let Some(joint) = torque.iter().position(|limit| !allows(limit)) {
@@ -215,7 +218,8 @@ impl<R: Real, const V: usize> MovingGoal<R, V> {
         if tick < change.start {
             return Ok(None);
         }
-        if tick > change.start || !change.is_found() || self.at(tick) != change.from {
+        let is_late = tick > change.start || !change.is_found();
+        if is_late || self.limits != change.limits || self.at(tick) != change.from {
             return Err(GoalError::Missed);
         }
         *self = MovingGoal { limits: self.limits, ..change.motion };

@@ -13,9 +13,10 @@
 //! A motion is such a change to a velocity c, a time at c, and the change from c to rest. In a
 //! direction in which the goal is beyond the place where the joint comes to rest at once, its
 //! length rises with c. If this place is nearer than c = v₀ + a₀|a₀|/2j leads, the acceleration has
-//! one sign throughout: the jerk is j for a time, and then the joint comes to rest at once.
+//! one sign throughout: the jerk is j for a time, and then the joint comes to rest at once. If this
+//! c is above the limit of velocity, a lower one leads to the goal.
 
-use super::JerkLimits;
+use super::{JerkLimits, ROUNDED};
 use crate::root;
 use dynamics_core::scalar::{Real, positive_part};
 
@@ -179,6 +180,9 @@ impl<R: Real> Start<R> {
         if most.length > self.length {
             // The velocity at which the acceleration has ended by one jerk.
             let level = self.v + half * self.a * self.a.abs() * j_inv;
+            if level > R::from_f64(ROUNDED) * velocity {
+                return self.braked(most);
+            }
             let mut least = Changes { length: self.rest, time: R::ZERO };
             if (self.a < R::ZERO) & (level > R::ZERO) {
                 least = self.changes(level);
@@ -216,9 +220,28 @@ impl<R: Real> Start<R> {
                 return self.of_one_sign(level);
             }
         }
-        let (c, changes) = found;
+        self.by_way_of(found)
+    }
+
+    fn by_way_of(&self, (c, changes): (R, Changes<R>)) -> Fastest<R> {
         let cruise = positive_part(self.length - changes.length) / c;
         Fastest { of_one_sign: None, cruise, c, time: cruise + changes.time }
+    }
+
+    /// The motion of a joint that cannot have been at its limit of velocity before the goal, by way
+    /// of a lower one.
+    #[cold]
+    #[inline(never)]
+    fn braked(&self, most: Changes<R>) -> Fastest<R> {
+        let least = Changes { length: self.rest, time: R::ZERO };
+        let end = |c: R, changes: Changes<R>| (c, changes.length - self.length, changes);
+        let ends = [end(R::ZERO, least), end(self.limits.velocity, most)];
+        let near = R::from_f64(NEAR) * (self.length - self.rest);
+        let found = below(ends, PRECISE_STEPS, near, |c| {
+            let changes = self.changes(c);
+            (changes.length - self.length, changes)
+        });
+        if found.0 <= R::ZERO { self.of_one_sign(R::ZERO) } else { self.by_way_of(found) }
     }
 
     /// The changes to a velocity in place of those to a greater one, if their way is long enough.

@@ -52,15 +52,17 @@ fn a_refused_goal_changes_nothing() {
     assert_eq!(goal.set(300, &[0.0, f64::INFINITY]), Err(GoalError::NotFinite { joint: 1 }));
     assert_eq!(goal.set(300, &[0.0, 1e7]), Err(GoalError::TooLong));
     assert_eq!(goal.set(u32::MAX, &[0.0, 0.0]), Err(GoalError::TooLong));
-    let fast = State { qd: [0.0, -0.9], qdd: [0.0, -1.9], ..State::at([0.0; 2]) };
+    let fast = State { qd: [0.0, -0.9], qdd: [0.0, -2.1], ..State::at([0.0; 2]) };
     assert_eq!(goal.set_from(300, &fast, &[0.0, 0.0]), Err(GoalError::Start { joint: 1 }));
     let unknown = State { qd: [f64::NAN, 0.0], ..State::at([0.0; 2]) };
     assert!(goal.set_from(300, &unknown, &[0.0, 0.0]).is_err());
     assert_eq!(goal, before);
-    // The same speed, of which the acceleration takes away.
-    let slower = State { qdd: [0.0, 1.9], ..fast };
+    // A speed brakes, also one above its limit.
+    let slower = State { qd: [0.0, -3.0], qdd: [0.0, 1.9], ..fast };
     assert!(goal.set_from(300, &slower, &[0.0, 0.0]).is_ok());
     assert_eq!(goal.at(300), slower);
+    goal.set_limits([JerkLimits { acceleration: 1e-3, ..LIMITS }; 2]).unwrap();
+    assert_eq!(goal.set(310, &[0.5; 2]), Err(GoalError::Start { joint: 1 }));
 }
 
 #[test]
@@ -76,6 +78,8 @@ fn limits_that_are_none_are_refused() {
             let parameter = ConfigParameter::JerkLimit { joint: 0 };
             let error = MovingGoal::try_new(&[0.0], [limits], 1e-3).unwrap_err();
             assert_eq!(error, ConfigError::OutOfRange { parameter });
+            let mut goal = MovingGoal::try_new(&[0.0], [LIMITS], 1e-3).unwrap();
+            assert_eq!(goal.set_limits([limits]), Err(error));
         }
     }
     assert!(MovingGoal::try_new(&[f64::NAN], [LIMITS], 1e-3).is_err());
@@ -161,4 +165,57 @@ fn a_change_that_misses_its_tick_or_its_motion_changes_nothing() {
     for (steps, tick, other) in [(2, 302, None), (3, 303, None), (3, 302, Some(299))] {
         assert_eq!(begun_and(steps, tick, other), Err(GoalError::Missed));
     }
+    let (mut slow, mut change) = (goal, goal.begin_within(302, &[0.5, 0.5], &free).unwrap());
+    while change.step(|_| unreachable!()) == Ok(false) {}
+    slow.set_limits([JerkLimits { velocity: 0.9, ..LIMITS }; 2]).unwrap();
+    assert_eq!(slow.take(302, &change), Err(GoalError::Missed));
+}
+
+/// Limits of velocity that are lowered on the way to other goals, near and far, in every second
+/// case within limits of torque: the number of joints that brake. The samples keep the limits.
+fn braked<const V: usize>(random: &mut Random) -> u32 {
+    let (h, mut braked) = (1e-3, 0);
+    for case in 0..2000 {
+        let fast = [(); V].map(|()| limits::<f32>(random, 0.5, 50.0));
+        let mut goal = MovingGoal::try_new(&[0.0; V], fast, h).unwrap();
+        let last = goal.set(0, &fast.map(|limits| limits.velocity)).unwrap();
+        let start = (f64::from(last) * random.next()) as u32;
+        let (from, is_far, share) = (goal.at(start), case % 4 == 0, [f32::INFINITY, 0.6][case % 2]);
+        let (mut slow, mut goals, mut most) = (fast, from.q, [0.0; V]);
+        for (j, JerkLimits { velocity, acceleration, jerk }) in fast.into_iter().enumerate() {
+            let (v, reach) = (from.qd[j], if is_far { 50.0 } else { 1.5 * random.next() - 0.3 });
+            slow[j].velocity = v.abs().max(0.05 * velocity) * (1.0 - random.log(1e-6, 0.95) as f32);
+            goals[j] += v * (v.abs() / acceleration + acceleration / jerk) * reach as f32;
+            most[j] = f32::max(share * acceleration, 1.05 * from.qdd[j].abs());
+        }
+        goal.set_limits(slow).unwrap();
+        let arrival = goal.set_within(start, &goals, &most, |state| state.qdd).unwrap();
+        assert_eq!(goal.at(arrival), State::at(goals));
+        for (j, JerkLimits { velocity, acceleration, jerk }) in slow.into_iter().enumerate() {
+            let [v, a] = [from.qd[j].abs(), from.qdd[j] * from.qd[j].signum()];
+            let level = v + 0.5 * a * a.abs() / jerk;
+            let (top, least) = (v.max(level).max(velocity), level.min(v).min(velocity));
+            let time = a.max(0.0) / jerk + (top - velocity) / acceleration + acceleration / jerk;
+            braked += u32::from(v > velocity);
+            for k in 0..100 {
+                let tick = start + (f64::from(arrival - start) * f64::from(k * k) / 1e4) as u32;
+                let [now, next] = [tick, tick + 1].map(|tick| goal.at(tick));
+                let is_over = (tick - start) as f32 * h > time * [1.0, 3.0][case % 2] + h;
+                let speed = now.qd[j].abs();
+                assert!(speed <= if is_over { velocity } else { 1.0001 * top });
+                assert!(now.qdd[j].abs() <= acceleration.min(1.02 * most[j]), "{case} {goal:?}");
+                let rounding = 2.0 * f32::EPSILON * (acceleration + goal.seconds() * jerk);
+                assert!((next.qdd[j] - now.qdd[j]).abs() <= jerk * h + rounding, "{case} {goal:?}");
+                // A joint on its own goes on at the new limit.
+                assert!(!is_far || V > 1 || k > 50 || speed >= least - 1e-4 * v, "{goal:?}");
+            }
+        }
+    }
+    braked
+}
+
+#[test]
+fn a_limit_of_velocity_that_is_lowered_on_the_way_is_met_by_braking() {
+    let mut random = Random(7);
+    assert!(braked::<1>(&mut random) > 1000 && braked::<3>(&mut random) > 3000);
 }

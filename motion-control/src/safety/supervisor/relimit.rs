@@ -8,7 +8,8 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
     /// Replaces the limits; those of speed fall by `fall` in a tick of `tick` seconds. Whether they
     /// are there.
     ///
-    /// A limit of torque that falls is reached at the rate of the torque. The plausible step is that
+    /// A limit of torque that falls is reached at the rate of the torque; none rises above that of
+    /// the configuration. The plausible step is that
     /// of the present limit of speed, and none where that was infinite. Circles may be in any turn.
     pub(crate) fn relimit(
         &mut self,
@@ -31,11 +32,12 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
             return Err(SafetyLimitsError::Outside { joint, position }.into());
         }
         (self.middle, self.half) = (middle, half);
-        (self.limits_torque, self.rate_limit) = (limits.torque, limits.rate);
+        self.limits_torque = Self::least(&limits.torque, &self.configured_torque);
+        self.rate_limit = limits.rate;
         // Those of the motors, which are given in each tick, let a limit rise.
         self.torque_limit = match self.is_thermal {
-            true => Self::least(&limits.torque, &self.torque_limit),
-            false => limits.torque,
+            true => Self::least(&self.limits_torque, &self.torque_limit),
+            false => self.limits_torque,
         };
         let mut there = true;
         let joints = self.speed_limit.iter_mut().zip(&mut self.plausible_step);

@@ -66,6 +66,10 @@ fn a_torque_falls_to_a_new_limit_at_its_rate() {
         let torque = tick(&mut controller, 400 + k);
         assert_eq!(torque, f64::max(8.0 - 0.5 * f64::from(k), 2.0));
     }
+    // A limit above that of the configuration does not lift it.
+    let strong = SafetyLimits { torque: [7.0 + FAST.torque[0]], ..FAST };
+    assert_eq!(controller.set_limits(&strong, 1.0), Ok(true));
+    assert_eq!(controller.supervisor.torque_limit(), &FAST.torque);
 }
 
 #[test]

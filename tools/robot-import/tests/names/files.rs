@@ -60,11 +60,11 @@ fn a_changed_name_of_a_type_is_said() {
 
 #[test]
 fn what_cannot_be_a_project_is_refused_in_words() {
-    let robot = || imported().swap_remove(0).robot_file();
+    let imported = imported().swap_remove(0);
     let names = "fn self type std core test alloc f32 u8 str bool deps build examples incremental dynamics-core embedded_hal \
                  cortex-m-rt Arm 1arm _arm -arm ärm a.b";
     for name in names.split_whitespace().chain(["", "a b", "a/b"]) {
-        let error = files(&project(name, robot(), false)).expect_err(name);
+        let error = files(&project(name, imported.robot_file(), false)).expect_err(name);
         assert!(error.to_string().contains("cannot be the name"), "{error}");
     }
 }

@@ -82,7 +82,7 @@ mod mapping;
 mod servos;
 
 pub use can::joint::{CanJoint, PdCanJoint, Report};
-pub use can::joints::{CanJoints, Outbox};
+pub use can::joints::{CanJoints, JointBus, Outbox};
 #[doc(inline)]
 pub use can::{mit, moteus, odrive};
 pub use control_loop::{ControlLoop, Law, Phase, Probe, Telemetry};

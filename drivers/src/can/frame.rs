@@ -101,7 +101,7 @@ impl CanError {
             Identifier => {
                 "frames came, none from its drive: its number (ESC_ID), its host's (MST_ID)"
             }
-            Full => "no room for its command: no drive takes frames, or fewer places than joints",
+            Full => "no room: no drive takes frames, or fewer places than joints (see Outbox)",
             Bus(ErrorKind::Acknowledge) => "no drive acknowledges: supply, cable, bit rate",
             Bus(ErrorKind::Overrun) => "more frames than a tick can take: who else sends?",
             Bus(ErrorKind::Other) => "the bus is off: bit rate, 120 Ω at both ends, ground",

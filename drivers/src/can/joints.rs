@@ -13,7 +13,6 @@ use super::frame::CanError;
 use super::joint::{CanJoint, PdCanJoint};
 use super::mit::Drive;
 use super::mit::protocol::Protocol;
-use super::mit::robstride::RobStrideMit;
 use crate::MappingError;
 use crate::drives::pd::{PdDrives, SetpointAt};
 use crate::joint::{
@@ -152,7 +151,8 @@ impl<Bus: JointBus, Joint: CanJoint, const V: usize> CanJoints<Bus, Joint, V> {
     /// Lets the drives deliver torque: that of their last command, send one of zero before.
     ///
     /// A joint of your own around a drive implements `AsRef` of it, and passes
-    /// [`CanJoint::learn`] on to it.
+    /// [`CanJoint::learn`] on to it. Drives of several makers are of one type as
+    /// [`AnyDrive`](crate::mit::AnyDrive).
     ///
     /// Drives that have registers of their scale and their mode are asked for them first, one
     /// register in each call, which is to be made in tick after tick until it succeeds: seven drives
@@ -161,8 +161,9 @@ impl<Bus: JointBus, Joint: CanJoint, const V: usize> CanJoints<Bus, Joint, V> {
     ///
     /// # Errors
     /// [`CanError::Missing`] is the register that was asked for, [`CanError::Scale`] the one that
-    /// has another scale, [`CanError::Mode`] another mode, for which the drive is asked anew. Else
-    /// the first joint whose frame was not sent.
+    /// has another scale, [`CanError::Mode`] another mode, for which the drive is asked anew.
+    /// [`CanError::Clash`]: the frames of this joint and of another cannot be told apart. Else the
+    /// first joint whose frame was not sent.
     ///
     /// ```
     /// # use embedded_can::{Frame, StandardId};
@@ -189,6 +190,9 @@ impl<Bus: JointBus, Joint: CanJoint, const V: usize> CanJoints<Bus, Joint, V> {
         let mut state = self.network()?;
         let drives = || state.joints.iter().map(AsRef::as_ref).enumerate();
         let unknown = drives().find_map(|(joint, drive)| {
+            if drives().any(|(other, of)| other != joint && drive.clashes(of)) {
+                return Some((joint, CanError::Clash, Err(CanError::Clash)));
+            }
             let (register, error) = drive.unchecked().err()?;
             Some((joint, error, drive.query(register)))
         });
@@ -229,17 +233,14 @@ impl<Bus: JointBus, Joint: CanJoint, const V: usize> CanJoints<Bus, Joint, V> {
     {
         self.network()?.send(&[(); V], true, |joint, ()| joint.as_ref().disable())
     }
-}
 
-impl<Bus: JointBus, Joint: CanJoint + AsRef<RobStrideMit>, const V: usize>
-    CanJoints<Bus, Joint, V>
-{
-    /// Asks a drive for its faults, which no feedback of this protocol has: call it between two
-    /// ticks, for one joint after the other. The reply counts until the next one: a fault is the
-    /// error of [`JointDrives::set_torques`] in each tick.
+    /// Asks a drive for its faults, which no feedback of
+    /// [`RobStrideMit`](crate::mit::robstride::RobStrideMit) has: call it between two ticks, for one
+    /// joint after the other. The reply counts until the next one: a fault is the error of
+    /// [`JointDrives::set_torques`] in each tick.
     ///
     /// # Errors
-    /// As [`Self::clear_errors`].
+    /// As [`Self::clear_errors`]; [`CanError::Unknown`]: each reply of the drive has its faults.
     ///
     /// ```
     /// # use embedded_can::{Frame, StandardId};
@@ -257,7 +258,10 @@ impl<Bus: JointBus, Joint: CanJoint + AsRef<RobStrideMit>, const V: usize>
     /// assert_eq!(error.to_string(), "the node's motor is too hot");
     /// # Ok::<(), Box<dyn core::error::Error>>(())
     /// ```
-    pub fn read_faults(&self, joint: usize) -> Result<(), JointError<CanError>> {
+    pub fn read_faults<P: Protocol>(&self, joint: usize) -> Result<(), JointError<CanError>>
+    where
+        Joint: AsRef<Drive<P>>,
+    {
         self.request(joint, |joint| joint.as_ref().read_faults())
     }
 }

@@ -16,9 +16,9 @@
 //! its count gives the angle within one turn only.
 //!
 //! The encoders and the H-bridges implement the traits of a joint, the servos that of all encoders.
-//! The controllers on CAN are both at once, on a bus that they share ([`CanJoints`]); those of several
-//! makers on one bus are [`mit::AnyDrive`], and an [`Outbox`] stands between joints and a bus
-//! controller of fewer places. The servos take a duty: they are no drives of torque.
+//! The controllers on CAN are both at once, on a bus that they share ([`CanJoints`]); those of
+//! several makers on one bus are [`mit::AnyDrive`], and an [`Outbox`] stands between joints and a
+//! bus controller of fewer places. The servos take a duty: they are no drives of torque.
 //!
 //! | part | bus | measures or commands | module |
 //! |---|---|---|---|

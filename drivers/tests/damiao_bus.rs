@@ -1,5 +1,5 @@
 //! Damiao drives on a simulated bus: their registers, errors, watchdog, supply and the scale after
-//! which their count begins again. Beside them drives of RobStride, with identifiers of 29 bits. The
+//! which their count begins again. Drives of RobStride with 29 bits can be beside them. The
 //! written project's bench has this file, too.
 
 use std::cell::RefCell;

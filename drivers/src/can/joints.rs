@@ -235,8 +235,8 @@ impl<Bus: JointBus, Joint: CanJoint, const V: usize> CanJoints<Bus, Joint, V> {
     }
 
     /// Asks a drive for its faults, which no feedback of
-    /// [`RobStrideMit`](crate::mit::robstride::RobStrideMit) has: call it between two ticks, for one
-    /// joint after the other. The reply counts until the next one: a fault is the error of
+    /// [`RobStrideMit`](crate::mit::robstride::RobStrideMit) has: call it between two ticks, for
+    /// one joint after the other. The reply counts until the next one: a fault is the error of
     /// [`JointDrives::set_torques`] in each tick.
     ///
     /// # Errors
@@ -341,7 +341,7 @@ impl<Bus: JointBus, Joint: CanJoint, const V: usize> Network<Bus, Joint, V> {
         Err(faults().find(|fault| fault.error != CanError::NotReady).unwrap_or(first))
     }
 
-    /// Notes why joints have no position. Not inlined: the usual reading is in memory that is short.
+    /// Notes why joints have no position. Not inlined: the usual reading is in short memory.
     #[cold]
     #[inline(never)]
     fn note(&mut self, received: Result<(), CanError>) {
@@ -482,15 +482,16 @@ impl<Bus: JointBus, Joint: PdCanJoint, const V: usize> PdDrives<V> for &CanJoint
 /// A bus in memory, for a controller that has fewer places than there are joints, and for a task
 /// that awaits its own or blocks in it.
 ///
-/// It has a place for the command of each joint and one for a request to it. The commands take turns,
-/// so that one that still waits is before the newer ones; the requests are behind them. A command that still waits in the next tick is replaced by the newer one in its
-/// place, and the joint has [`CanError::Full`] in that tick: its drive got none for a tick.
+/// It has a place for the command of each joint and one for a request to it. The commands take
+/// turns, so that one that still waits is before the newer ones; the requests are behind them. A
+/// command that still waits in the next tick is replaced by the newer one in its place, and the
+/// joint has [`CanError::Full`] in that tick: its drive got none for a tick.
 ///
 /// # Controllers of few places
 /// [`CanJoints::exchange`] sends what waits as places become free, and takes what has come.
 ///
 /// # Tasks
-/// [`CanJoints::commands`] has the frames to send, and [`CanJoints::receive`] takes those that came.
+/// [`CanJoints::commands`] has the frames to send, [`CanJoints::receive`] takes those that came.
 ///
 /// `embedded-can` has no asynchronous trait, so that each HAL of Embassy has functions of its own,
 /// and its blocking one waits for a frame: only the program knows how many replies come in a tick.
@@ -635,10 +636,10 @@ impl<F: Frame + Clone, Joint: CanJoint, const V: usize> CanJoints<Outbox<F, V>, 
         all
     }
 
-    /// Takes the frames that have come on a bus, and sends those that wait, the oldest first, as far
-    /// as it has places for them. Call it again and again between two ticks, or when the controller
-    /// says that a place is free or a frame came: with three places and seven joints three times at
-    /// least. An error of the bus is that of the next reading.
+    /// Takes the frames that have come on a bus, and sends those that wait, the oldest first, as
+    /// far as it has places for them. Call it again and again between two ticks, or when the
+    /// controller says that a place is free or a frame came: with three places and seven joints
+    /// three times at least. An error of the bus is that of the next reading.
     ///
     /// ```
     /// # use embedded_can::{ErrorKind, ExtendedId, Frame, nb::Can};

@@ -265,8 +265,8 @@ impl<P: Protocol> Drive<P> {
     /// The frame that asks for the faults: [`Reply::Status`].
     ///
     /// # Errors
-    /// [`CanError::Length`]. [`CanError::Unknown`]: the protocol has no such frame, since each reply
-    /// has the faults.
+    /// [`CanError::Length`]. [`CanError::Unknown`]: the protocol has no such frame, since each
+    /// reply has the faults.
     pub fn read_faults<F: Frame>(&self) -> Result<F, CanError> {
         self.protocol.special(Special::Faults)
     }

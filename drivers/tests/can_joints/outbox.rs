@@ -30,8 +30,8 @@ fn frames_wait_for_places_the_oldest_first_and_a_newer_one_takes_the_place_of_it
     (&joints).set_torques(&[2.0; 7]).unwrap();
     assert_eq!(sent(3), of(2.0, &[1, 2, 3]));
     assert_eq!((&joints).set_torques(&[3.0; 7]), late(5));
-    // What waited is sent before what is newer, with its newer torque alone. One that gives up its
-    // place is neither lost nor doubled; what was in a place is not taken back.
+    // A frame that waited is before the newer ones, with its newer torque alone. One that gives up
+    // its place is neither lost nor doubled; what was in a place is not taken back.
     let all = [of(2.0, &[4]), of(3.0, &[1, 2, 3, 4]), of(2.0, &[5]), of(3.0, &[5, 6, 7])];
     assert_eq!(sent(12), all.concat());
     // A bus that fails is the error of the next reading alone.
@@ -43,8 +43,8 @@ fn frames_wait_for_places_the_oldest_first_and_a_newer_one_takes_the_place_of_it
 
 #[test]
 fn without_an_outbox_a_frame_that_waits_or_is_given_up_is_an_error() {
-    // Every joint gets a frame: of the first order the last has no place, of the second one it takes
-    // that of the first.
+    // Every joint gets a frame: in the first order the last has no place, in the second one it
+    // takes that of the first.
     for (order, kept) in [([1, 2, 3, 4], [1, 2, 3]), ([4, 3, 2, 1], [1, 3, 2])] {
         let joints = CanJoints::new(Bus { is_small: true, ..Bus::default() }, order.map(moteus));
         assert_eq!((&joints).set_torques(&[0.0; 4]), Err(at(3, CanError::Full)));

@@ -16,8 +16,9 @@
 //! its count gives the angle within one turn only.
 //!
 //! The encoders and the H-bridges implement the traits of a joint, the servos that of all encoders.
-//! The controllers on CAN are both at once, on a bus that they share ([`CanJoints`]). The servos take
-//! a duty: they are no drives of torque.
+//! The controllers on CAN are both at once, on a bus that they share ([`CanJoints`]); those of
+//! several makers on one bus are [`mit::AnyDrive`], and an [`Outbox`] stands between joints and a
+//! bus controller of fewer places. The servos take a duty: they are no drives of torque.
 //!
 //! | part | bus | measures or commands | module |
 //! |---|---|---|---|
@@ -82,7 +83,7 @@ mod mapping;
 mod servos;
 
 pub use can::joint::{CanJoint, PdCanJoint, Report};
-pub use can::joints::{CanJoints, Outbox};
+pub use can::joints::{CanJoints, JointBus, Outbox};
 #[doc(inline)]
 pub use can::{mit, moteus, odrive};
 pub use control_loop::{ControlLoop, Law, Phase, Probe, Telemetry};

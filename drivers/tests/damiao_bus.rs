@@ -1,12 +1,13 @@
 //! Damiao drives on a simulated bus: their registers, errors, watchdog, supply and the scale after
-//! which their count begins again. The written project's bench has this file, too.
+//! which their count begins again. Drives of RobStride with 29 bits can be beside them. The
+//! written project's bench has this file, too.
 
 use std::cell::RefCell;
 use std::collections::VecDeque;
 use std::f64::consts::TAU;
 
 use embedded_can::nb::Can;
-use embedded_can::{ErrorKind, Frame, Id, StandardId};
+use embedded_can::{ErrorKind, ExtendedId, Frame, Id, StandardId};
 use joint_drivers::can::FdFrame;
 use joint_drivers::mit::Scale;
 use joint_drivers::mit::damiao::{MODE, PMAX, TIMEOUT, TMAX, VMAX};
@@ -17,6 +18,9 @@ pub struct Drive {
     /// ESC_ID and MST_ID.
     pub number: u8,
     pub host: u16,
+    /// Whether it has RobStride's own protocol, without registers. Its host is then below 256, and
+    /// its error has the bits 16 to 21 of an identifier.
+    pub is_robstride: bool,
     /// PMAX, VMAX, TMAX, and the gains of MIT mode.
     pub scale: Scale,
     /// 1: MIT; 2: position; 3: velocity.
@@ -43,6 +47,7 @@ impl Drive {
         Self {
             number,
             host: 0x10 + u16::from(number),
+            is_robstride: false,
             scale,
             mode: 1,
             timeout: 0.0,
@@ -91,11 +96,21 @@ impl Drive {
 
     /// The reply to a frame, if it is for this drive.
     pub fn take(&mut self, frame: &FdFrame) -> Option<FdFrame> {
-        let Id::Standard(id) = frame.id() else { return None };
         let data: [u8; 8] = frame.data().try_into().ok()?;
         if !self.has_supply {
             return None;
         }
+        let id = match frame.id() {
+            Id::Standard(id) if !self.is_robstride => id,
+            Id::Extended(id) if self.is_robstride => {
+                let [kind, .., number] = id.as_raw().to_be_bytes();
+                self.is_enabled &= kind != 4;
+                // Types 1, 3, 4 and 6.
+                let request = [0, 0xfc, 0xfd - 2 * (data[0] & 1), 0xfe][usize::from(kind / 2)];
+                return (number == self.number).then(|| self.obey(request, frame));
+            }
+            _ => return None,
+        };
         if id.as_raw() == 0x7ff && data[..3] == [self.number, 0, 0x33] {
             let value = match data[3] {
                 PMAX => self.scale.position.to_le_bytes(),
@@ -108,21 +123,21 @@ impl Drive {
             let [b0, b1, b2, b3] = value;
             return Some(self.frame([self.number, 0, 0x33, data[3], b0, b1, b2, b3]));
         }
-        if id.as_raw() != u16::from(self.number) {
-            return None;
-        }
+        let request = if data[..7] == [0xff; 7] { data[7] } else { 0 };
+        (id.as_raw() == u16::from(self.number)).then(|| self.obey(request, frame))
+    }
+
+    fn obey(&mut self, request: u8, frame: &FdFrame) -> FdFrame {
         self.silence = 0.0;
-        match data {
-            [0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, request] => match request {
-                0xfb if !self.error_lasts => self.error = 0,
-                0xfc if self.error == 0 => self.is_enabled = true,
-                0xfd => self.is_enabled = false,
-                0xfe => self.zero = self.angle,
-                _ => {}
-            },
-            _ => self.command = decoded(frame, &self.scale),
+        match request {
+            0xfb if !self.error_lasts => self.error = 0,
+            0xfc if self.error == 0 => self.is_enabled = true,
+            0xfd => self.is_enabled = false,
+            0xfe => self.zero = self.angle,
+            0 => self.command = decoded(frame, &self.scale),
+            _ => {}
         }
-        Some(self.reply())
+        self.reply()
     }
 
     /// Its feedback. At the end of its scale the count of the position begins again; the very ends
@@ -133,6 +148,16 @@ impl Drive {
         };
         let most = f64::from(self.scale.position);
         let angle = (self.angle - self.zero + most).rem_euclid(2.0 * most) - most;
+        if self.is_robstride {
+            let Scale { position, velocity, torque, .. } = self.scale;
+            let all = [(angle, position), (self.speed, velocity), (self.torque(), torque)];
+            let pack = |data, &(x, most): &_| data << 16 | count(x, most, 65_535.0);
+            let data = all.iter().fold(0_u64, pack) << 16 | 300;
+            let state = u32::from(self.is_enabled) << 7 | u32::from(self.error);
+            let id = 2 << 24 | state << 16 | u32::from(self.number) << 8 | u32::from(self.host);
+            let id = ExtendedId::new(id).expect("29 bits");
+            return FdFrame::new(id, &data.to_be_bytes()).expect("8 bytes");
+        }
         let status = match self.error {
             0 => u8::from(self.is_enabled),
             error => error,
@@ -153,15 +178,22 @@ impl Drive {
 
 /// The command of a drive as it decodes it, in f64.
 pub fn decoded(frame: &FdFrame, scale: &Scale) -> [f64; 5] {
-    let [d0, d1, d2, d3, d4, d5, d6, d7] = frame.data().try_into().unwrap();
-    let both = |high: u8, low: u8| f64::from(u16::from(high) << 8 | u16::from(low));
+    let data = u64::from_be_bytes(frame.data().try_into().unwrap());
+    let bits = |from: u32, count: u32| ((data >> from) & ((1 << count) - 1)) as f64;
+    let ([v, kp, kd, torque], last) = match frame.id() {
+        Id::Standard(_) => ([36, 24, 12, 0].map(|from| bits(from, 12)), 4095.0),
+        Id::Extended(id) => {
+            let torque = f64::from((id.as_raw() >> 8) as u16);
+            ([bits(32, 16), bits(16, 16), bits(0, 16), torque], 65_535.0)
+        }
+    };
     let signed = |count: f64, most: f32, last: f64| (2.0 * count / last - 1.0) * f64::from(most);
     [
-        signed(both(d0, d1), scale.position, 65535.0),
-        signed(both(d2 >> 4, d2 << 4 | d3 >> 4), scale.velocity, 4095.0),
-        both(d3 & 0x0f, d4) / 4095.0 * f64::from(scale.kp),
-        both(d5 >> 4, d5 << 4 | d6 >> 4) / 4095.0 * f64::from(scale.kd),
-        signed(both(d6 & 0x0f, d7), scale.torque, 4095.0),
+        signed(bits(48, 16), scale.position, 65_535.0),
+        signed(v, scale.velocity, last),
+        kp / last * f64::from(scale.kp),
+        kd / last * f64::from(scale.kd),
+        signed(torque, scale.torque, last),
     ]
 }
 

@@ -4,12 +4,10 @@ use core::cell::RefCell;
 use core::f64::consts::TAU;
 
 use dynamics_core::state::State;
-use embedded_can::nb::Can;
-use embedded_can::{ErrorKind, ExtendedId, Frame, StandardId};
+use embedded_can::{ExtendedId, Frame, StandardId};
 use joint_drivers::can::{CanError, FdFrame};
 use joint_drivers::mit::cubemars::{self, CubeMars};
 use joint_drivers::mit::damiao::{self, Damiao};
-use joint_drivers::mit::robstride::{self, RobStride};
 use joint_drivers::moteus::Moteus;
 use joint_drivers::odrive::ODrive;
 use joint_drivers::{
@@ -22,10 +20,14 @@ use motion_control::motion::{MotionController, MotionControllerConfig, PreviousT
 use motion_control::safety::SupervisorConfig;
 
 use super::damiao_bus;
+use super::lost_turn::CONFIG;
+use super::mit::makers;
 
 /// A drive on its bus.
 #[derive(Clone, Copy, Debug)]
 struct Drive {
+    /// Its maker, number and host, if it is one in MIT mode.
+    address: (char, u8, u16),
     /// The reply at an angle of the shaft by the drive's count, rad.
     reply: fn(f64) -> FdFrame,
     /// The part of a turn in which it begins, and the angle after which its count begins again.
@@ -43,6 +45,7 @@ fn count(angle: f64) -> [u8; 2] {
 }
 
 const DAMIAO: Drive = Drive {
+    address: ('d', 1, 0x11),
     reply: |angle| {
         let [high, low] = count(angle);
         FdFrame::new(StandardId::new(0x11).unwrap(), &[0x11, high, low, 0x80, 8, 0, 30, 25])
@@ -53,6 +56,7 @@ const DAMIAO: Drive = Drive {
     step: 25.0 / 65_535.0,
 };
 const CUBEMARS: Drive = Drive {
+    address: ('c', 1, 1),
     reply: |angle| {
         let [high, low] = count(angle);
         FdFrame::new(StandardId::new(1).unwrap(), &[1, high, low, 0x80, 8, 0, 70, 0]).unwrap()
@@ -61,6 +65,7 @@ const CUBEMARS: Drive = Drive {
     ..DAMIAO
 };
 const ROBSTRIDE: Drive = Drive {
+    address: ('r', 0x7f, 0xfd),
     reply: |angle| {
         // ±12.57 rad over the counts, and again after 8π.
         let angle = angle - (angle / (4.0 * TAU)).round() * 4.0 * TAU;
@@ -75,6 +80,7 @@ const ROBSTRIDE: Drive = Drive {
     step: 3.0 * 25.14 / 65_535.0,
 };
 const MOTEUS: Drive = Drive {
+    address: (' ', 0, 0),
     reply: |angle| {
         let [q0, q1, q2, q3] = ((angle / TAU) as f32).to_le_bytes();
         let data = [0x21, 0, 10, 0x2f, 1, q0, q1, q2, q3, 0, 0, 0, 0, 0, 0, 0, 0, 0x21, 0x0f, 0];
@@ -85,28 +91,13 @@ const MOTEUS: Drive = Drive {
     step: 1e-4,
 };
 const ODRIVE: Drive = Drive {
+    address: (' ', 1, 0),
     reply: |angle| {
         let [q0, q1, q2, q3] = ((angle / TAU) as f32).to_le_bytes();
         FdFrame::new(StandardId::new(1 << 5 | 9).unwrap(), &[q0, q1, q2, q3, 0, 0, 0, 0]).unwrap()
     },
     ..MOTEUS
 };
-
-/// The frames that come, first ones first.
-#[derive(Debug, Default)]
-struct Bus<'a>(Option<&'a RefCell<Vec<FdFrame>>>);
-
-impl Can for Bus<'_> {
-    type Frame = FdFrame;
-    type Error = ErrorKind;
-    fn transmit(&mut self, _: &FdFrame) -> nb::Result<Option<FdFrame>, ErrorKind> {
-        Ok(None)
-    }
-    fn receive(&mut self) -> nb::Result<FdFrame, ErrorKind> {
-        let mut frames = self.0.ok_or(nb::Error::WouldBlock)?.borrow_mut();
-        if frames.is_empty() { Err(nb::Error::WouldBlock) } else { Ok(frames.remove(0)) }
-    }
-}
 
 /// Marsaglia's xorshift64, 2003.
 struct Random(u64);
@@ -132,8 +123,7 @@ fn mapping(range: JointRange, ratio: f64) -> EncoderMapping {
 
 /// Runs a joint in many ticks, and returns how often it was lost, and in how many ticks known.
 fn run<Joint: CanJoint>(drive: Drive, joint: Joint, range: JointRange, ratio: f64) -> [u32; 2] {
-    let frames = RefCell::new(Vec::new());
-    let joints = CanJoints::new(Bus(Some(&frames)), [joint]);
+    let joints = CanJoints::new(Outbox::<FdFrame, 1>::new(), [joint]);
     let mut random = Random(0x5eed_0001_2345_6789);
     let (mut shaft, mut speed) = (0.7, 0.0_f64);
     // The shaft's angle at which the drive counts zero, and the ticks until it has its supply.
@@ -193,7 +183,7 @@ fn run<Joint: CanJoint>(drive: Drive, joint: Joint, range: JointRange, ratio: f6
             let foreign = FdFrame::new(StandardId::new(0x700).unwrap(), &[1; 8]).unwrap();
             came.splice(0..0, [foreign; 12]);
         }
-        frames.borrow_mut().extend(came);
+        came.iter().for_each(|frame| joints.receive(frame));
         match (&joints).read() {
             Ok([q]) => {
                 known += 1;
@@ -216,7 +206,7 @@ fn run<Joint: CanJoint>(drive: Drive, joint: Joint, range: JointRange, ratio: f6
             }
             Err(failed) if failed.error == CanError::LostTurn => {
                 assert_eq!(
-                    <&CanJoints<Bus<'_>, Joint, 1>>::fault(&failed.error, 0),
+                    <&CanJoints<Outbox<FdFrame, 1>, Joint, 1>>::fault(&failed.error, 0),
                     Fault::LostTurn { joint: 0 }
                 );
                 lost += u32::from(!was_lost);
@@ -240,23 +230,10 @@ const WITHIN: JointRange = JointRange::Within { lower: -1.5, upper: 1.5 };
 fn a_lost_supply_never_puts_a_joint_beside_itself() {
     let of = |drive: Drive, range, ratio| {
         let at = mapping(range, ratio);
-        match drive.step {
-            _ if drive.start < 1.0 => {
-                let joint = CubeMars::new(1, 1, cubemars::AK80_9, 18.0, at).unwrap();
-                run(drive, joint, range, ratio)
-            }
-            _ if drive.period == 25.0 => {
-                let joint = Damiao::new(1, 0x11, damiao::DM4310, 10.0, at).unwrap();
-                run(drive, joint, range, ratio)
-            }
-            _ if drive.period.is_finite() => {
-                let joint = RobStride::new(0x7f, 0xfd, robstride::RS02, 17.0, at).unwrap();
-                run(drive, joint, range, ratio)
-            }
-            _ if drive.reply as usize == MOTEUS.reply as usize => {
-                run(drive, Moteus::new(1, 0, 10.0, at).unwrap(), range, ratio)
-            }
-            _ => run(drive, ODrive::new(1, 10.0, at).unwrap(), range, ratio),
+        match drive.address {
+            (_, 0, _) => run(drive, Moteus::new(1, 0, 10.0, at).unwrap(), range, ratio),
+            (_, _, 0) => run(drive, ODrive::new(1, 10.0, at).unwrap(), range, ratio),
+            address => run(drive, makers::drive(address, at), range, ratio),
         }
     };
     for drive in [DAMIAO, CUBEMARS, ROBSTRIDE, MOTEUS, ODRIVE] {
@@ -284,21 +261,9 @@ fn a_lost_supply_never_puts_a_joint_beside_itself() {
 fn controller() -> MotionController<f32, 1, PreviousTick> {
     let limits =
         SafetyLimits { torque: [7.0], rate: [7.0], speed: [5.0], lower: [-4.4], upper: [4.4] };
-    let supervisor = SupervisorConfig {
-        limits,
-        tick: 2e-3,
-        resolution: 4e-4,
-        ride_through_ticks: 5,
-        hold_ticks: 50,
-        reentry_ticks: 100,
-    };
-    MotionController::try_new(MotionControllerConfig {
-        supervisor,
-        observer_bandwidth: 150.0,
-        decay_rate: 25.0,
-        restart_distance: 0.15,
-    })
-    .unwrap()
+    let supervisor = SupervisorConfig { limits, tick: 2e-3, resolution: 4e-4, ..CONFIG.supervisor };
+    let config = MotionControllerConfig { supervisor, observer_bandwidth: 150.0, ..CONFIG };
+    MotionController::try_new(config).unwrap()
 }
 
 struct Nothing;

@@ -21,7 +21,7 @@ const TICK: f32 = 1e-3;
 /// The end of the motion.
 const END: f64 = 1.8;
 
-const CONFIG: MotionControllerConfig<f32, 1> = MotionControllerConfig {
+pub(super) const CONFIG: MotionControllerConfig<f32, 1> = MotionControllerConfig {
     supervisor: SupervisorConfig {
         limits: SafetyLimits {
             torque: [50.0],

@@ -8,13 +8,14 @@ use joint_drivers::can::{CanError, ClassicFrame, Component, FdFrame};
 use joint_drivers::mit::cubemars::{self, CubeMars};
 use joint_drivers::mit::damiao::{self, Damiao};
 use joint_drivers::mit::robstride::{self, RobStride, RobStrideMit};
-use joint_drivers::mit::{DriveState, Reply, Scale, Setpoint, SetpointAt};
+use joint_drivers::mit::{AnyDrive, DriveState, Reply, Scale, Setpoint, SetpointAt};
 use joint_drivers::{
     CanJoint, CanJoints, Direction, DriveFault, DriveFaultKind, EncoderMapping, JointDrives,
-    JointEncoders, JointError, JointMapping, JointRange, MappingError, Outbox, Report,
+    JointEncoders, JointError, JointMapping, JointRange, Outbox,
 };
 
 mod law;
+pub(crate) mod makers;
 mod turns;
 
 use super::can::{classic, extended, standard};
@@ -139,42 +140,11 @@ fn answer(query: &FdFrame, other: Option<(u8, f32)>) -> FdFrame {
     drive.take(query).expect("an answer")
 }
 
-/// A joint around a drive.
-struct Within(Damiao);
-
-impl AsRef<Damiao> for Within {
-    fn as_ref(&self) -> &Damiao {
-        &self.0
-    }
-}
-
-impl CanJoint for Within {
-    fn command<F: Frame>(&self, torque: f32) -> Result<F, CanError> {
-        self.0.set_torque(torque)
-    }
-
-    fn report<F: Frame>(&mut self, frame: &F) -> Result<Report, CanError> {
-        self.0.report(frame)
-    }
-
-    fn missed(&mut self, ticks: u32) {
-        self.0.missed(ticks);
-    }
-
-    fn place_near(&mut self, position: f32) -> Result<(), MappingError> {
-        self.0.place_near(position)
-    }
-
-    fn learn<F: Frame>(&mut self, frame: &F) -> bool {
-        self.0.learn(frame)
-    }
-}
-
 #[test]
 fn no_drive_of_a_bus_is_enabled_before_the_scales_and_modes_of_all_are_right() {
     use damiao::{MODE, PMAX, TMAX, VMAX};
     let numbered = |id: u8| Damiao::new(id, 0x10, damiao::DM4310, 5.0, identity()).unwrap();
-    let drives = [numbered(1), numbered(2)].map(Within);
+    let drives = [numbered(1), numbered(2)].map(AnyDrive::from);
     let joints = CanJoints::new(Outbox::<FdFrame, 2>::new(), drives);
     let at = |joint, error| Err(JointError { joint, error });
     let missing = |register: u8| CanError::Missing(register.into());

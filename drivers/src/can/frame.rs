@@ -61,6 +61,9 @@ pub enum CanError {
     Scale(u8),
     /// The node is in another control mode than that of the commands, of this number.
     Mode(u8),
+    /// The node takes or sends frames that cannot be told apart from those of another joint's node:
+    /// one number twice, or a host that is another's number.
+    Clash,
     /// The node refused to read or write a register.
     Register {
         /// The number of the register.
@@ -99,9 +102,9 @@ impl CanError {
         match self {
             NoReply => "its drive does not answer: its number, a second drive of it, plug, supply",
             Identifier => {
-                "frames came, none from its drive: its number (ESC_ID), its host's (MST_ID)"
+                "frames came, none from its drive: its number, its host's (ESC_ID, MST_ID)"
             }
-            Full => "no room for its command: no drive takes frames, or fewer places than joints",
+            Full => "no room: no drive takes frames, or fewer places than joints (see Outbox)",
             Bus(ErrorKind::Acknowledge) => "no drive acknowledges: supply, cable, bit rate",
             Bus(ErrorKind::Overrun) => "more frames than a tick can take: who else sends?",
             Bus(ErrorKind::Other) => "the bus is off: bit rate, 120 Ω at both ends, ground",
@@ -129,6 +132,7 @@ impl CanError {
             Range => "its position is at the end of the drive's scale: turn it back, set its zero",
             Encoder => "its encoder failed or is not calibrated: use the maker's tool",
             Fault(_) => "its drive reports a fault of this number: a start clears it",
+            Clash => "impossible: its number or its host's is that of another joint's drive",
             Remote | Length(_) | Short => "no answer of its protocol: who else sends?",
             Node | Torque => "impossible: its number, its scale or its greatest torque",
             _ => "a frame has what its protocol does not have: who else sends on this bus?",
@@ -169,6 +173,7 @@ impl fmt::Display for CanError {
             Self::Range => out.write_str("the position is at the end of its scale"),
             Self::Scale(register) => write!(out, "register {register} has another scale"),
             Self::Mode(mode) => write!(out, "the node is in another control mode, {mode}"),
+            Self::Clash => out.write_str("the frames of two nodes cannot be told apart"),
             Self::Register { register, code } => {
                 write!(out, "the node refused register {register:#05x} with {code}")
             }

@@ -1,11 +1,11 @@
 //! The controllers of a robot's joints on one CAN bus, whose replies carry the positions: encoders
 //! and drives at once.
 
-use core::cell::RefCell;
+use core::cell::{RefCell, RefMut};
 use core::mem;
 
 use embedded_can::nb::Can;
-use embedded_can::{Error as _, ErrorKind};
+use embedded_can::{Error as _, ErrorKind, Frame};
 use motion_control::{limits::Fault, motion::PreviousTick};
 use nb::Error::{Other, WouldBlock};
 
@@ -13,7 +13,6 @@ use super::frame::CanError;
 use super::joint::{CanJoint, PdCanJoint};
 use super::mit::Drive;
 use super::mit::protocol::Protocol;
-use super::mit::robstride::RobStrideMit;
 use crate::MappingError;
 use crate::drives::pd::{PdDrives, SetpointAt};
 use crate::joint::{
@@ -77,7 +76,7 @@ struct Network<Bus, Joint, const V: usize> {
     next: usize,
 }
 
-impl<Bus: Can, Joint: CanJoint, const V: usize> CanJoints<Bus, Joint, V> {
+impl<Bus: JointBus, Joint: CanJoint, const V: usize> CanJoints<Bus, Joint, V> {
     /// The joints, of which none has reported yet.
     pub const fn new(bus: Bus, joints: [Joint; V]) -> Self {
         let (positions, delivers) = ([Err(CanError::NoReply); V], [Ok(()); V]);
@@ -108,8 +107,7 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> CanJoints<Bus, Joint, V> {
         self.0.try_borrow().map_or([Err(CanError::Full); V], |network| network.unread)
     }
 
-    /// Clears the faults of a joint. Call it between two ticks; with an [`Outbox`], take its frame
-    /// by [`Self::commands`] before the next one.
+    /// Clears the faults of a joint. Call it between two ticks.
     ///
     /// # Errors
     /// [`CanError::Node`]: there is no such joint. [`CanError::Unknown`]: it has no such frame.
@@ -134,23 +132,27 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> CanJoints<Bus, Joint, V> {
         frame: impl FnOnce(&mut Joint) -> Result<Bus::Frame, CanError>,
     ) -> Result<(), JointError<CanError>> {
         let at = |error| JointError { joint, error };
-        let mut network = self.0.try_borrow_mut().map_err(|_| at(CanError::Full))?;
+        let mut network = self.network()?;
         let of = network.joints.get_mut(joint).ok_or(at(CanError::Node))?;
         let frame = frame(of).map_err(at)?;
-        transmit(&mut network.bus, &frame).map_err(at)
+        network.bus.send(&frame, joint, true).map_err(at)
     }
 
     /// Returns the bus to its owner.
     pub fn release(self) -> Bus {
         self.0.into_inner().bus
     }
-}
 
-impl<Bus: Can, Joint: CanJoint, const V: usize> CanJoints<Bus, Joint, V> {
+    /// Nobody else holds it: each of these functions returns it before it ends.
+    fn network(&self) -> Result<RefMut<'_, Network<Bus, Joint, V>>, JointError<CanError>> {
+        self.0.try_borrow_mut().map_err(|_| JointError { joint: 0, error: CanError::Full })
+    }
+
     /// Lets the drives deliver torque: that of their last command, send one of zero before.
     ///
     /// A joint of your own around a drive implements `AsRef` of it, and passes
-    /// [`CanJoint::learn`] on to it.
+    /// [`CanJoint::learn`] on to it. Drives of several makers are of one type as
+    /// [`AnyDrive`](crate::mit::AnyDrive).
     ///
     /// Drives that have registers of their scale and their mode are asked for them first, one
     /// register in each call, which is to be made in tick after tick until it succeeds: seven drives
@@ -159,8 +161,9 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> CanJoints<Bus, Joint, V> {
     ///
     /// # Errors
     /// [`CanError::Missing`] is the register that was asked for, [`CanError::Scale`] the one that
-    /// has another scale, [`CanError::Mode`] another mode, for which the drive is asked anew. Else
-    /// the first joint whose frame was not sent.
+    /// has another scale, [`CanError::Mode`] another mode, for which the drive is asked anew.
+    /// [`CanError::Clash`]: the frames of this joint and of another cannot be told apart. Else the
+    /// first joint whose frame was not sent.
     ///
     /// ```
     /// # use embedded_can::{Frame, StandardId};
@@ -184,17 +187,20 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> CanJoints<Bus, Joint, V> {
     where
         Joint: AsRef<Drive<P>>,
     {
-        let full = JointError { joint: 0, error: CanError::Full };
-        let mut state = self.0.try_borrow_mut().map_err(|_| full)?;
-        let mut all = state.joints.iter().map(|joint| joint.as_ref().unchecked()).enumerate();
-        let unknown = all.find_map(|(joint, unchecked)| Some((joint, unchecked.err()?)));
-        let Some((joint, (register, error))) = unknown else {
-            return state.send(&[(); V], |joint, ()| joint.as_ref().enable());
+        let mut state = self.network()?;
+        let drives = || state.joints.iter().map(AsRef::as_ref).enumerate();
+        let unknown = drives().find_map(|(joint, drive)| {
+            if drives().any(|(other, of)| other != joint && drive.clashes(of)) {
+                return Some((joint, CanError::Clash, Err(CanError::Clash)));
+            }
+            let (register, error) = drive.unchecked().err()?;
+            Some((joint, error, drive.query(register)))
+        });
+        let Some((joint, error, query)) = unknown else {
+            return state.send(&[(); V], true, |joint, ()| joint.as_ref().enable());
         };
-        let error = JointError { joint, error };
-        let query = state.joints.get(joint).ok_or(error)?.as_ref().query(register);
-        let sent = query.and_then(|query| transmit(&mut state.bus, &query));
-        Err(sent.map_or_else(|error| JointError { joint, error }, |()| error))
+        let sent = query.and_then(|query| state.bus.send(&query, joint, true));
+        Err(JointError { joint, error: sent.err().unwrap_or(error) })
     }
 
     /// As [`Self::enable`], for a start by a button: clears the faults that drives keep before, one
@@ -225,22 +231,16 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> CanJoints<Bus, Joint, V> {
     where
         Joint: AsRef<Drive<P>>,
     {
-        let error = JointError { joint: 0, error: CanError::Full };
-        let mut state = self.0.try_borrow_mut().map_err(|_| error)?;
-        state.send(&[(); V], |joint, ()| joint.as_ref().disable())
+        self.network()?.send(&[(); V], true, |joint, ()| joint.as_ref().disable())
     }
-}
 
-impl<Bus: Can, Joint: CanJoint + AsRef<RobStrideMit>, const V: usize> CanJoints<Bus, Joint, V> {
-    /// Asks a drive for its faults, which no feedback of this protocol has: call it between two
-    /// ticks, for one joint after the other. The reply counts until the next one: a fault is the
-    /// error of [`JointDrives::set_torques`] in each tick.
-    ///
-    /// With an [`Outbox`], take its frame by [`Self::commands`] before the next tick.
+    /// Asks a drive for its faults, which no feedback of
+    /// [`RobStrideMit`](crate::mit::robstride::RobStrideMit) has: call it between two ticks, for
+    /// one joint after the other. The reply counts until the next one: a fault is the error of
+    /// [`JointDrives::set_torques`] in each tick.
     ///
     /// # Errors
-    /// [`CanError::Node`]: there is no such joint. [`CanError::Full`] and [`CanError::Bus`]: the
-    /// frame was not sent.
+    /// As [`Self::clear_errors`]; [`CanError::Unknown`]: each reply of the drive has its faults.
     ///
     /// ```
     /// # use embedded_can::{Frame, StandardId};
@@ -258,23 +258,29 @@ impl<Bus: Can, Joint: CanJoint + AsRef<RobStrideMit>, const V: usize> CanJoints<
     /// assert_eq!(error.to_string(), "the node's motor is too hot");
     /// # Ok::<(), Box<dyn core::error::Error>>(())
     /// ```
-    pub fn read_faults(&self, joint: usize) -> Result<(), JointError<CanError>> {
+    pub fn read_faults<P: Protocol>(&self, joint: usize) -> Result<(), JointError<CanError>>
+    where
+        Joint: AsRef<Drive<P>>,
+    {
         self.request(joint, |joint| joint.as_ref().read_faults())
     }
 }
 
-impl<Bus: Can, Joint: CanJoint, const V: usize> Network<Bus, Joint, V> {
+impl<Bus: JointBus, Joint: CanJoint, const V: usize> Network<Bus, Joint, V> {
     /// Takes the frames that have come: so many that a bus which is busy ends the tick. With others
     /// left behind them the last positions may be old.
-    fn receive(&mut self) -> Result<(), CanError> {
+    fn receive(
+        &mut self,
+        mut next: impl FnMut(&mut Bus) -> nb::Result<Bus::Frame, ErrorKind>,
+    ) -> Result<(), ErrorKind> {
         for _ in 0..MOST_FRAMES + 4 * V {
-            match self.bus.receive() {
+            match next(&mut self.bus) {
                 Ok(frame) => self.take(&frame),
                 Err(WouldBlock) => return Ok(()),
-                Err(Other(error)) => return Err(CanError::Bus(error.kind())),
+                Err(Other(error)) => return Err(error),
             }
         }
-        Err(CanError::Bus(ErrorKind::Overrun))
+        Err(ErrorKind::Overrun)
     }
 
     /// The joint keeps the error of a frame that is wrong, unless it has a position.
@@ -312,11 +318,12 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> Network<Bus, Joint, V> {
     fn send<T>(
         &mut self,
         all: &[T; V],
+        is_request: bool,
         frame: impl Fn(&Joint, &T) -> Result<Bus::Frame, CanError>,
     ) -> Result<(), JointError<CanError>> {
         let mut failed = Ok(());
         for (joint, (of, each)) in self.joints.iter().zip(all).enumerate() {
-            let sent = frame(of, each).and_then(|frame| transmit(&mut self.bus, &frame));
+            let sent = frame(of, each).and_then(|frame| self.bus.send(&frame, joint, is_request));
             if let (Err(error), Ok(())) = (sent, failed) {
                 failed = Err(JointError { joint, error });
             }
@@ -326,45 +333,71 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> Network<Bus, Joint, V> {
 
     /// The error of the first joint that failed, else of the first that is not ready.
     fn delivered(&self) -> Result<(), JointError<CanError>> {
-        let mut faults = self.delivers.iter().enumerate();
-        let mut waiting = Ok(());
-        let failed = faults.find_map(|(joint, delivers)| {
-            let error = delivers.err()?;
-            if error == CanError::NotReady {
-                waiting = waiting.and(Err(JointError { joint, error }));
-                return None;
-            }
-            Some(JointError { joint, error })
-        });
-        failed.map_or(waiting, Err)
+        let faults = || {
+            let all = self.delivers.iter().enumerate();
+            all.filter_map(|(joint, state)| state.err().map(|error| JointError { joint, error }))
+        };
+        let Some(first) = faults().next() else { return Ok(()) };
+        Err(faults().find(|fault| fault.error != CanError::NotReady).unwrap_or(first))
+    }
+
+    /// Notes why joints have no position. Not inlined: the usual reading is in short memory.
+    #[cold]
+    #[inline(never)]
+    fn note(&mut self, received: Result<(), CanError>) {
+        self.unread = self.positions.map(|position| received.and(position.map(|_| ())));
     }
 }
 
-/// Notes why a joint, or all, had no position in a reading that failed. Not inlined: the usual reading
-/// is in memory that is short.
-#[cold]
-#[inline(never)]
-fn note<const V: usize>(
-    unread: &mut [Result<(), CanError>; V],
-    of: Option<usize>,
-    error: CanError,
-    is_first: bool,
-) {
-    for (joint, unread) in unread.iter_mut().enumerate() {
-        if of.is_none_or(|of| of == joint) {
-            *unread = Err(error);
-        } else if is_first {
-            *unread = Ok(());
+/// The bus of joints: any [`Can`] that has a place for a frame of each, or an [`Outbox`].
+///
+/// ```
+/// use joint_drivers::can::{CanError, ClassicFrame};
+/// use joint_drivers::mit::damiao::{DM4310, Damiao};
+/// use joint_drivers::{CanJoints, JointBus, JointError, JointMapping, JointRange, Outbox};
+/// // A program for any board.
+/// fn stop<Bus: JointBus>(joints: &CanJoints<Bus, Damiao, 1>) -> Result<(), JointError<CanError>> {
+///     joints.disable()
+/// }
+/// # let mapping = JointMapping::IDENTITY.with_range(JointRange::Near(0.0), 5e-3)?;
+/// let drives = [Damiao::new(1, 0x11, DM4310, 7.0, mapping)?];
+/// stop(&CanJoints::new(Outbox::<ClassicFrame, 1>::new(), drives))?;
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
+pub trait JointBus {
+    /// A frame of this bus.
+    type Frame: Frame;
+
+    /// Sends the frame of a joint, counted from zero: its command, of which the newest counts, or a
+    /// request, which is not replaced by another one.
+    ///
+    /// # Errors
+    /// [`CanError::Full`]: this frame, or the command that it replaces, is not sent in its tick.
+    /// [`CanError::Bus`]: the controller of the bus has this error.
+    fn send(&mut self, frame: &Self::Frame, joint: usize, is_request: bool)
+    -> Result<(), CanError>;
+
+    /// The next frame that has come.
+    ///
+    /// # Errors
+    /// `WouldBlock`: there is none. The kind of an error of the bus.
+    fn next(&mut self) -> nb::Result<Self::Frame, ErrorKind>;
+}
+
+impl<Bus: Can> JointBus for Bus {
+    type Frame = Bus::Frame;
+
+    fn send(&mut self, frame: &Bus::Frame, _: usize, _: bool) -> Result<(), CanError> {
+        match self.transmit(frame) {
+            Ok(None) => Ok(()),
+            // Another frame, of a lower priority, was taken out of the queue for it.
+            Ok(Some(_)) | Err(WouldBlock) => Err(CanError::Full),
+            Err(Other(error)) => Err(CanError::Bus(error.kind())),
         }
     }
-}
 
-fn transmit<Bus: Can>(bus: &mut Bus, frame: &Bus::Frame) -> Result<(), CanError> {
-    match bus.transmit(frame) {
-        Ok(None) => Ok(()),
-        // Another frame, of a lower priority, was taken out of the queue for it.
-        Ok(Some(_)) | Err(WouldBlock) => Err(CanError::Full),
-        Err(Other(error)) => Err(CanError::Bus(error.kind())),
+    fn next(&mut self) -> nb::Result<Bus::Frame, ErrorKind> {
+        self.receive().map_err(|error| error.map(|error| error.kind()))
     }
 }
 
@@ -387,7 +420,9 @@ impl<Bus, Joint: CanJoint, const V: usize> EncoderType for &CanJoints<Bus, Joint
     }
 }
 
-impl<Bus: Can, Joint: CanJoint, const V: usize> JointEncoders<V> for &CanJoints<Bus, Joint, V> {
+impl<Bus: JointBus, Joint: CanJoint, const V: usize> JointEncoders<V>
+    for &CanJoints<Bus, Joint, V>
+{
     /// Commands zero torque, which is replied to with the first positions.
     fn start(&mut self) {
         // Errors are those of the first reading.
@@ -395,57 +430,45 @@ impl<Bus: Can, Joint: CanJoint, const V: usize> JointEncoders<V> for &CanJoints<
     }
 
     fn read(&mut self) -> Result<[f32; V], JointError<CanError>> {
-        let first = |error| JointError { joint: 0, error };
-        let Ok(mut state) = self.0.try_borrow_mut() else {
-            return Err(first(CanError::Full));
-        };
-        let received = state.receive();
-        if let Err(error) = received {
-            note(&mut state.unread, None, error, true);
-        }
+        let mut state = self.network()?;
+        let received = state.receive(Bus::next).map_err(CanError::Bus);
         let mut positions = [0.0; V];
-        let mut failed = received.map_err(first);
-        let Network { positions: reported, joints, unread, .. } = &mut *state;
-        let mut is_first = true;
+        let mut failed = received.map_err(|error| JointError { joint: 0, error });
+        let Network { positions: reported, joints, .. } = &mut *state;
         let reported = positions.iter_mut().zip(reported).zip(joints);
         for (joint, ((position, reported), of)) in reported.enumerate() {
-            // After an error of the bus, too: a position counts in one tick alone.
-            match mem::replace(reported, Err(CanError::NoReply)) {
+            match *reported {
                 Ok(reported) => *position = reported,
                 Err(error) => {
                     of.missed(1);
-                    if received.is_ok() {
-                        note(unread, Some(joint), error, mem::take(&mut is_first));
-                    }
                     failed = failed.and(Err(JointError { joint, error }));
                 }
             }
         }
+        if failed.is_err() {
+            state.note(received);
+        }
+        // After an error of the bus, too: a position counts in one tick alone.
+        state.positions = [Err(CanError::NoReply); V];
         failed.map(|()| positions)
     }
 }
 
-impl<Bus: Can, Joint: CanJoint, const V: usize> JointDrives<V> for &CanJoints<Bus, Joint, V> {
+impl<Bus: JointBus, Joint: CanJoint, const V: usize> JointDrives<V> for &CanJoints<Bus, Joint, V> {
     type Error = CanError;
 
     fn set_torques(&mut self, torques: &[f32; V]) -> Result<(), JointError<CanError>> {
-        let Ok(mut state) = self.0.try_borrow_mut() else {
-            let error = CanError::Full;
-            return Err(JointError { joint: 0, error });
-        };
-        state.send(torques, |joint, &torque| joint.command(torque))?;
+        let mut state = self.network()?;
+        state.send(torques, false, |joint, &torque| joint.command(torque))?;
         state.delivered()
     }
 }
 
-impl<Bus: Can, Joint: PdCanJoint, const V: usize> PdDrives<V> for &CanJoints<Bus, Joint, V> {
+impl<Bus: JointBus, Joint: PdCanJoint, const V: usize> PdDrives<V> for &CanJoints<Bus, Joint, V> {
     fn set_sums(&mut self, sums: &[SetpointAt; V]) -> Result<(), JointError<CanError>> {
-        let Ok(mut state) = self.0.try_borrow_mut() else {
-            let error = CanError::Full;
-            return Err(JointError { joint: 0, error });
-        };
+        let mut state = self.network()?;
         let delivered = state.delivered();
-        state.send(sums, |joint, setpoint| {
+        state.send(sums, false, |joint, setpoint| {
             if delivered.is_ok() {
                 joint.pd_command(setpoint)
             } else {
@@ -456,8 +479,19 @@ impl<Bus: Can, Joint: PdCanJoint, const V: usize> PdDrives<V> for &CanJoints<Bus
     }
 }
 
-/// A bus in memory, for a task that awaits its own or blocks in it: [`CanJoints`] over it has the
-/// frames to send in [`CanJoints::commands`], and takes those that came by [`CanJoints::receive`].
+/// A bus in memory, for a controller that has fewer places than there are joints, and for a task
+/// that awaits its own or blocks in it.
+///
+/// It has a place for the command of each joint and one for a request to it. The commands take
+/// turns, so that one that still waits is before the newer ones; the requests are behind them. A
+/// command that still waits in the next tick is replaced by the newer one in its place, and the
+/// joint has [`CanError::Full`] in that tick: its drive got none for a tick.
+///
+/// # Controllers of few places
+/// [`CanJoints::exchange`] sends what waits as places become free, and takes what has come.
+///
+/// # Tasks
+/// [`CanJoints::commands`] has the frames to send, [`CanJoints::receive`] takes those that came.
 ///
 /// `embedded-can` has no asynchronous trait, so that each HAL of Embassy has functions of its own,
 /// and its blocking one waits for a frame: only the program knows how many replies come in a tick.
@@ -496,15 +530,61 @@ impl<Bus: Can, Joint: PdCanJoint, const V: usize> PdDrives<V> for &CanJoints<Bus
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Outbox<F, const V: usize> {
-    frames: [Option<F>; V],
-    /// The frames that are here, from the first place on.
-    kept: usize,
+    /// The commands of the joints, and the requests to them.
+    places: [[Place<F>; V]; 2],
+    /// The place whose turn it is: the commands from it on have waited longest.
+    next: usize,
+    error: Option<ErrorKind>,
+}
+
+/// The last frame of a joint.
+#[derive(Clone, Copy, Debug)]
+struct Place<F> {
+    frame: Option<F>,
+    waits: bool,
 }
 
 impl<F, const V: usize> Outbox<F, V> {
-    /// An empty one, with room for a frame of each joint.
+    /// An empty one, with room for a command of each joint and a request to it.
     pub const fn new() -> Self {
-        Self { frames: [const { None }; V], kept: 0 }
+        let places = [const { [const { Place { frame: None, waits: false } }; V] }; 2];
+        Self { places, next: 0, error: None }
+    }
+
+    /// The place of the command that has waited longest, else of a request.
+    fn oldest(&mut self) -> Option<&mut Place<F>> {
+        let places = self.places.as_flattened_mut();
+        let waits = |at: &usize| places.get(*at).is_some_and(|place| place.waits);
+        let mut turns = (self.next..V).chain(0..self.next.min(V)).chain(V..2 * V);
+        self.next = turns.find(waits).unwrap_or(0);
+        places.get_mut(self.next).filter(|place| place.waits)
+    }
+}
+
+impl<F: Frame, const V: usize> Outbox<F, V> {
+    /// Sends the frames that wait, so many that a bus which takes them out for ever ends, too.
+    fn send_to(&mut self, bus: &mut impl Can<Frame = F>) -> Result<(), ErrorKind> {
+        for _ in 0..MOST_FRAMES {
+            let Some(place) = self.oldest() else { break };
+            let Some(frame) = &place.frame else { break };
+            let displaced = match bus.transmit(frame) {
+                Err(WouldBlock) => break,
+                Err(Other(error)) => return Err(error.kind()),
+                Ok(displaced) => displaced,
+            };
+            place.waits = false;
+            self.next += 1;
+            let Some(displaced) = displaced else { continue };
+            // A frame of a lower priority was taken out for it: it waits as before, unless there is
+            // a newer one in its place.
+            let is_it =
+                |frame: &F| frame.id() == displaced.id() && frame.data() == displaced.data();
+            let places = self.places.as_flattened_mut().iter_mut().enumerate();
+            for (at, place) in places.filter(|(_, place)| place.frame.as_ref().is_some_and(is_it)) {
+                (place.waits, self.next) = (true, at);
+            }
+        }
+        Ok(())
     }
 }
 
@@ -514,26 +594,26 @@ impl<F, const V: usize> Default for Outbox<F, V> {
     }
 }
 
-impl<F: embedded_can::Frame + Clone, const V: usize> Can for Outbox<F, V> {
+impl<F: Frame + Clone, const V: usize> JointBus for Outbox<F, V> {
     type Frame = F;
-    type Error = ErrorKind;
 
-    /// Keeps the frame, if those of the last tick were taken.
-    fn transmit(&mut self, frame: &F) -> nb::Result<Option<F>, ErrorKind> {
-        *self.frames.get_mut(self.kept).ok_or(WouldBlock)? = Some(frame.clone());
-        self.kept += 1;
-        Ok(None)
+    fn send(&mut self, frame: &F, joint: usize, is_request: bool) -> Result<(), CanError> {
+        let [commands, requests] = &mut self.places;
+        let places = if is_request { requests } else { commands };
+        let place = places.get_mut(joint).ok_or(CanError::Full)?;
+        let waited = mem::replace(&mut place.waits, true);
+        if !(waited && is_request) {
+            place.frame = Some(frame.clone());
+        }
+        if waited { Err(CanError::Full) } else { Ok(()) }
     }
 
-    fn receive(&mut self) -> nb::Result<F, ErrorKind> {
-        Err(WouldBlock)
+    fn next(&mut self) -> nb::Result<F, ErrorKind> {
+        Err(self.error.take().map_or(WouldBlock, Other))
     }
 }
 
-impl<F, Joint: CanJoint, const V: usize> CanJoints<Outbox<F, V>, Joint, V>
-where
-    F: embedded_can::Frame + Clone,
-{
+impl<F: Frame + Clone, Joint: CanJoint, const V: usize> CanJoints<Outbox<F, V>, Joint, V> {
     /// Takes a frame that has come; the error of a wrong one is that of the next reading.
     pub fn receive(&self, frame: &F) {
         // Nobody else holds it: each of these functions returns it before it ends.
@@ -542,14 +622,60 @@ where
         }
     }
 
-    /// The frames to send, which are then no longer here. Frames that nobody takes are
-    /// [`CanError::Full`] in the next tick.
+    /// The frames to send, in their order, which are then no longer here. While the last one is a
+    /// frame, call it again: there may be requests beside the commands of all joints.
     pub fn commands(&self) -> [Option<F>; V] {
-        let Ok(mut state) = self.0.try_borrow_mut() else { return [const { None }; V] };
-        let Outbox { frames, kept } = &mut state.bus;
-        *kept = 0;
-        let taken = frames.clone();
-        frames.iter_mut().for_each(|frame| *frame = None);
-        taken
+        let mut all = [const { None }; V];
+        let Ok(mut state) = self.0.try_borrow_mut() else { return all };
+        let waiting = state.bus.places.as_flattened_mut().iter_mut().filter(|place| place.waits);
+        for (frame, place) in all.iter_mut().zip(waiting) {
+            place.waits = false;
+            // Not a clone: an `Option` that is copied in parts takes 250 instructions.
+            *frame = place.frame.take();
+        }
+        all
+    }
+
+    /// Takes the frames that have come on a bus, and sends those that wait, the oldest first, as
+    /// far as it has places for them. Call it again and again between two ticks, or when the
+    /// controller says that a place is free or a frame came: with three places and seven joints
+    /// three times at least. An error of the bus is that of the next reading.
+    ///
+    /// ```
+    /// # use embedded_can::{ErrorKind, ExtendedId, Frame, nb::Can};
+    /// # use joint_drivers::can::{CanError, FdFrame};
+    /// # use joint_drivers::moteus::Moteus;
+    /// # use joint_drivers::{CanJoints, JointDrives, JointEncoders, JointMapping, JointRange, Outbox};
+    /// # // A controller of one place that is never free again.
+    /// # struct Chip(Option<FdFrame>, Vec<FdFrame>);
+    /// # impl Can for Chip {
+    /// #     type Frame = FdFrame;
+    /// #     type Error = ErrorKind;
+    /// #     fn transmit(&mut self, frame: &FdFrame) -> nb::Result<Option<FdFrame>, ErrorKind> {
+    /// #         if self.0.is_some() { return Err(nb::Error::WouldBlock) }
+    /// #         self.0 = Some(*frame);
+    /// #         Ok(None)
+    /// #     }
+    /// #     fn receive(&mut self) -> nb::Result<FdFrame, ErrorKind> { self.1.pop().ok_or(nb::Error::WouldBlock) }
+    /// # }
+    /// # let mapping = JointMapping::IDENTITY.with_range(JointRange::Near(0.0), 5e-3)?;
+    /// # let data = [0x24, 4, 0, 0x0a, 0, 0x50, 0, 0, 1, 0x70, 0xff, 0x23, 0x0d, 0x18, 0x14, 0];
+    /// # let mut chip = Chip(None, vec![FdFrame::new(ExtendedId::new(0x100).unwrap(), &data).unwrap()]);
+    /// # let drives = [Moteus::new(1, 0, 10.0, mapping)?, Moteus::new(2, 0, 10.0, mapping)?];
+    /// let joints = CanJoints::new(Outbox::<FdFrame, 2>::new(), drives);
+    /// (&joints).set_torques(&[0.5, 0.5])?;
+    /// // The controller has one place, and it is not free again before the next tick.
+    /// joints.exchange(&mut chip);
+    /// let silent = (&joints).read().unwrap_err();
+    /// assert_eq!((silent.joint, silent.error), (1, CanError::NoReply));
+    /// let late = (&joints).set_torques(&[0.6, 0.6]).unwrap_err();
+    /// assert_eq!((late.joint, late.error), (1, CanError::Full));
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    pub fn exchange(&self, bus: &mut impl Can<Frame = F>) {
+        let Ok(mut state) = self.0.try_borrow_mut() else { return };
+        let received = state.receive(|_| bus.next());
+        let sent = state.bus.send_to(bus);
+        state.bus.error = state.bus.error.or(received.and(sent).err());
     }
 }

@@ -52,13 +52,15 @@ use super::turns::ShaftTurns;
 use crate::encoder_mapping::within_turn;
 use crate::{EncoderMapping, MappingError};
 
+mod any;
 pub mod cubemars;
 pub mod damiao;
 pub(crate) mod protocol;
 pub mod robstride;
 
 pub use crate::drives::pd::{Setpoint, SetpointAt};
-use protocol::{Counts, Feedback, Protocol, Special};
+pub use any::AnyDrive;
+use protocol::{Address, Counts, Feedback, Maker, Protocol, Special};
 
 /// The greatest quantities that the counts of a drive stand for, at its output shaft.
 ///
@@ -157,6 +159,8 @@ pub enum Reply {
 pub struct Drive<P> {
     protocol: P,
     axes: Axes,
+    /// The count of no velocity.
+    middle: u16,
     most: f32,
     turns: ShaftTurns,
     last: Option<Place>,
@@ -174,7 +178,7 @@ struct Place {
     shaft: f32,
 }
 
-impl<P: Protocol> Drive<P> {
+impl<P: Maker> Drive<P> {
     /// The drive `id` that replies to `host`, whose counts stand for `scale`, and that delivers at
     /// most `most` N·m at the joint.
     ///
@@ -201,9 +205,12 @@ impl<P: Protocol> Drive<P> {
         let period = P::PERIOD.unwrap_or(2.0 * scale.position);
         let turns = ShaftTurns::in_radians(mapping, period, P::START);
         let (last, checked, differs) = (None, 0, None);
-        Ok(Self { protocol, axes, most, turns, last, checked, differs })
+        let middle = const { above_half(P::TOP) };
+        Ok(Self { protocol, axes, middle, most, turns, last, checked, differs })
     }
+}
 
+impl<P: Protocol> Drive<P> {
     /// Takes the joint to be at `position` rad or m: the next reply is within half a turn of the
     /// output shaft from there.
     ///
@@ -252,10 +259,16 @@ impl<P: Protocol> Drive<P> {
     /// # Errors
     /// [`CanError::Length`]. [`CanError::Unknown`]: the protocol has no such frame.
     pub fn clear_errors<F: Frame>(&self) -> Result<F, CanError> {
-        if !P::CLEARS {
-            return Err(CanError::Unknown(Special::Clear as u8));
-        }
         self.protocol.special(Special::Clear)
+    }
+
+    /// The frame that asks for the faults: [`Reply::Status`].
+    ///
+    /// # Errors
+    /// [`CanError::Length`]. [`CanError::Unknown`]: the protocol has no such frame, since each
+    /// reply has the faults.
+    pub fn read_faults<F: Frame>(&self) -> Result<F, CanError> {
+        self.protocol.special(Special::Faults)
     }
 
     /// A torque in N·m at the joint, limited to the greatest, with zero gains; NaN becomes zero
@@ -324,31 +337,48 @@ impl<P: Protocol> Drive<P> {
 
     /// The register of this driver's scale or mode in a reply, if its value is the same.
     fn checked<F: Frame>(&self, frame: &F) -> Result<u8, CanError> {
-        let (register, value) = self.protocol.register(frame)?;
-        if let Some((_, wanted)) = P::MODE.filter(|(mode, _)| *mode == register) {
-            let [mode, ..] = value;
-            let is_it = u32::from_le_bytes(value) == wanted;
-            return if is_it { Ok(register) } else { Err(CanError::Mode(mode)) };
-        }
-        let Axes { position, velocity, torque, .. } = &self.axes;
-        let mut scales = P::SCALES.into_iter().flatten().zip([position, velocity, torque]);
-        let scale = scales.find(|(own, _)| *own == register);
-        let (_, Axis { most, .. }) = scale.ok_or(CanError::Missing(register.into()))?;
+        let (register, value) = self.value(frame)?;
+        let most = match register {
+            damiao::MODE => {
+                let is_it = u32::from_le_bytes(value) == 1;
+                return is_it.then_some(register).ok_or(CanError::Mode(value[0]));
+            }
+            damiao::PMAX => self.axes.position.most,
+            damiao::VMAX => self.axes.velocity.most,
+            damiao::TMAX => self.axes.torque.most,
+            other => return Err(CanError::Missing(other.into())),
+        };
         // As a register says that was written as a decimal number.
         let off = (f32::from_le_bytes(value) - most).abs();
         if off <= 1e-6 * most { Ok(register) } else { Err(CanError::Scale(register)) }
     }
 
+    /// The register in a reply, and its value.
+    fn value<F: Frame>(&self, frame: &F) -> Result<(u8, [u8; 4]), CanError> {
+        let Address { id: own, host, is_damiao, .. } = self.protocol.address();
+        let host = host.filter(|_| is_damiao).ok_or(CanError::Identifier)?;
+        match protocol::standard_data(frame, host)? {
+            [id, 0, damiao::READ, register, value @ ..] if id == own => Ok((register, value)),
+            _ => Err(CanError::Identifier),
+        }
+    }
+
+    /// Whether frames of this drive and another cannot be told apart.
+    pub(crate) fn clashes(&self, other: &Self) -> bool {
+        let [own, other] = [self, other].map(|drive| drive.protocol.address());
+        own.is_taken_by(&other) || other.is_taken_by(&own)
+    }
+
     /// The next register of the scale and the mode to be asked for, with the reason.
     pub(crate) fn unchecked(&self) -> Result<(), (u8, CanError)> {
-        let mode = P::MODE.map(|(register, _)| register);
-        let mut registers = P::SCALES.into_iter().flatten().chain(mode);
-        let Some(next) = registers.nth(self.checked.into()) else { return Ok(()) };
+        let next = damiao::CHECKED.get(usize::from(self.checked));
+        let Some(&next) = next.filter(|_| self.protocol.address().is_damiao) else { return Ok(()) };
         Err((next, self.differs.unwrap_or(CanError::Missing(next.into()))))
     }
 
     pub(crate) fn query<F: Frame>(&self, register: u8) -> Result<F, CanError> {
-        self.protocol.read_register(register)
+        let id = self.protocol.address().id;
+        protocol::standard(damiao::REGISTERS, &[id, 0, damiao::READ, register, 0, 0, 0, 0])
     }
 
     /// The joint's position at a count, rad: with the scales and turns that the count lacks.
@@ -369,7 +399,7 @@ impl<P: Protocol> Drive<P> {
         let at_shaft = self.turns.mapping.mapping().shaft_torque(torque).map_err(not_finite)?;
         Ok(Counts {
             position: const { above_half(u16::MAX) },
-            velocity: const { above_half(P::TOP) },
+            velocity: self.middle,
             kp: 0,
             kd: 0,
             torque: self.axes.torque.count(at_shaft),
@@ -478,7 +508,7 @@ impl<P: Protocol> CanJoint for Drive<P> {
 
     #[cold]
     fn learn<F: Frame>(&mut self, frame: &F) -> bool {
-        let Ok((register, _)) = self.protocol.register(frame) else { return false };
+        let Ok((register, _)) = self.value(frame) else { return false };
         let checked = self.checked(frame);
         let is_asked = self.unchecked().is_err_and(|(next, _)| next == register);
         if is_asked && !matches!(checked, Err(CanError::Missing(_))) {

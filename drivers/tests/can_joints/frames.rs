@@ -1,26 +1,10 @@
 //! Which frames a tick takes, and what is made of them.
 
-use std::collections::VecDeque;
-
 use super::identity;
 use super::*;
 
-/// A bus that says in each call what is next.
-struct Script(VecDeque<nb::Result<FdFrame, ErrorKind>>);
-
-impl Can for Script {
-    type Frame = FdFrame;
-    type Error = ErrorKind;
-    fn transmit(&mut self, _: &FdFrame) -> nb::Result<Option<FdFrame>, ErrorKind> {
-        Ok(None)
-    }
-    fn receive(&mut self) -> nb::Result<FdFrame, ErrorKind> {
-        self.0.pop_front().unwrap_or(Err(nb::Error::WouldBlock))
-    }
-}
-
-fn scripted(frames: &[nb::Result<FdFrame, ErrorKind>]) -> CanJoints<Script, Moteus, 2> {
-    joints(Script(frames.iter().cloned().collect()))
+fn scripted(frames: &[nb::Result<FdFrame, ErrorKind>]) -> CanJoints<Bus, Moteus, 2> {
+    joints(Bus { received: frames.iter().cloned().collect(), ..Bus::default() })
 }
 
 #[test]
@@ -44,7 +28,7 @@ fn a_tick_takes_what_has_come_and_no_more() {
     assert_eq!((&joints).read(), Err(at(0, overrun)));
     // The last one was left for the next tick, and was taken in it.
     assert_eq!((&joints).read(), Err(at(1, CanError::NoReply)));
-    let left = joints.release().0;
+    let left = joints.release().received;
     assert_eq!(left.len(), 0);
 }
 
@@ -88,35 +72,6 @@ fn the_first_joint_that_failed_is_named_else_the_first_not_ready() {
         let joints = scripted(&[frame(0), frame(1)]);
         (&joints).read().unwrap();
         assert_eq!((&joints).set_torques(&[0.0; 2]), expected, "{states:?}");
-    }
-}
-
-/// A bus that takes another frame out of its queue for some of the frames.
-struct Crowded {
-    sent: usize,
-    full: [bool; 2],
-}
-
-impl Can for Crowded {
-    type Frame = FdFrame;
-    type Error = ErrorKind;
-    fn transmit(&mut self, frame: &FdFrame) -> nb::Result<Option<FdFrame>, ErrorKind> {
-        self.sent += 1;
-        Ok(self.full[self.sent - 1].then_some(*frame))
-    }
-    fn receive(&mut self) -> nb::Result<FdFrame, ErrorKind> {
-        Err(nb::Error::WouldBlock)
-    }
-}
-
-#[test]
-fn every_joint_gets_a_frame_though_the_first_has_no_room() {
-    for (full, joint) in [([true, false], 0), ([false, true], 1), ([true; 2], 0)] {
-        let joints = joints(Crowded { sent: 0, full });
-        // A frame that takes another's place in the queue leaves that one unsent.
-        let set = (&joints).set_torques(&[0.0; 2]);
-        assert_eq!(set, Err(at(joint, CanError::Full)));
-        assert_eq!(joints.release().sent, 2);
     }
 }
 

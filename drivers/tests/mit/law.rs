@@ -12,6 +12,7 @@ use motion_control::limits::{Command, Fault, Mode, SafetyLimits};
 use motion_control::motion::{MotionController, MotionControllerConfig};
 use motion_control::safety::{Detect, StopCategory, SupervisorConfig};
 
+use super::super::lost_turn::CONFIG;
 use super::*;
 
 const SCALE: Scale = damiao::DM4310;
@@ -96,20 +97,12 @@ impl<D: JointDrives<1>> JointDrives<1> for Noted<'_, D> {
 fn controller(rate: f32) -> MotionController<f32, 1> {
     let limits =
         SafetyLimits { torque: [8.0], rate: [rate], speed: [20.0], lower: [-1.0], upper: [1.0] };
-    MotionController::try_new(MotionControllerConfig {
-        supervisor: SupervisorConfig {
-            limits,
-            tick: TICK as f32,
-            resolution: 4e-4,
-            ride_through_ticks: 3,
-            hold_ticks: 5,
-            reentry_ticks: 5,
-        },
-        observer_bandwidth: 250.0,
-        decay_rate: 25.0,
-        restart_distance: 0.1,
-    })
-    .unwrap()
+    let tick = TICK as f32;
+    let supervisor = SupervisorConfig { limits, tick, resolution: 4e-4, ..CONFIG.supervisor };
+    let supervisor =
+        SupervisorConfig { ride_through_ticks: 3, hold_ticks: 5, reentry_ticks: 5, ..supervisor };
+    let config = MotionControllerConfig { supervisor, restart_distance: 0.1, ..CONFIG };
+    MotionController::try_new(config).unwrap()
 }
 
 fn joints() -> Joints {

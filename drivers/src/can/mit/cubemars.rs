@@ -26,7 +26,7 @@
 
 use embedded_can::Frame;
 
-use super::protocol::{self, Feedback, Protocol};
+use super::protocol::{self, Address, Feedback, Maker, Protocol, Special};
 use super::{Drive, Scale};
 use crate::can::frame::{CanError, Component};
 
@@ -72,22 +72,24 @@ pub struct Identity {
     host: u16,
 }
 
-impl Protocol for Identity {
-    const CLEARS: bool = false;
+impl Maker for Identity {
     /// A turn of the rotor of the AK80-64.
     const START: f32 = 1.0 / 64.0;
 
     fn new(id: u8, host: u16) -> Result<Self, CanError> {
         (id != 0 && host <= 0x7ff).then_some(Self { id, host }).ok_or(CanError::Node)
     }
+}
 
-    fn id(&self) -> u8 {
-        self.id
+impl Protocol for Identity {
+    const LACKS: &'static [Special] = &[Special::Clear, Special::Faults];
+
+    fn address(&self) -> Address {
+        Address::new(self.id, self.host)
     }
 
     fn decode<F: Frame>(&self, frame: &F) -> Result<Feedback, CanError> {
-        let is_own = protocol::is_standard(frame.id(), self.host);
-        let [id, rest @ ..] = protocol::data(frame, is_own)?;
+        let [id, rest @ ..] = protocol::standard_data(frame, self.host)?;
         if id != self.id {
             return Err(CanError::Identifier);
         }

@@ -43,7 +43,7 @@
 
 use embedded_can::Frame;
 
-use super::protocol::{self, Feedback, Protocol};
+use super::protocol::{self, Address, Feedback, Maker, Protocol};
 use super::{Drive, Scale};
 use crate::can::frame::{CanError, Component};
 
@@ -75,9 +75,12 @@ pub const VMAX: u8 = 22;
 /// The register of [`Scale::torque`], a float.
 pub const TMAX: u8 = 23;
 
+/// The registers that are compared, in their order.
+pub(super) const CHECKED: [u8; 4] = [PMAX, VMAX, TMAX, MODE];
+
 /// The identifier of all accesses to registers.
-const REGISTERS: u16 = 0x7ff;
-const READ: u8 = 0x33;
+pub(super) const REGISTERS: u16 = 0x7ff;
+pub(super) const READ: u8 = 0x33;
 const WRITE: u8 = 0x55;
 const STORE: u8 = 0xaa;
 
@@ -113,7 +116,7 @@ impl Damiao {
     /// # Errors
     /// [`CanError::Length`].
     pub fn read_register<F: Frame>(&self, register: u8) -> Result<F, CanError> {
-        self.protocol.read_register(register)
+        self.query(register)
     }
 
     /// The register in a reply, and its value.
@@ -134,7 +137,7 @@ impl Damiao {
     /// [`CanError::Identifier`] for another drive, host or message, [`CanError::Remote`],
     /// [`CanError::Short`], [`CanError::Length`].
     pub fn register<F: Frame>(&self, frame: &F) -> Result<(u8, [u8; 4]), CanError> {
-        self.protocol.register(frame)
+        self.value(frame)
     }
 
     /// The register in a reply, if its value is that of this driver's scale.
@@ -148,22 +151,20 @@ impl Damiao {
     }
 }
 
-impl Protocol for Identity {
-    const SCALES: Option<[u8; 3]> = Some([PMAX, VMAX, TMAX]);
-    const MODE: Option<(u8, u32)> = Some((MODE, 1));
-
+impl Maker for Identity {
     fn new(id: u8, host: u16) -> Result<Self, CanError> {
         let is_one = (1..=15).contains(&id) && host <= 0x7ff;
         is_one.then_some(Self { id, host }).ok_or(CanError::Node)
     }
+}
 
-    fn id(&self) -> u8 {
-        self.id
+impl Protocol for Identity {
+    fn address(&self) -> Address {
+        Address { is_damiao: true, ..Address::new(self.id, self.host) }
     }
 
     fn decode<F: Frame>(&self, frame: &F) -> Result<Feedback, CanError> {
-        let is_own = protocol::is_standard(frame.id(), self.host);
-        let [first, rest @ ..] = protocol::data(frame, is_own)?;
+        let [first, rest @ ..] = protocol::standard_data(frame, self.host)?;
         let is_register = matches!(rest, [0, READ | WRITE | STORE, ..]) && first >> 4 == 0;
         if first & 0x0f != self.id || is_register {
             return Err(CanError::Identifier);
@@ -187,19 +188,5 @@ impl Protocol for Identity {
             drive: Some(drive.into()),
             status: Some(status),
         })
-    }
-
-    fn read_register<F: Frame>(&self, register: u8) -> Result<F, CanError> {
-        protocol::standard(REGISTERS, &[self.id, 0, READ, register, 0, 0, 0, 0])
-    }
-
-    fn register<F: Frame>(&self, frame: &F) -> Result<(u8, [u8; 4]), CanError> {
-        let is_own = protocol::is_standard(frame.id(), self.host);
-        match protocol::data(frame, is_own)? {
-            [id, 0, READ, register, b0, b1, b2, b3] if id == self.id => {
-                Ok((register, [b0, b1, b2, b3]))
-            }
-            _ => Err(CanError::Identifier),
-        }
     }
 }

@@ -4,12 +4,10 @@ use embedded_can::{Frame, Id, StandardId};
 
 use crate::can::frame::{self, CanError};
 
-/// The protocol of a maker, with the identity of one drive.
-pub trait Protocol: Sized {
+/// The protocol of one maker, and what a drive of it is from its start.
+pub trait Maker: Protocol + Sized {
     /// The last count of all quantities but the position.
     const TOP: u16 = 4095;
-    /// Whether there is a frame that clears faults.
-    const CLEARS: bool = true;
     /// The part of a turn of the output from which a drive counts after its start, at least.
     const START: f32 = 1.0;
     /// The angle after which the count of positions begins again, if it is not the scale.
@@ -20,16 +18,26 @@ pub trait Protocol: Sized {
     /// # Errors
     /// [`CanError::Node`].
     fn new(id: u8, host: u16) -> Result<Self, CanError>;
+}
 
-    /// The number of the drive.
-    fn id(&self) -> u8;
+/// The protocol of a drive, with its identity.
+pub trait Protocol {
+    /// The requests that the protocol does not have.
+    const LACKS: &'static [Special] = &[Special::Faults];
 
-    /// A frame without quantities: seven bytes 0xFF and the number of the request.
+    /// The identifiers of the drive.
+    fn address(&self) -> Address;
+
+    /// A frame without quantities: six bytes 0xFF and the number of the request.
     ///
     /// # Errors
-    /// [`CanError::Length`].
+    /// [`CanError::Length`]. [`CanError::Unknown`]: the protocol has no such request.
     fn special<F: Frame>(&self, special: Special) -> Result<F, CanError> {
-        standard(self.id().into(), &[0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, special as u8])
+        let [high, low] = (special as u16).to_be_bytes();
+        if Self::LACKS.contains(&special) {
+            return Err(CanError::Unknown(low));
+        }
+        standard(self.address().id.into(), &[0xff, 0xff, 0xff, 0xff, 0xff, 0xff, high, low])
     }
 
     /// The frame of all quantities: 16, 12, 12, 12 and 12 bits, the high ones first.
@@ -43,7 +51,7 @@ pub trait Protocol: Sized {
             | u64::from(kp) << 24
             | u64::from(kd) << 12
             | u64::from(torque);
-        standard(self.id().into(), &all.to_be_bytes())
+        standard(self.address().id.into(), &all.to_be_bytes())
     }
 
     /// The message of a frame.
@@ -51,38 +59,47 @@ pub trait Protocol: Sized {
     /// # Errors
     /// [`CanError`].
     fn decode<F: Frame>(&self, frame: &F) -> Result<Feedback, CanError>;
+}
 
-    /// The registers of the greatest position, velocity and torque, if the drive has them.
-    const SCALES: Option<[u8; 3]> = None;
+/// The identifiers of a drive.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Address {
+    /// The number of the drive, to which its commands go.
+    pub id: u8,
+    /// The identifier of its replies; none if both have 29 bits.
+    pub host: Option<u16>,
+    /// The bits of an identifier by which it knows its commands.
+    pub heard: u16,
+    /// Whether it has registers, and four bits of its number in a reply.
+    pub is_damiao: bool,
+}
 
-    /// The register of the control mode, and its number for MIT mode, if the drive has one.
-    const MODE: Option<(u8, u32)> = None;
-
-    /// The frame that reads a register.
-    ///
-    /// # Errors
-    /// [`CanError::Length`]. [`CanError::Unknown`]: the protocol has no registers.
-    fn read_register<F: Frame>(&self, register: u8) -> Result<F, CanError> {
-        Err(CanError::Unknown(register))
+impl Address {
+    /// 11 bits, of another maker than Damiao.
+    pub(super) const fn new(id: u8, host: u16) -> Self {
+        Self { id, host: Some(host), heard: 0x7ff, is_damiao: false }
     }
 
-    /// A register in a reply, with its four bytes.
-    ///
-    /// # Errors
-    /// [`CanError`].
-    fn register<F: Frame>(&self, frame: &F) -> Result<(u8, [u8; 4]), CanError> {
-        let _ = frame;
-        Err(CanError::Identifier)
+    /// Whether the other drive takes a frame of this one or to it, or has the same replies.
+    pub(crate) fn is_taken_by(&self, other: &Self) -> bool {
+        let (Some(host), Some(others)) = (self.host, other.host) else {
+            return self.host == other.host && self.id == other.id;
+        };
+        let takes = |id: u16| (id ^ u16::from(other.id)) & other.heard == 0;
+        let told = if self.is_damiao || other.is_damiao { 0x0f } else { 0xff };
+        let is_one = host == others && (self.id ^ other.id) & told == 0;
+        takes(self.id.into()) || takes(host) || is_one
     }
 }
 
 /// The request of a frame without quantities.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Special {
-    Clear = 0xfb,
-    Enable = 0xfc,
-    Disable = 0xfd,
-    Zero = 0xfe,
+    Clear = 0xfffb,
+    Enable = 0xfffc,
+    Disable = 0xfffd,
+    Zero = 0xfffe,
+    Faults = 0x00fb,
 }
 
 /// The counts of a command.
@@ -124,9 +141,9 @@ pub(super) fn data<F: Frame>(frame: &F, is_own: bool) -> Result<[u8; 8], CanErro
     <[u8; 8]>::try_from(data).map_err(|_| short)
 }
 
-/// Whether an identifier is this one of 11 bits.
-pub(super) fn is_standard(id: Id, own: u16) -> bool {
-    matches!(id, Id::Standard(id) if id.as_raw() == own)
+/// The data of a frame with this identifier of 11 bits.
+pub(super) fn standard_data<F: Frame>(frame: &F, own: u16) -> Result<[u8; 8], CanError> {
+    data(frame, matches!(frame.id(), Id::Standard(id) if id.as_raw() == own))
 }
 
 /// A frame with an identifier of 11 bits.

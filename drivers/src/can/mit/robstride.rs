@@ -34,7 +34,7 @@
 
 use embedded_can::{ExtendedId, Frame, Id};
 
-use super::protocol::{self, Counts, Feedback, Protocol, Special};
+use super::protocol::{self, Address, Counts, Feedback, Maker, Protocol, Special};
 use super::{Drive, Scale};
 use crate::can::frame::{self, CanError, Component};
 
@@ -173,16 +173,18 @@ impl NativeProtocol {
     }
 }
 
-impl Protocol for NativeProtocol {
+impl Maker for NativeProtocol {
     const TOP: u16 = u16::MAX;
     const PERIOD: Option<f32> = PERIOD;
 
     fn new(id: u8, host: u16) -> Result<Self, CanError> {
         identity(id, host).map(|(id, host)| Self { id, host })
     }
+}
 
-    fn id(&self) -> u8 {
-        self.id
+impl Protocol for NativeProtocol {
+    fn address(&self) -> Address {
+        Address { host: None, ..Address::new(self.id, 0) }
     }
 
     fn special<F: Frame>(&self, special: Special) -> Result<F, CanError> {
@@ -191,6 +193,7 @@ impl Protocol for NativeProtocol {
             Special::Disable => (STOP, 0),
             Special::Clear => (STOP, 1),
             Special::Zero => (SET_ZERO, 1),
+            Special::Faults => return Err(CanError::Unknown(special as u8)),
         };
         self.frame(kind, self.host.into(), &[first, 0, 0, 0, 0, 0, 0, 0])
     }
@@ -222,31 +225,24 @@ impl Protocol for NativeProtocol {
     }
 }
 
-impl RobStrideMit {
-    /// The frame that asks for the faults: [`super::Reply::Status`].
-    ///
-    /// # Errors
-    /// [`CanError::Length`].
-    pub fn read_faults<F: Frame>(&self) -> Result<F, CanError> {
-        let data = [0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0, 0xfb];
-        protocol::standard(self.protocol.id.into(), &data)
-    }
-}
-
-impl Protocol for MitProtocol {
+impl Maker for MitProtocol {
     const PERIOD: Option<f32> = PERIOD;
 
     fn new(id: u8, host: u16) -> Result<Self, CanError> {
         identity(id, host).map(|(id, host)| Self { id, host })
     }
+}
 
-    fn id(&self) -> u8 {
-        self.id
+impl Protocol for MitProtocol {
+    const LACKS: &'static [Special] = &[];
+
+    /// The upper bits of a command are the mode of control.
+    fn address(&self) -> Address {
+        Address { heard: 0xff, ..Address::new(self.id, self.host.into()) }
     }
 
     fn decode<F: Frame>(&self, frame: &F) -> Result<Feedback, CanError> {
-        let is_own = protocol::is_standard(frame.id(), self.host.into());
-        let [id, rest @ ..] = protocol::data(frame, is_own)?;
+        let [id, rest @ ..] = protocol::standard_data(frame, self.host.into())?;
         if id != self.id {
             return Err(CanError::Identifier);
         }

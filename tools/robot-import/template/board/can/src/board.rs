@@ -2,15 +2,15 @@
 //! your parts.
 //!
 //! `joint-drivers` has further drives in MIT mode (`mit::robstride`, `mit::cubemars`), and moteus
-//! and ODrive: all that implement `CanJoint`.
+//! and ODrive: all that implement `CanJoint`. Drives of several makers are of the type
+//! `mit::AnyDrive`. A controller of fewer places than joints needs an `Outbox` as its bus.
 
 use dynamics_core::model::Robot;
-use embedded_can::nb::Can;
 use embedded_hal::digital::OutputPin;
 use joint_drivers::can::{CanError, Silence};
 use joint_drivers::mit::Scale;
 use joint_drivers::mit::damiao::{DM4310, DM4340, DM6006, DM8006, DM8009, Damiao};
-use joint_drivers::{CanJoints, ControlLoop, Direction, EncoderMapping, JointError};
+use joint_drivers::{CanJoints, ControlLoop, Direction, EncoderMapping, JointBus, JointError};
 use motion_control::limits::{Mode, Status};
 use motion_control::motion::{PreviousTick, ResetError};
 use motion_control::safety::Detect;
@@ -102,7 +102,7 @@ fn drive(joint: usize, most: f32, mapping: EncoderMapping) -> Result<Drive, Join
 ///
 /// # Errors
 /// [`SetupError`].
-pub fn on_brake<Bus: Can, Brake: OutputPin, D: Detect<f32, N>>(
+pub fn on_brake<Bus: JointBus, Brake: OutputPin, D: Detect<f32, N>>(
     devices: Devices<Bus, Brake>,
     gains: Gains,
     detectors: D,
@@ -145,7 +145,7 @@ impl Operator {
     /// After a tick that is not one of full operation; why the robot does not start.
     #[cold]
     #[inline(never)]
-    pub fn tick<Bus: Can, Brake: OutputPin, D: Detect<f32, N>>(
+    pub fn tick<Bus: JointBus, Brake: OutputPin, D: Detect<f32, N>>(
         &mut self,
         (now, status): (u32, &Status),
         control: &mut Control<Bus, Brake, D>,

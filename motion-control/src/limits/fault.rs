@@ -60,7 +60,8 @@ pub enum Fault {
         /// The joint.
         joint: usize,
     },
-    /// The encoder did not change while the reference moved; see
+    /// The encoder did not change while the reference moved, since it is frozen or the joint never
+    /// broke away; see
     /// [`FrozenEncoder`](crate::safety::FrozenEncoder).
     Frozen {
         /// The joint.
@@ -164,7 +165,7 @@ impl fmt::Display for FaultText<'_> {
             Fault::Speed { joint } => (joint, "it exceeds its speed limit"),
             Fault::Torque { joint } => (joint, "the torque of its law is not finite"),
             Fault::Limits { joint } => (joint, "one of its limits is invalid"),
-            Fault::Frozen { joint } => (joint, "its encoder is frozen"),
+            Fault::Frozen { joint } => (joint, "its encoder is frozen, or it never broke away"),
             Fault::Saturated { joint } => (joint, "its torque is at its limit for too long"),
             Fault::LimitCycle { joint } => (joint, "its torque swings from limit to limit"),
             Fault::Reference { joint } => (joint, "its reference jumped"),

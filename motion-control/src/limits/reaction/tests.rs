@@ -12,7 +12,7 @@ const FAULTS: [(Fault, Reaction, &str); 24] = [
     (Fault::Jump { joint: 3 }, RideThrough, "joint 3: its position jumped"),
     (Fault::Speed { joint: 3 }, RideThrough, "joint 3: it exceeds its speed limit"),
     (Fault::Torque { joint: 3 }, RideThrough, "joint 3: the torque of its law is not finite"),
-    (Fault::Frozen { joint: 3 }, RideThrough, "joint 3: its encoder is frozen"),
+    (Fault::Frozen { joint: 3 }, RideThrough, "joint 3: its encoder is frozen, or it never broke away"),
     (Fault::NotReady { joint: 3 }, RideThrough, "joint 3: its drive is not ready"),
     (Fault::Missed, RideThrough, "too many ticks were missed"),
     (Fault::Overrun, RideThrough, "a tick ended after its period"),

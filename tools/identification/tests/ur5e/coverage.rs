@@ -10,7 +10,7 @@ use crate::physical::assert_possible;
 use crate::plant::*;
 use crate::setup::*;
 
-const SEEDS: u64 = few_or_many(4, 100);
+const SEEDS: u64 = few_or_many(6, 100);
 
 /// The outcome for one arm.
 struct Outcome {

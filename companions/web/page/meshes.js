@@ -42,12 +42,29 @@ export function triangles(file, bytes, others) {
   return found;
 }
 
-/// The meshes that a URDF names: link, file, and the place of the mesh in the link.
+/// Whether a mesh of this name can be read.
+export const isRead = (name) => /\.(stl|obj)$/i.test(name);
+
+/// The names of all meshes of a URDF.
+export const named = (text) => new Set(Array.from(parsed(text).querySelectorAll("mesh[filename]"), (mesh) => base(mesh.getAttribute("filename"))));
+
+const parsed = (text) => new DOMParser().parseFromString(text, "application/xml");
+
+/// The meshes of a link that are drawn: the visual ones, or those of collisions where no visual one
+/// can be read.
+function drawn(link) {
+  const of = (kind) => [...link.querySelectorAll(`:scope > ${kind} > geometry > mesh[filename]`)];
+  const some = (meshes) => meshes.some((mesh) => isRead(mesh.getAttribute("filename")));
+  const [seen, touched] = [of("visual"), of("collision")];
+  return !some(seen) && some(touched) ? touched : seen;
+}
+
+/// The meshes that are drawn of a URDF: link, file, and the place of the mesh in the link.
 export function visuals(text) {
-  const all = new DOMParser().parseFromString(text, "application/xml").querySelectorAll("link > visual > geometry > mesh[filename]");
+  const all = [...parsed(text).querySelectorAll("robot > link")].flatMap(drawn);
   const numbers = (at, name, otherwise) => [0, 1, 2].map((i) => Number((at?.getAttribute(name) ?? "").trim().split(/\s+/)[i] || otherwise) || 0);
-  return [...all].slice(0, MOST_FILES).map((mesh) => {
-    const visual = mesh.closest("visual");
+  return all.slice(0, MOST_FILES).map((mesh) => {
+    const visual = mesh.closest("visual, collision");
     const origin = visual.querySelector(":scope > origin");
     const [[r, p, y], scale] = [numbers(origin, "rpy", 0), numbers(mesh, "scale", 1)];
     const [a, b, c, d, e, f] = [Math.cos(r), Math.sin(r), Math.cos(p), Math.sin(p), Math.cos(y), Math.sin(y)];

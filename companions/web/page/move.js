@@ -1,7 +1,7 @@
 // The tab "Move": joints, effects, torques, the front of accuracy, costs and Rust.
 import { Bars } from "./bars.js";
 import { CLOCK, drawFront } from "./front.js";
-import { MOST_FILES, base, placed, triangles, visuals } from "./meshes.js";
+import { MOST_FILES, base, isRead, named, placed, triangles, visuals } from "./meshes.js";
 import { everyWay, front, price, wayAbout, wayInWords } from "./recorded.js";
 import { rust } from "./rust.js";
 import { EFFECTS, chosen, enter, entered, has, motion, posture, range, say, state } from "./state.js";
@@ -228,7 +228,7 @@ export function load(name, text) {
   const before = state.robot;
   try {
     const found = state.library.call({ op: "import", text, date: new Date().toISOString().slice(0, 10) });
-    take({ key: null, title: found.name, type: found.type, about: found.about, source: found.source, estimates: { cycles: found.cycles, flash: found.flash }, links: found.links, visuals: visuals(text), files: new Map() });
+    take({ key: null, title: found.name, type: found.type, about: found.about, source: found.source, estimates: { cycles: found.cycles, flash: found.flash }, links: found.links, visuals: visuals(text), named: named(text), files: new Map() });
     const option = by("robot").querySelector("[value='']") ?? by("robot").appendChild(element("option", { value: "" }));
     option.textContent = `${found.name} (your file)`;
     by("robot").value = "";
@@ -256,13 +256,18 @@ async function dress(given) {
   } catch (error) {
     return say(error.message, true);
   }
-  if (given.length && !given.some(({ name }) => wanted.has(base(name)))) return say(`${given[0].name}: ${title} does not name it.`, true);
+  if (given.length && !given.some(({ name }) => wanted.has(base(name)))) {
+    const { name } = given[0];
+    return say(`${name}: ${robot.named?.has(base(name)) ? `${title} names it where other meshes are drawn.` : `${title} does not name it.`}`, true);
+  }
   if (all.length === 0 || state.robot !== robot) return;
   const links = new Map(robot.links.map(([link, ...place]) => [link, place]));
   robot.meshes = all.filter(({ link, file }) => links.has(link) && there.has(file)).map((one) => placed(there.get(one.file), one, ...links.get(one.link)));
   look();
-  const missing = [...wanted].filter((file) => !there.has(file));
-  say(`${title}: ${about.joints.length} joints, ${robot.meshes.length} of ${all.length} meshes.${missing.length ? ` Drop ${missing.slice(0, 4).join(", ")}${missing[4] ? " …" : ""} too, as STL or OBJ.` : ""}`);
+  const lacking = [...wanted].filter((file) => !there.has(file));
+  const missing = lacking.filter(isRead);
+  const other = [...new Set(lacking.filter((file) => !isRead(file)).map((file) => file.split(".").at(-1).toUpperCase()))];
+  say(`${title}: ${about.joints.length} joints, ${robot.meshes.length} of ${all.length} meshes.${missing.length ? ` Drop ${missing.slice(0, 4).join(", ")}${missing[4] ? " …" : ""} too.` : ""}${other.length ? ` Those in ${other.join(" and ")} are not read: STL and OBJ are.` : ""}`);
 }
 
 /// The largest file that is read, bytes: above the importer's own bound.

@@ -77,10 +77,11 @@ export function motion() {
   robot.about.joints.forEach((joint, i) => {
     const [lower, upper] = range(joint);
     const omega = 1.3 + 0.37 * (i % 5);
-    const room = Math.min(upper - q[i], q[i] - lower);
-    const size = Math.max(0, Math.min(amount * speed(joint) / omega, 0.9 * room, joint.prismatic ? 0.2 : 0.6));
-    const phase = omega * clock;
-    moved.q[i] += size * Math.sin(phase);
+    const size = Math.max(0, Math.min((amount * speed(joint)) / omega, 0.45 * (upper - lower), joint.prismatic ? 0.2 : 0.6));
+    // About the nearest place with so much room, from where the joint is.
+    const middle = Math.min(Math.max(q[i], lower + size), upper - size);
+    const phase = omega * clock + (size > 0 ? Math.asin(Math.min(1, Math.max(-1, (q[i] - middle) / size))) : 0);
+    moved.q[i] = middle + size * Math.sin(phase);
     moved.qd[i] += size * omega * Math.cos(phase);
     moved.qdd[i] -= size * omega * omega * Math.sin(phase);
   });

@@ -388,6 +388,26 @@ const tests = {
       return view.canvas.toDataURL();
     }));
     must(drawn[0] !== drawn[1], "meshes are not drawn");
+    // Where no visual mesh can be read, those of collisions are drawn.
+    const unread = '<visual><geometry><mesh filename="a.dae"/></geometry></visual><collision>';
+    const collided = named.replaceAll("<visual>", unread).replaceAll("</visual></link>", "</collision></link>");
+    await drop("collided.urdf", collided, { "a.stl": [...binary], "b.stl": text });
+    await said("2 of 3 meshes.*c.obj");
+    await drop("unread.urdf", named.replace("b.stl", "b.dae").replace("c.obj", "c.glb"), { "a.stl": [...binary] });
+    await said("1 of 3 meshes.*DAE and GLB are not read");
+    await drop("named.urdf", named.replaceAll("</visual></link>", '</visual><collision><geometry><mesh filename="d.stl"/></geometry></collision></link>'), { "d.stl": text });
+    await said("d.stl: .*where other meshes are drawn");
+    // Each joint swings, also one whose range begins where it is.
+    await drop("one_way.urdf", arm.replaceAll(/lower="[^"]*"/g, 'lower="0"'));
+    const places = [];
+    for (const clock of [0.5, 1.5]) {
+      await page.evaluate((clock) => Object.assign(play.state, { swinging: true, clock }), clock);
+      await settled(page);
+      places.push(await page.evaluate(() => play.state.moved.q));
+    }
+    must(places[0].every((q, i) => Math.abs(q - places[1][i]) > 0.02), `joints do not swing: ${JSON.stringify(places)}`);
+    await drop("meshed.urdf", named, { "a.stl": [...binary], "b.stl": text });
+    await said("2 of 3 meshes");
     const wrong = { "a.stl": [[...binary.subarray(0, 200)], "no triangles"], "b.stl": [text.replace("0.2", "1e400"), "no numbers"], "c.obj": [obj.replace("f 1", "f 9"), "no numbers"], "d.stl": [text, "does not name"] };
     for (const [name, [bytes, words]] of Object.entries(wrong)) await drop(name, bytes).then(() => said(`^${name}: .*${words}`));
     const deep = `${"<a>".repeat(200_000)}${"</a>".repeat(200_000)}`;

@@ -42,6 +42,9 @@ impl Robot {
         which: Which<'_>,
         request: &Request<'_, 'py>,
     ) -> PyResult<Vec<Bound<'py, PyAny>>> {
+        let effects = self.at_bodies(request.effects);
+        let request =
+            &Request { effects: effects.as_deref().unwrap_or(request.effects), ..*request };
         match dtype(request.arguments)? {
             Dtype::Single => self.compute_in::<f32>(py, which, request),
             Dtype::Double => self.compute_in::<f64>(py, which, request),
@@ -57,7 +60,7 @@ impl Robot {
         let number = |body: &BodyRef| self.body_number(body);
         let alone = |coordinate| self.is_alone(coordinate);
         fit(request.effects, self.counts.v, alone, |body| {
-            number(body).ok_or_else(|| format!("the robot has no body {body}"))
+            number(body).ok_or_else(|| self.no_body(body))
         })
         .map_err(|error| {
             let text = format!("{}: {}", error.effect, error.problem);

@@ -74,6 +74,10 @@ impl PyScene {
             let text = format!("{}: a number is not finite", spec.name());
             return Err(refused(py, spec.name(), text));
         }
+        if spec.is_negative_friction() {
+            let text = format!("{}: friction below zero would drive the joint", spec.name());
+            return Err(refused(py, spec.name(), text));
+        }
         Ok(Arc::new(vec![spec]).into())
     }
 

@@ -17,6 +17,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use dynamics_core::model::JointKind;
+use numpy::PyArray1;
 use pyo3::prelude::*;
 use robot_import::loops::{self, Closed, Motors};
 use robot_import::selection::Selection;
@@ -241,7 +242,9 @@ impl Robot {
     /// The number of a body.
     pub fn body_number(&self, body: &BodyRef) -> Option<usize> {
         match body {
-            BodyRef::Number(number) => (*number < self.counts.bodies).then_some(*number),
+            BodyRef::Number(number) | BodyRef::Point(number, _) => {
+                (*number < self.counts.bodies).then_some(*number)
+            }
             BodyRef::Name(name) => self.bodies.iter().position(|body| body.name == *name),
         }
     }
@@ -503,8 +506,8 @@ macro_rules! per_coordinate {
         impl Robot {$(
             $(#[$doc])*
             #[getter]
-            fn $name(&self) -> Vec<f64> {
-                self.per_coordinate(|body| body.$field $([$at])?)
+            fn $name<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+                PyArray1::from_vec(py, self.per_coordinate(|body| body.$field $([$at])?))
             }
         )*}
     };

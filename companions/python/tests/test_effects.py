@@ -105,6 +105,8 @@ def test_impossible_effects_are_refused():
         robot.rnea(q, v, a, rd.RIGID_BODY + rd.BodyWrench(9, ONES))
     with pytest.raises(rd.EffectError, match="mass"):
         robot.rnea(q, v, a, rd.RIGID_BODY + rd.Payload(0, -1.0))
+    with pytest.raises(rd.EffectError, match="below zero"):
+        rd.Viscous([-1.0] * robot.nv)
     for effect in (rd.Gravity() + rd.Coriolis(), ()):
         with pytest.raises(rd.EffectError, match="needs Inertia"):
             robot.aba(q, v, tau, effect)

@@ -30,7 +30,7 @@ def test_a_file_is_its_text(tmp_path):
 
 def test_mjcf_has_its_friction():
     robot = rd.Robot.from_text(MJCF)
-    assert (robot.damping, robot.friction, robot.armature) == ([0.3], [0.1], [0.02])
+    assert np.array_equal([robot.damping, robot.friction, robot.armature], [[0.3], [0.1], [0.02]])
     stated = rd.RIGID_BODY + rd.Viscous([0.3]) + rd.Coulomb([0.1], 0.02) + rd.Armature([0.02])
     assert robot.scene() == stated and rd.Robot.from_text(PENDULUM).scene() == rd.RIGID_BODY
     assert robot.scene(0.5).names == stated.names and robot.scene(0.5) != stated

@@ -12,6 +12,7 @@ mod lanes;
 pub mod linkages;
 pub mod loops;
 pub mod model;
+pub mod place;
 mod scene;
 pub mod spec;
 

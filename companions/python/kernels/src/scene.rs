@@ -8,7 +8,7 @@ use dynamics_core::effects::{
     BodyState, BodyWrench, Contact, Effect, GyroscopicRotors, JointState, LoadFactors,
     LoadFriction, TorqueDerivatives, WorldWrench, hook,
 };
-use dynamics_core::scalar::Real;
+use dynamics_core::scalar::{Real, Vector};
 use dynamics_core::spatial::{Force, Motion, SpatialInertia};
 
 use crate::model::LARGE;
@@ -65,7 +65,8 @@ impl<R: Real, E: Effect<R, 1, LARGE>> AtJoint<R> for At<E> {
 /// An effect that acts at bodies.
 pub enum AtBody<R: Real> {
     Body(BodyWrench<R>),
-    World(WorldWrench<R>),
+    /// At the body's origin, or at a point in its frame.
+    World(WorldWrench<R>, Option<R::Vec3>),
     Contact(Contact<R, 1>),
 }
 
@@ -174,7 +175,12 @@ impl<R: Real, const V: usize, const A: bool, const C: bool, const X: bool, const
         for wrench in &self.0.wrenches {
             match wrench {
                 AtBody::Body(w) => hook::add_wrench::<R, _, B, V>(w, body, at, fx),
-                AtBody::World(w) => hook::add_wrench::<R, _, B, V>(w, body, at, fx),
+                AtBody::World(w, None) => hook::add_wrench::<R, _, B, V>(w, body, at, fx),
+                AtBody::World(w, Some(point)) => {
+                    let mut there = Force::ZERO;
+                    hook::add_wrench::<R, _, B, V>(w, body, at, &mut there);
+                    *fx += Force::new(there.ang + point.cross(there.lin), there.lin);
+                }
                 AtBody::Contact(w) => hook::add_wrench::<R, _, B, V>(w, body, at, fx),
             }
         }

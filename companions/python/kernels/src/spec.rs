@@ -11,17 +11,18 @@ use serde::{Deserialize, Serialize};
 
 use crate::scene::{At, AtBody, AtJoint, HARMONICS, Parts, Terms};
 
-/// A body by its number or its name.
+/// A body by its number or its name, or a point in the frame of the body of a number.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum BodyRef {
     Number(usize),
     Name(String),
+    Point(usize, Three),
 }
 
 impl std::fmt::Display for BodyRef {
     fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Self::Number(number) => write!(out, "of the number {number}"),
+            Self::Number(number) | Self::Point(number, _) => write!(out, "of the number {number}"),
             Self::Name(name) => write!(out, "of the name `{name}`"),
         }
     }
@@ -270,6 +271,19 @@ impl Spec {
         )
     }
 
+    /// Whether it is friction with a coefficient or torque below zero.
+    pub fn is_negative_friction(&self) -> bool {
+        let (one, other) = match self {
+            Self::Viscous { coefficients } => (coefficients, coefficients),
+            Self::Coulomb { torque, .. } => (torque, torque),
+            Self::AsymmetricCoulomb { forward, backward, .. } => (forward, backward),
+            Self::LoadFriction { driving, backdriving, .. } => (driving, backdriving),
+            Self::Lugre { viscous, sliding, .. } => (viscous, sliding),
+            _ => return false,
+        };
+        one.iter().chain(other).any(|x| *x < 0.0)
+    }
+
     /// Whether the library knows the derivatives of what it adds.
     pub fn is_differentiable(&self) -> bool {
         match self {
@@ -422,7 +436,11 @@ pub(crate) fn parts<R: Real, const V: usize>(
             }
             Spec::WorldWrench { body: on, wrench } => {
                 let wrench = made!(WorldWrench { body: body = on, wrench: force });
-                parts.wrenches.push(AtBody::World(wrench));
+                let at = match on {
+                    BodyRef::Point(_, point) => Some(vector::<R>(point)),
+                    _ => None,
+                };
+                parts.wrenches.push(AtBody::World(wrench, at));
             }
             Spec::Contact {
                 points,

@@ -240,23 +240,23 @@ class Robot:
     @property
     def parents(self) -> list[int | None]: "The parent of each body by its number, or None for the base."
     @property
-    def lower_limits(self) -> list[float]: "The lower limit of each velocity coordinate's position, rad or m; -inf if there is none."
+    def lower_limits(self) -> _Result: "The lower limit of each velocity coordinate's position, rad or m; -inf if there is none."
     @property
-    def upper_limits(self) -> list[float]: "The upper limit of each velocity coordinate's position, rad or m; inf if there is none."
+    def upper_limits(self) -> _Result: "The upper limit of each velocity coordinate's position, rad or m; inf if there is none."
     @property
-    def velocity_limits(self) -> list[float]: "The largest speed of each velocity coordinate, rad/s or m/s; inf if there is none."
+    def velocity_limits(self) -> _Result: "The largest speed of each velocity coordinate, rad/s or m/s; inf if there is none."
     @property
-    def torque_limits(self) -> list[float]: "The largest torque of each velocity coordinate, N·m or N; inf if there is none."
+    def torque_limits(self) -> _Result: "The largest torque of each velocity coordinate, N·m or N; inf if there is none."
     @property
-    def damping(self) -> list[float]: "Viscous friction of the file, N·m·s/rad or N·s/m, for `Viscous`."
+    def damping(self) -> _Result: "Viscous friction of the file, N·m·s/rad or N·s/m, for `Viscous`."
     @property
-    def friction(self) -> list[float]: "Dry friction of the file, N·m or N, for `Coulomb`."
+    def friction(self) -> _Result: "Dry friction of the file, N·m or N, for `Coulomb`."
     @property
-    def armature(self) -> list[float]: "Inertia of the motors of the file, kg·m² or kg, for `Armature`."
+    def armature(self) -> _Result: "Inertia of the motors of the file, kg·m² or kg, for `Armature`."
     @property
-    def spring_stiffness(self) -> list[float]: "Stiffness of the springs of the file, N·m/rad or N/m, for `Spring`."
+    def spring_stiffness(self) -> _Result: "Stiffness of the springs of the file, N·m/rad or N/m, for `Spring`."
     @property
-    def spring_rest(self) -> list[float]: "Positions at which the springs of the file are at rest, rad or m, for `Spring`."
+    def spring_rest(self) -> _Result: "Positions at which the springs of the file are at rest, rad or m, for `Spring`."
     @property
     def advice(self) -> list[Advice]: "Advice on the file, as ``cargo xtask import`` prints it, but for what that finds at random\nstates: impossible inertias, numbers in other units, limits of torque below gravity's, and\nwhat is left out. Options in it are those of the command: ``--motors`` is ``actuated`` of\n`Loops`. Empty for a robot of the library."
     @property

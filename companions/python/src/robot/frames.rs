@@ -7,7 +7,8 @@ use std::sync::{Mutex, PoisonError};
 
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
-use robot_dynamics_kernels::spec::BodyRef;
+use robot_dynamics_kernels::place::Place;
+use robot_dynamics_kernels::spec::{BodyRef, Spec};
 use robot_import::number::{Attitude, tidy};
 use robot_import::tree::Tree;
 use serde::{Deserialize, Serialize};
@@ -62,14 +63,31 @@ impl Robot {
         Ok((Some(robot), self.counts.bodies))
     }
 
+    /// Effects at frames, as they act at the bodies of these; none if all act at bodies.
+    pub fn at_bodies(&self, effects: &[Spec]) -> Option<Vec<Spec>> {
+        let is_body = |name: &str| self.bodies.iter().any(|body| body.name == name);
+        let place = |name: &str| {
+            let frame = self.frames.iter().find(|frame| frame.name == name && !is_body(name))?;
+            Some(Place::new(frame.body?, frame.xyz, frame.attitude))
+        };
+        let mut names = effects.iter().flat_map(Spec::names);
+        let any = !self.frames.is_empty() && names.any(|name| place(name).is_some());
+        any.then(|| effects.iter().map(|effect| effect.at_bodies(place)).collect())
+    }
+
     /// The error of a body that there is not.
     pub fn unknown_body(&self, given: &Bound<'_, PyAny>) -> PyErr {
+        let error = Exception::new(given.py(), "UnknownBody", self.no_body(given));
+        error.with("body", given).build()
+    }
+
+    /// The words of that error, with the names that there are.
+    pub fn no_body(&self, given: &impl std::fmt::Display) -> String {
         let bodies: Vec<&str> = self.bodies.iter().map(|body| &*body.name).collect();
         let frames: Vec<&str> = self.frames.iter().map(|frame| &*frame.name).collect();
         let more = if frames.is_empty() { "" } else { "; its frames are " };
         let (bodies, frames) = (bodies.join(", "), frames.join(", "));
-        let text = format!("the robot has no body {given}: its bodies are {bodies}{more}{frames}");
-        Exception::new(given.py(), "UnknownBody", text).with("body", given).build()
+        format!("the robot has no body {given}: its bodies are {bodies}{more}{frames}")
     }
 }
 

@@ -72,7 +72,7 @@ def test_effects_act_at_frames(arm):
     wrench = np.array([0.3, -0.2, 0.4, 5.0, -3.0, 2.0])
     mass, com, inertia = 0.7, np.array([0.01, -0.02, 0.05]), [2e-3, 1e-4, -2e-4, 3e-3, 3e-4, 4e-3]
     xx, xy, xz, yy, yz, zz = inertia
-    c = np.cross(np.eye(3), com).T
+    c = np.cross(np.eye(3), com)
     about = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]) - mass * c @ c
     spatial = np.block([[about, mass * c], [-mass * c, mass * np.eye(3)]])
     for q, v, a, _ in zip(*states(arm, 5)):
@@ -81,7 +81,7 @@ def test_effects_act_at_frames(arm):
             torque = arm.rnea(q, v, a, rd.RIGID_BODY + effect(TOOL, wrench)) - bare
             near(torque, -arm.jacobian(q, TOOL, axes).T @ wrench)
         jacobian = arm.jacobian(q, TOOL, "local")
-        added = arm.mass_matrix(q, rd.Inertia() + rd.Payload(TOOL, mass, com, inertia)) - arm.mass_matrix(q)
+        added = arm.crba(q, rd.Inertia() + rd.Payload(TOOL, mass, com, inertia)) - arm.crba(q)
         near(added, jacobian.T @ spatial @ jacobian)
     with pytest.raises(rd.EffectError, match="no body of the name `nothing`"):
         arm.rnea(q, v, a, rd.BodyWrench("nothing", wrench))

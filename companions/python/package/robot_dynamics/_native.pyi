@@ -331,7 +331,7 @@ class MovingGoal:
     ) -> MovingGoal: ...
     @property
     def ticks(self) -> int: "The tick of the arrival."
-    def set(self, tick: int, goal: _Vector, start: tuple[_Vector, _Vector, _Vector] | None = None) -> int: "Moves the goal at a tick, rad or m: from the state there, or from one that is given (q, q̇,\nq̈), to rest at the goal. Returns the tick of the arrival.\n\nRaises MotionError of a goal that is not finite, or of a state beyond the limits."
+    def set(self, tick: int, goal: _Vector, start: tuple[_Vector, _Vector, _Vector] | None = None) -> int: "Moves the goal at a tick, rad or m: from the state there, or from one that is given (q, q̇,\nq̈), to rest at the goal. Returns the tick of the arrival.\n\nRaises MotionError of a goal that is not finite, or of an acceleration beyond its limit."
     def at(self, tick: int | Sequence[int] | _Result) -> tuple[_Result, _Result, _Result]: "q, q̇ and q̈, each (joints), in a tick, or (ticks, joints) in several."
 
 @final

@@ -46,7 +46,7 @@ export function triangles(file, bytes, others) {
 export const isRead = (name) => /\.(stl|obj)$/i.test(name);
 
 /// The names of all meshes of a URDF.
-export const named = (text) => new Set(Array.from(parsed(text).querySelectorAll("mesh[filename]"), (mesh) => base(mesh.getAttribute("filename"))));
+export const meshNames = (text) => new Set(Array.from(parsed(text).querySelectorAll("mesh[filename]"), (mesh) => base(mesh.getAttribute("filename"))));
 
 const parsed = (text) => new DOMParser().parseFromString(text, "application/xml");
 

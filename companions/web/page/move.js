@@ -1,7 +1,7 @@
 // The tab "Move": joints, effects, torques, the front of accuracy, costs and Rust.
 import { Bars } from "./bars.js";
 import { CLOCK, drawFront } from "./front.js";
-import { MOST_FILES, base, isRead, named, placed, triangles, visuals } from "./meshes.js";
+import { MOST_FILES, base, isRead, meshNames, placed, triangles, visuals } from "./meshes.js";
 import { everyWay, front, price, wayAbout, wayInWords } from "./recorded.js";
 import { rust } from "./rust.js";
 import { EFFECTS, chosen, enter, entered, has, motion, posture, range, say, state } from "./state.js";
@@ -228,7 +228,7 @@ export function load(name, text) {
   const before = state.robot;
   try {
     const found = state.library.call({ op: "import", text, date: new Date().toISOString().slice(0, 10) });
-    take({ key: null, title: found.name, type: found.type, about: found.about, source: found.source, estimates: { cycles: found.cycles, flash: found.flash }, links: found.links, visuals: visuals(text), named: named(text), files: new Map() });
+    take({ key: null, title: found.name, type: found.type, about: found.about, source: found.source, estimates: { cycles: found.cycles, flash: found.flash }, links: found.links, visuals: visuals(text), named: meshNames(text), files: new Map() });
     const option = by("robot").querySelector("[value='']") ?? by("robot").appendChild(element("option", { value: "" }));
     option.textContent = `${found.name} (your file)`;
     by("robot").value = "";

@@ -18,6 +18,11 @@ use serde::Deserialize;
 use crate::common::{Rng, few_or_many};
 
 const TICK: f32 = 1e-3;
+/// What random goals use of the limits at least, exceed without limits of torque, and one in how
+/// many does: few goals less.
+const LEAST: f64 = if cfg!(debug_assertions) { 0.999 } else { 0.9999 };
+const WITHOUT: f32 = if cfg!(debug_assertions) { 1.5 } else { 1.9 };
+const BEYOND: u32 = few_or_many(5, 2) as u32;
 /// The delay of a change that is spread over ticks.
 const SPREAD: u32 = 7;
 
@@ -192,7 +197,7 @@ fn random_goals_exceed_no_limit() {
     assert_eq!(seen.goals, goals);
     // The limits are used, but for what is left for rounding.
     for share in seen.shares {
-        assert!((0.999..=1.0).contains(&share), "{seen:?}");
+        assert!((LEAST..=1.0).contains(&share), "{seen:?}");
     }
     assert!(seen.apart < 2e-6, "{seen:?}");
     assert!(seen.joints > 3 * goals && seen.early <= seen.joints / 1000, "{seen:?}");
@@ -336,7 +341,7 @@ fn random_goals_keep_limits_of_torque() {
         assert!(seen.within < 1.02 && seen.refused <= goals / 100, "{seen:?}");
         assert!(seen.steps <= GoalChange::<f32, 6>::MOST_STEPS, "{seen:?}");
         // Without the limits of torque they are exceeded.
-        assert!(seen.without > 1.5 && seen.beyond >= goals / 5, "{seen:?}");
+        assert!(seen.without > WITHOUT && seen.beyond >= goals / BEYOND, "{seen:?}");
     }
 }
 

@@ -19,8 +19,8 @@ host_tests::demanded! {
 
 #[test]
 fn a_bending_arm_keeps_its_energy() {
-    // A thirtieth of its time; `cargo xtask test hard-cases` demands the whole case.
-    let rows = energy_for(2);
+    // A tenth of its time; `cargo xtask test hard-cases` demands the whole case.
+    let rows = energy_for(6);
     demand_rows(67, &rows).unwrap_or_else(|wrong| panic!("{wrong}"));
 }
 

@@ -30,8 +30,8 @@
 //! [`CanJoints::enable`](crate::CanJoints::enable) does, elsewhere [`Damiao::read_register`] and [`Damiao::check_register`].
 //!
 //! # Rotors and friction
-//! A description of the links has neither. Per motor, at the joint, for `<dynamics>` in the URDF or
-//! `armature` in MJCF until an identification finds those of your arm:
+//! A description of the links has neither. The table has both at the joint, for `<dynamics>` in the
+//! URDF or `armature` in the MJCF, until an identification finds those of your arm:
 //!
 //! | motor | gear | rotor, kg·m² | Coulomb friction, N·m | viscous friction, N·m·s/rad |
 //! |---|---|---|---|---|

@@ -152,13 +152,13 @@ fn hottest<R: Real>(arms: Range<u64>, limited: bool) -> Vec<f64> {
 }
 
 #[test]
-fn no_winding_of_two_thousand_random_loads_is_hotter_than_its_limit() {
-    for rises in [hottest::<f32>(0..200, true), hottest::<f64>(200..400, true)] {
+fn no_winding_of_ten_thousand_random_loads_is_hotter_than_its_limit() {
+    for rises in [hottest::<f32>(0..1000, true), hottest::<f64>(1000..2000, true)] {
         let most = rises.iter().fold(0.0_f64, |most, &rise| most.max(rise));
         assert!(most <= 1.0, "{most}");
         // Not by giving away the motor.
         let near = rises.iter().filter(|&&rise| rise > 0.9).count();
-        assert!(most > 0.995 && near > 300, "{most}, {near} of {}", rises.len());
+        assert!(most > 0.995 && near > 1500, "{most}, {near} of {}", rises.len());
     }
     let free = hottest::<f64>(0..20, false);
     assert!(free.iter().filter(|&&rise| rise > 1.0).count() > 50, "the loads are too light");

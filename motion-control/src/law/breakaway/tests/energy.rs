@@ -81,11 +81,11 @@ fn excess(config: BreakawayConfig<f64, 1>, laws: u32, kinds: &[Kind]) -> [f64; 2
 
 #[test]
 fn no_motion_takes_more_than_the_energy_and_what_friction_absorbs() {
-    // Twenty thousand motions of all kinds, and some of those that take most.
+    // A hundred thousand motions of all kinds, and some of those that take most.
     for late in [true, false] {
         let config = BreakawayConfig { late, energy: [ENERGY], ..CONFIG };
         for (laws, kinds) in
-            [(340, &ALL[..]), (60, &ALL[..2]), (60, &[Hides]), (60, &[Stands, Goes])]
+            [(1700, &ALL[..]), (300, &ALL[..2]), (300, &[Hides]), (300, &[Stands, Goes])]
         {
             let [most, least] = excess(config, laws, kinds);
             println!(

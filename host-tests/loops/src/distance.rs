@@ -3,26 +3,7 @@
 use dynamics_core::loops::{LoopRobot, Loops, constraints};
 use dynamics_core::model::Static;
 use dynamics_core::state::State;
-
-/// The inverse of a regular matrix, by Gauss and Jordan with row pivots.
-pub fn inverse(a: &[Vec<f64>]) -> Vec<Vec<f64>> {
-    let n = a.len();
-    let unit = |i| (0..n).map(move |j| f64::from(u8::from(i == j)));
-    let mut m: Vec<Vec<f64>> =
-        (0..n).map(|i| a[i].iter().copied().chain(unit(i)).collect()).collect();
-    for k in 0..n {
-        let largest = (k..n).max_by(|&i, &j| m[i][k].abs().total_cmp(&m[j][k].abs()));
-        m.swap(k, largest.expect("a row"));
-        let pivot = m[k][k];
-        m[k].iter_mut().for_each(|x| *x /= pivot);
-        let row = m[k].clone();
-        for (_, other) in m.iter_mut().enumerate().filter(|(i, _)| *i != k) {
-            let factor = other[k];
-            other.iter_mut().zip(&row).for_each(|(x, p)| *x -= factor * p);
-        }
-    }
-    m.into_iter().map(|row| row[n..].to_vec()).collect()
-}
+use nalgebra::DMatrix;
 
 /// The passive coordinates, and the products of two columns of K, rows over the sizes of their
 /// loops.
@@ -50,10 +31,11 @@ where
     (passive, product)
 }
 
-/// The products of all columns that are listed.
-pub fn table(of: &[usize], entry: impl Fn(usize, usize) -> f64) -> Vec<Vec<f64>> {
-    let row = |&i: &usize| of.iter().map(|&j| entry(i, j)).collect();
-    of.iter().map(row).collect()
+/// The inverse of the products of all columns that are listed; infinite of a singular matrix.
+pub fn inverse(of: &[usize], entry: impl Fn(usize, usize) -> f64) -> DMatrix<f64> {
+    let size = of.len();
+    let products = DMatrix::from_fn(size, size, |i, j| entry(of[i], of[j]));
+    products.try_inverse().unwrap_or(DMatrix::repeat(size, size, f64::INFINITY))
 }
 
 /// ς: the distance from a singular configuration of the motors, as `Loops::damped_below` has it.
@@ -73,8 +55,7 @@ where
     T: LoopRobot<B, Q, V, L, C, A>,
 {
     let (passive, product) = squares::<T, B, Q, V, L, C, A>(loops, q);
-    let inverse = inverse(&table(&passive, product));
-    let trace: f64 = (0..inverse.len()).map(|i| inverse[i][i]).sum();
+    let trace = inverse(&passive, product).trace();
     // Rounding may make an eigenvalue that is nearly zero negative, or the trace infinite.
     trace.abs().sqrt().recip()
 }

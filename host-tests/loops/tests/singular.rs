@@ -10,9 +10,10 @@ use dynamics_core::model::{Robot, RobotModel, Static};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::{State, all_finite};
 use host_tests::measured::within;
-use loop_tests::distance::{distance, inverse, squares, table};
+use loop_tests::distance::{distance, inverse, squares};
 use loop_tests::machines::{Delta, FOUR_BAR, FiveBar, FourBar, Machine, Parallelogram, Stewart};
 use loop_tests::states::closed_states;
+use nalgebra::DVector;
 
 /// A machine that a parameter leads through a singular configuration of its motors, at zero.
 struct Sweep<const Q: usize, const L: usize, const C: usize, const A: usize> {
@@ -128,13 +129,10 @@ impl<const Q: usize, const L: usize, const C: usize, const A: usize> Sweep<Q, L,
     {
         let q = (self.at)(off);
         let (passive, product) = squares::<T, B, Q, V, L, C, A>(&self.loops, &q);
-        let inverse = inverse(&table(&passive, &product));
-        let weights: Vec<f64> = inverse
-            .iter()
-            .map(|row| row.iter().zip(&passive).map(|(x, &i)| x * tree[i]).sum())
-            .collect();
+        let passive_torques = DVector::from_fn(passive.len(), |i, _| tree[passive[i]]);
+        let weights = inverse(&passive, &product) * passive_torques;
         self.loops.actuated().map(|joint| {
-            let of_passive = passive.iter().zip(&weights);
+            let of_passive = passive.iter().zip(weights.iter());
             tree[joint] - of_passive.map(|(&i, w)| w * product(i, joint)).sum::<f64>()
         })
     }

@@ -93,3 +93,25 @@ impl<const V: usize> Noise<V> {
         bands
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::DMatrix;
+
+    // Two rows of each harmonic, −1 and 1, have one parameter: one degree of freedom, the square 2.
+    #[test]
+    fn the_variance_is_that_of_the_degrees_of_freedom() {
+        let mut noise = Noise::first(&[1.0], 20);
+        let rows = DMatrix::from_fn(41, 20, |row, k| f64::from(row.div_ceil(2) == k + 1));
+        let torque = |row| if row == 0 { 2.0_f64.sqrt() } else { (row % 2) as f64 * 2.0 - 1.0 };
+        let torques = DMatrix::from_fn(41, 1, |row, _| torque(row));
+        for _ in 0..10 {
+            let solved = Solved::of(&rows, &torques, |at| noise.square(at));
+            noise.update(&solved, &[1.0]);
+        }
+        for at in 0..41 {
+            assert!((noise.square(at) - 2.0).abs() < 1e-6, "{at}: {}", noise.square(at));
+        }
+    }
+}

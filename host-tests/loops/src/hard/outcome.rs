@@ -49,9 +49,17 @@ impl Outcome {
     }
 }
 
-/// Whether something is demanded of this quantity.
-pub(super) fn is_bounded(case: u32, quantity: &str) -> bool {
-    BOUNDS.iter().any(|entry| (entry.0, entry.1) == (case, quantity))
+/// The demands on a quantity in f32 and f64, if there are any.
+pub(super) fn demands(case: u32, quantity: &str) -> Option<[Demand; 2]> {
+    let row = BOUNDS.iter().find(|row| (row.0, row.1) == (case, quantity));
+    if let Some(&(_, _, single, double)) = row {
+        return Some([single, double]);
+    }
+    if let Some(rest) = quantity.strip_prefix("engine: ") {
+        return demands(case, &format!("clusters: {rest}"));
+    }
+    let rigid = demands(case, quantity.strip_prefix("damped ")?)?;
+    (rigid[0] == Demand::Named).then_some([Demand::Named; 2])
 }
 
 /// The rows of a quantity in f32 and in f64 against the oracle's, as [`BOUNDS`] demands.
@@ -62,12 +70,9 @@ pub fn rows(
     truth: &[Option<&[f64]>],
 ) -> Vec<Row> {
     let mut rows = Vec::new();
-    let mut entries = BOUNDS.iter();
-    let entry = entries.find(|entry| (entry.0, entry.1) == (case, quantity));
-    let &(_, _, single, double) =
-        entry.unwrap_or_else(|| panic!("no bound of {quantity:?} of case {case}"));
-    for (k, (scalar, outcomes)) in ["f32", "f64"].into_iter().zip(outcomes).enumerate() {
-        let demand = [single, double][k];
+    let demands = demands(case, quantity)
+        .unwrap_or_else(|| panic!("no bound of {quantity:?} of case {case}"));
+    for ((scalar, outcomes), demand) in ["f32", "f64"].into_iter().zip(outcomes).zip(demands) {
         let named = || {
             let words = format!("{quantity}: named, finite");
             Row::claim(words, scalar, outcomes.iter().all(Outcome::is_named))

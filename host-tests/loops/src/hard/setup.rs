@@ -12,7 +12,7 @@ use host_tests::export::{Robot, robot};
 use host_tests::hard::Row;
 use serde::{Deserialize, Serialize};
 
-use super::outcome::{Outcome, is_bounded, rows};
+use super::outcome::{Outcome, demands, rows};
 use crate::export::{Loop, loops};
 
 /// A machine, and the states at which it is evaluated.
@@ -222,7 +222,7 @@ impl<const B: usize, const Q: usize, const V: usize, const L: usize, const C: us
     /// Whether this is in the range that is damped by default: what is demanded there has a bound
     /// of its own.
     fn is_damped(&self) -> bool {
-        is_bounded(self.case, &format!("{DAMPED}, {}", self.name))
+        demands(self.case, &format!("{DAMPED}, {}", self.name)).is_some()
     }
 
     /// The outcomes of assembly, inverse dynamics, the same with the default damping, and forward

@@ -133,6 +133,21 @@ fn is_reached_when_set_again<R: Real>(limit: f64, trembles: &[f64]) {
     }
 }
 
+// As of a cable that hangs at one place: near the limit all parts of an interval are sampled.
+#[test]
+fn a_torque_beyond_its_limit_between_two_samples_is_found() {
+    for place in 0..20 {
+        let place = 0.3 + 0.02 * f64::from(place);
+        let torques = |state: &State<f64, 1, 1>| {
+            let x = (state.q[0] - place) / 0.01;
+            [7.0 + 4.0 * (-0.5 * x * x).exp()]
+        };
+        let mut goal = MovingGoal::try_new(&[0.0], [LIMITS], 1e-3).unwrap();
+        let refused = goal.set_within(0, &[1.0], &[10.0], torques);
+        assert_eq!(refused, Err(GoalError::Torque { joint: 0 }), "{place}");
+    }
+}
+
 #[test]
 fn a_goal_that_is_set_in_every_tick_is_reached() {
     for limit in [3.0, f64::INFINITY] {

@@ -121,6 +121,18 @@ pub enum Problem {
     /// Nothing that moves is left.
     #[error("no joint moves; `--free-base` puts the base on a free joint")]
     NothingMoves,
+    /// Nothing that moves is below a base at another end of the tree than its root.
+    #[error(
+        "no joint that moves is below the base `{base}`, and the file's tree, whose root is \
+         `{root}`, is not turned round: leave `--base` out; `--tip={base}` takes the joints between \
+         the two, `--free-base` lets `{root}` move freely"
+    )]
+    NothingBelow {
+        /// The link that was to be the base.
+        base: String,
+        /// The root of the file.
+        root: String,
+    },
     /// A number cannot be used.
     #[error("{0}")]
     Value(String),

@@ -28,34 +28,27 @@ pub enum LqrError {
     /// A deviation is not positive, or a number is not finite.
     #[error("a deviation is not positive, or the linearisation is not finite")]
     NotFinite,
-    /// A motion that does not decay by itself, and that no input reaches.
+    /// A motion that does not decay by itself, and that no input reaches; the coordinate with the
+    /// largest share of it, from 0.
     #[error(
         "no input reaches a motion that does not decay by itself, mostly of coordinate \
-         {coordinate}: drive it, or take it out of the state"
+         {0}: drive it, or take it out of the state"
     )]
-    NotReached {
-        /// The coordinate with the largest share of the motion, from 0.
-        coordinate: usize,
-    },
-    /// A motion that does not decay by itself, and whose deviations are all infinite.
+    NotReached(usize),
+    /// A motion that does not decay by itself, and whose deviations are all infinite; its coordinate.
     #[error(
-        "a motion that does not decay by itself, mostly of coordinate {coordinate}, has no weight: \
+        "a motion that does not decay by itself, mostly of coordinate {0}, has no weight: \
          give it a finite deviation, or take it out of the state"
     )]
-    NotWeighted {
-        /// The coordinate with the largest share of the motion, from 0.
-        coordinate: usize,
-    },
+    NotWeighted(usize),
     /// Numbers of too different sizes for f64.
     #[error("the gains that were found do not make the system stable: its numbers differ too much")]
     NotStabilisable,
 }
 
-/// By how much less than one a motion's factor in a tick is for it to decay: twice the digits of a
-/// double eigenvalue in f64.
-const DECAYS: f64 = 1e-7;
-/// The singular value below which nothing moves a motion.
-const UNMOVED: f64 = 1e-7;
+/// By how much less than one a motion's factor in a tick is for it to decay, twice the digits of a
+/// double eigenvalue in f64, and the singular value below which nothing moves a motion.
+const SMALL: f64 = 1e-7;
 /// The doublings after which P has long converged: 2⁶⁰ ticks.
 const DOUBLINGS: usize = 60;
 
@@ -82,7 +75,7 @@ pub fn held<const V: usize, const U: usize>(
 fn least_moved(phi: &DMatrix<f64>, by: &DMatrix<f64>) -> Option<(f64, usize)> {
     let complex = |m: &DMatrix<f64>| m.map(Complex::from);
     let rates = phi.complex_eigenvalues();
-    let slow = rates.iter().filter(|rate| rate.norm() > 1.0 - DECAYS);
+    let slow = rates.iter().filter(|rate| rate.norm() > 1.0 - SMALL);
     let each = slow.filter_map(|rate| {
         let off = complex(phi) - DMatrix::identity(phi.nrows(), phi.nrows()) * *rate;
         let columns = [off, complex(by)];
@@ -94,15 +87,13 @@ fn least_moved(phi: &DMatrix<f64>, by: &DMatrix<f64>) -> Option<(f64, usize)> {
     each.min_by(|a, b| a.0.total_cmp(&b.0))
 }
 
-/// The reason why a system has no gains, of its coordinates' number V.
+/// The reason why a system of V coordinates has no gains.
 fn reason<const V: usize>(phi: &DMatrix<f64>, gamma: &DMatrix<f64>, q: &DMatrix<f64>) -> LqrError {
-    let within = |found: Option<(f64, usize)>| found.filter(|found| found.0 < UNMOVED);
-    let unseen = || within(least_moved(&phi.transpose(), &q.map(f64::sqrt)));
-    match (within(least_moved(phi, gamma)), unseen()) {
-        (Some((_, row)), _) => LqrError::NotReached { coordinate: row % V },
-        (None, Some((_, row))) => LqrError::NotWeighted { coordinate: row % V },
-        (None, None) => LqrError::NotStabilisable,
-    }
+    let within = |found: Option<(f64, usize)>| found.filter(|(least, _)| *least < SMALL);
+    let of = |found| within(found).map(|(_, row)| row % V);
+    let unseen = of(least_moved(&phi.transpose(), &q.map(f64::sqrt))).map(LqrError::NotWeighted);
+    let unreached = of(least_moved(phi, gamma)).map(LqrError::NotReached);
+    unreached.or(unseen).unwrap_or(LqrError::NotStabilisable)
 }
 
 /// The gains K of δu = −K [δq; δq̇], U × 2 V, of a tick of `h` seconds.

@@ -110,7 +110,7 @@ fn what_no_input_reaches_and_what_is_no_number_has_no_gains() {
     let falls =
         Linearisation { dq: [[9.0, 0.0], [0.0, 0.0]], dqd: [[0.0; 2]; 2], du: [[0.0], [1.0]] };
     let deviations = Deviations { q: [0.1; 2], qd: [1.0; 2], u: [1.0] };
-    let unreached = |coordinate| Err(LqrError::NotReached { coordinate });
+    let unreached = |coordinate| Err(LqrError::NotReached(coordinate));
     assert_eq!(lqr(&falls, TICK, &deviations), unreached(0));
     // A yaw that no input drives: free, damped, and without a weight.
     let yaw = Linearisation { du: [[1.0], [0.0]], ..falls };
@@ -123,7 +123,7 @@ fn what_no_input_reaches_and_what_is_no_number_has_no_gains() {
     let wheel = Linearisation { dq: [[9.0, 0.0], [-3.0, 0.0]], du: [[-1.0], [2.0]], ..falls };
     let unseen = Deviations { qd: [1.0; 2], ..ignored };
     let found = lqr(&wheel, TICK, &unseen);
-    assert_eq!(found, Err(LqrError::NotWeighted { coordinate: 1 }));
+    assert_eq!(found, Err(LqrError::NotWeighted(1)));
     assert!(
         found.expect_err("no weight").to_string().contains("mostly of coordinate 1, has no weight")
     );

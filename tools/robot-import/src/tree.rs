@@ -133,15 +133,11 @@ impl Tree {
             tree.add_mass(robot, joint.child, numbers);
         }
         if tree.bodies.is_empty() {
-            let is_root = |link: usize| robot.joints.iter().all(|joint| joint.child != link);
-            let root = (0..robot.links.len()).find(|&link| is_root(link));
-            return Err(match root {
-                Some(root) if root != selected.base => {
-                    Problem::NothingBelow { base: tree.base, root: robot.links[root].name.clone() }
-                }
-                _ => Problem::NothingMoves,
-            }
-            .into());
+            let is_root = |link: &usize| robot.joints.iter().all(|joint| joint.child != *link);
+            let root = (0..robot.links.len()).find(is_root).filter(|root| *root != selected.base);
+            let below =
+                |root: usize| Problem::NothingBelow(tree.base, robot.links[root].name.clone());
+            return Err(root.map_or(Problem::NothingMoves, below).into());
         }
         tree.couple(robot, &body_of_joint);
         for body in &mut tree.bodies {

@@ -346,7 +346,7 @@ where
             let beyond = asked.abs() > limit;
             if beyond && !self.beyond[joint] {
                 let words = format!(
-                    "joint {joint}: a torque of {asked} N·m was asked for, and {limit} N·m is its limit"
+                    "joint {joint}: {asked} N·m or N were asked for, and {limit} are its limit"
                 );
                 shown.events.push((self.tick, mode(status.mode), Some(words)));
             }

@@ -14,8 +14,8 @@
 //! m Σ g̃ᵀ g̃ = −Σ g̃ᵀ f      Σ (g̃ᵀ g̃ 1 − g̃ g̃ᵀ) h = −Σ g̃ × n
 //! ```
 //!
-//! Of a sensor whose axes are not those of gravity, f̃ = B g̃ with another matrix B than −m 1: its
-//! nine numbers explain more of the forces than m does, by an F test of both least squares.
+//! If the axes of the sensor are not those of gravity, f̃ = B g̃ with another matrix B than −m 1:
+//! its nine numbers explain more of the forces than m does, by an F test of both least squares.
 
 use dynamics_core::algorithms::shifted_solution;
 use dynamics_core::scalar::{Real, Vector};

@@ -186,9 +186,9 @@ pub fn signed(number: i64, minus: &str) -> String {
     format!("{sign}{}", thousands(number.unsigned_abs()))
 }
 
-/// What the rows of a scene with a schedule compare, of docs/guide/src/balancing.md.
-const SCHEDULE: &str = "Errors are the pitch; PD has the gains of 0.22 m alone, without the schedule over the \
-     legs' length, which counts for harder pushes: 125 N in place of 84 N on legs of 0.34 m\n";
+/// The meaning of the rows of a scene with a schedule, by docs/guide/src/balancing.md.
+const SCHEDULE: &str = "Errors are the pitch; PD has the gains of 0.22 m alone. The schedule counts \
+     for harder pushes: 125 N in place of 84 N on legs of 0.34 m\n";
 
 /// The caption of the table of effects.
 const WORTH: &str = "What each effect is worth: saved in the longest tick, in the tick's code and \

@@ -78,8 +78,8 @@ impl PySensorLoad {
         six(&self.0.offset)
     }
 
-    /// The root mean squares of couple, N·m, and force, N, that a fit leaves over its poses, near the
-    /// sensor's noise; None of a load that was not fitted.
+    /// The root mean squares of couple, N·m, and force, N, that a fit leaves over its poses, near
+    /// the sensor's noise; None of a load that was not fitted.
     #[getter]
     fn residual(&self) -> Option<[f64; 2]> {
         self.1

@@ -257,9 +257,9 @@ impl<R: Real> SensorLoadFit<R> {
         Ok(SensorLoad { mass, first_moment: h, offset })
     }
 
-    /// The root mean squares of the couple, N·m, and the force, N, over the poses, of what the sensor
-    /// showed less what it shows of a load: near its noise if the load is right. In f32 rounding is
-    /// some hundredths of a per cent of what it showed.
+    /// The root mean squares of the couple, N·m, and the force, N, over the poses, of what the
+    /// sensor showed less what it shows of a load: near its noise if the load is right. In f32
+    /// rounding is some hundredths of a per cent of what it showed.
     #[must_use]
     pub fn residual(&self, load: &SensorLoad<R>) -> [R; 2] {
         let SensorLoad { mass: m, first_moment: h, offset: Force { ang: n0, lin: f0, .. } } = *load;

@@ -35,7 +35,8 @@ pub enum LqrError {
          {0}: drive it, or take it out of the state"
     )]
     NotReached(usize),
-    /// A motion that does not decay by itself, and whose deviations are all infinite; its coordinate.
+    /// A motion that does not decay by itself, and whose deviations are all infinite; its
+    /// coordinate.
     #[error(
         "a motion that does not decay by itself, mostly of coordinate {0}, has no weight: \
          give it a finite deviation, or take it out of the state"
@@ -70,8 +71,8 @@ pub fn held<const V: usize, const U: usize>(
     [(0, 2 * V), (2 * V, U)].map(|(from, width)| all.view((0, from), (2 * V, width)).into_owned())
 }
 
-/// The motion that does not decay under Φ and is moved least by the columns of `by` (Popov, Belevitch
-/// and Hautus): its singular value, and the row of its largest entry.
+/// The motion that does not decay under Φ and is moved least by the columns of `by` (Popov,
+/// Belevitch and Hautus): its singular value, and the row of its largest entry.
 fn least_moved(phi: &DMatrix<f64>, by: &DMatrix<f64>) -> Option<(f64, usize)> {
     let complex = |m: &DMatrix<f64>| m.map(Complex::from);
     let rates = phi.complex_eigenvalues();

@@ -380,7 +380,7 @@ class SensorLoad:
     @staticmethod
     def fit(gravity: _Array, wrench: _Array) -> SensorLoad: "Load and offset by least squares from poses at rest: gravity in the sensor's frame (…, 3),\nm/s², and what the sensor shows there (…, 6), couple and force, N·m and N.\n\nRaises SensorLoadError of poses from which no load follows, and of a sensor with the other\nsign or with other axes than those of gravity."
     @property
-    def residual(self) -> list[float] | None: "The root mean squares of couple, N·m, and force, N, that a fit leaves over its poses, near the\nsensor's noise; None of a load that was not fitted."
+    def residual(self) -> list[float] | None: "The root mean squares of couple, N·m, and force, N, that a fit leaves over its poses, near\nthe sensor's noise; None of a load that was not fitted."
     @property
     def mass(self) -> float: "The mass, kg."
     @property

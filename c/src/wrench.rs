@@ -13,7 +13,7 @@ use crate::{Exports, Library, State, check, status_of};
 pub type Wrench = dynamics_core::spatial::Force<f32>;
 /// Poses at rest, of which any bits are a value: `..._sensor_fit` of the header, with as many words.
 pub type SensorFit = SensorLoadFit<f32>;
-const _: () = assert!(size_of::<SensorFit>() == 4 * 23 && align_of::<SensorFit>() == 4);
+const _: () = assert!(size_of::<SensorFit>() == 4 * 34 && align_of::<SensorFit>() == 4);
 /// The load beyond a force sensor, and its offset: `..._sensor_load` of the header.
 pub type SensorLoad = motion_control::estimate::SensorLoad<f32>;
 
@@ -109,6 +109,8 @@ impl<L: Library<N, TOOL, POINTS>, const N: usize, const TOOL: usize, const POINT
             let found = fit.load().map_err(|error| match error {
                 SensorLoadError::FewPoses(_) => status::FEW_POSES,
                 SensorLoadError::OneDirection => status::ONE_DIRECTION,
+                SensorLoadError::Sign => status::SENSOR_SIGN,
+                SensorLoadError::Turned => status::SENSOR_AXES,
                 _ => status::OVERFLOW,
             })?;
             check::results(numbers(&found))?;

@@ -63,6 +63,7 @@ export function page({ library, data, suite }) {
     SCRIPT: joined(),
     DATA: JSON.stringify(data),
     SUITE: packed(Buffer.from(suite)),
+    LOADERS: packed(readFileSync(join(here, "vendor/three.js"))),
     LIBRARY: packed(library),
   };
   return read("page/index.html").replace(/<!-- (\w+) -->|\/\* (\w+) \*\//g, (whole, a, b) => {

@@ -30,6 +30,7 @@ mod moving_goal;
 mod operational;
 mod oracle_motion;
 mod passivity;
+mod pictures;
 mod regressor;
 mod scara;
 mod serde;

@@ -251,7 +251,7 @@ fn no_process_is_left_behind_after_a_signal_to_end() {
         assert!(sent.expect("sent").success());
         assert!(!child.wait().expect("ended").success());
         let is_over = || !processes.iter().any(|process| is_alive(process));
-        wait(10, is_over, signal);
+        wait(60, is_over, signal);
     }
 }
 

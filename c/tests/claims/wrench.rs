@@ -4,7 +4,7 @@ use crate::library::{self as c, *};
 use crate::scene::{self, N};
 use dynamics_c::status::*;
 use dynamics_core::Core;
-use dynamics_core::glam::Vec3;
+use dynamics_core::glam::{Mat3, Vec3};
 
 use super::{LOAD, TILTED, close, close_for, numbers, probe};
 
@@ -76,4 +76,16 @@ fn the_load_of_a_sensor_is_found_from_poses_at_rest() {
     close_for(10.0, &six(&rest), &six(&shown(gravity)));
     let refused = c::sensor_fit_add(Some(&mut fit), Some(&Vec3::NAN), Some(&rest));
     assert_eq!((refused, c::sensor_fit_load(Some(&fit), Some(&mut load))), (NOT_FINITE, OK));
+    // A sensor of the other sign, and one that is turned about its z.
+    for (by, expected) in [(-Mat3::IDENTITY, SENSOR_SIGN), (QUARTER, SENSOR_AXES)] {
+        let mut fit: SensorFit = numbers();
+        for gravity in [Vec3::X, Vec3::Y, Vec3::Z, -Vec3::X, -Vec3::Y].map(|axis| axis * 9.81) {
+            let here = Wrench::new(Vec3::ZERO, by * -gravity);
+            assert_eq!(c::sensor_fit_add(Some(&mut fit), Some(&gravity), Some(&here)), OK);
+        }
+        assert_eq!(c::sensor_fit_load(Some(&fit), Some(&mut load)), expected);
+    }
 }
+
+/// A turn by 90° about z.
+const QUARTER: Mat3 = Mat3::from_cols(Vec3::Y, Vec3::NEG_X, Vec3::Z);

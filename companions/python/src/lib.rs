@@ -15,6 +15,7 @@ mod library;
 mod linkages;
 mod loops;
 mod methods;
+mod names;
 mod request;
 mod robot;
 mod sensor;

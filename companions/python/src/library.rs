@@ -30,24 +30,7 @@ fn known<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>() ->
 
 /// The names of its joints in the file of its source.
 pub fn joints(robot: &str, bodies: &[String]) -> Vec<String> {
-    // A name for each, or one for all, with the joint's number (#) or the body (*).
-    let names = match robot {
-        "ur5e" => "shoulder_pan_joint shoulder_lift_joint elbow_joint *_joint *_joint *_joint",
-        "so101" => "shoulder_pan shoulder_lift elbow_flex wrist_flex wrist_roll gripper",
-        "panda" => "panda_joint#",
-        "iiwa14" => "iiwa_joint_#",
-        "gen3" => "joint_#",
-        "xarm7" => "joint#",
-        "z1" => "joint1 joint2 joint3 joint4 joint5 joint6 jointGripper",
-        _ => "*_joint",
-    };
-    let joint = |((i, body), name): ((usize, &String), &str)| match &**body {
-        "trunk" | "pelvis" => "floating_base".to_owned(),
-        "torso" => "waist_pitch_joint".to_owned(),
-        foot if foot.ends_with("_foot") => format!("{foot}_fixed"),
-        body => name.replace('#', &(i + 1).to_string()).replace('*', body),
-    };
-    bodies.iter().enumerate().zip(names.split(' ').cycle()).map(joint).collect()
+    bodies.iter().enumerate().map(|(i, body)| crate::names::joint(robot, i, body)).collect()
 }
 
 /// The frames of its file that are known here: the tool's of an SO-101.

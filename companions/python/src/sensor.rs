@@ -17,7 +17,7 @@ use crate::robot::{Array, argument};
 /// While the arm moves, the sensor shows the offset and the wrench of a `Payload` of this mass and
 /// centre, which `Robot.rnea_and_wrenches` has.
 #[pyclass(frozen, module = "robot_dynamics", name = "SensorLoad")]
-pub struct PySensorLoad(SensorLoad<f64>);
+pub struct PySensorLoad(SensorLoad<f64>, Option<[f64; 2]>);
 
 fn force([a, b, c, x, y, z]: [f64; 6]) -> Force<f64> {
     Force::new(DVec3::new(a, b, c), DVec3::new(x, y, z))
@@ -37,13 +37,14 @@ impl PySensorLoad {
         #[pyo3(from_py_with = wanted)] offset: [f64; 6],
     ) -> Self {
         let (first_moment, offset) = (first_moment.into(), force(offset));
-        Self(SensorLoad { mass, first_moment, offset })
+        Self(SensorLoad { mass, first_moment, offset }, None)
     }
 
     /// Load and offset by least squares from poses at rest: gravity in the sensor's frame (…, 3),
     /// m/s², and what the sensor shows there (…, 6), couple and force, N·m and N.
     ///
-    /// Raises SensorLoadError of poses from which no load follows.
+    /// Raises SensorLoadError of poses from which no load follows, and of a sensor with the other
+    /// sign or with other axes than those of gravity.
     #[staticmethod]
     fn fit<'py>(py: Python<'py>, gravity: &Array<'py>, wrench: &Array<'py>) -> PyResult<Self> {
         let given = [argument("gravity", gravity, 3), argument("wrench", wrench, 6)];
@@ -55,7 +56,7 @@ impl PySensorLoad {
         for (&gravity, &wrench) in gravity.iter().zip(wrench) {
             fit.add(DVec3::from_array(gravity), &force(wrench));
         }
-        fit.load().map(Self).map_err(|error| {
+        fit.load().map(|load| Self(load, Some(fit.residual(&load)))).map_err(|error| {
             let error = Exception::new(py, "SensorLoadError", error.to_string());
             error.with("poses", gravity.len()).build()
         })
@@ -75,6 +76,13 @@ impl PySensorLoad {
     #[getter]
     fn offset(&self) -> [f64; 6] {
         six(&self.0.offset)
+    }
+
+    /// The root mean squares of couple, N·m, and force, N, that a fit leaves over its poses, near
+    /// the sensor's noise; None of a load that was not fitted.
+    #[getter]
+    fn residual(&self) -> Option<[f64; 2]> {
+        self.1
     }
 
     /// The wrench at rest (…, 6), N·m and N, of gravity in the sensor's frame (…, 3), m/s²: that

@@ -83,5 +83,10 @@ def test_effects_act_at_frames(arm):
         jacobian = arm.jacobian(q, TOOL, "local")
         added = arm.crba(q, rd.Inertia() + rd.Payload(TOOL, mass, com, inertia)) - arm.crba(q)
         near(added, jacobian.T @ spatial @ jacobian)
+    # A load at one frame, and the result at another.
+    probe = "<link name='probe'/><joint name='p' type='fixed'><parent link='lower_arm_link'/><child link='probe'/><origin xyz='0.1 0 0.05'/></joint></robot>"
+    probed = rd.Robot.from_text(FILE.read_text().replace("</robot>", probe), exact=False)
+    scene, jacobian = rd.Inertia() + rd.Payload("probe", mass), probed.jacobian(q, TOOL, "local")
+    near(probed.osim_inverse(q, TOOL, effects=scene), jacobian @ np.linalg.inv(probed.crba(q, scene)) @ jacobian.T)
     with pytest.raises(rd.EffectError, match="no body of the name `nothing`"):
         arm.rnea(q, v, a, rd.BodyWrench("nothing", wrench))

@@ -22,6 +22,19 @@ def test_a_load_is_that_of_numpys_least_squares():
     assert shown.shape == (3, 4, 6) and np.allclose(shown.ravel(), rows @ expected, rtol=0, atol=1e-12)
 
 
+def test_a_residual_is_that_of_the_poses_and_a_sensor_of_another_sign_or_axes_is_refused():
+    random = np.random.default_rng(2)
+    gravity = random.normal(scale=6.0, size=(12, 3))
+    wrench = random.normal(scale=0.1, size=(12, 6)) + np.hstack([np.zeros((12, 3)), -1.2 * gravity])
+    load = rd.SensorLoad.fit(gravity, wrench)
+    left = (wrench - load.at_rest(gravity)).reshape(12, 2, 3)
+    assert np.allclose(load.residual, np.sqrt(np.square(left).sum(2).mean(0)), rtol=1e-9)
+    assert rd.SensorLoad(1.2, [0, 0, 0], [0] * 6).residual is None
+    for wrong, words in ((-wrench, "negative"), (np.roll(wrench, 1, 1), "axes of the sensor")):
+        with pytest.raises(rd.SensorLoadError, match=words):
+            rd.SensorLoad.fit(gravity, wrong)
+
+
 def test_poses_without_a_load_are_refused():
     line = np.array([[0.0, 0.0, 9.81], [0.0, 0.0, -9.81]] * 3)
     for gravity in (line, line[:2], np.full((6, 3), np.nan)):

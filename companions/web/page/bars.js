@@ -5,17 +5,20 @@ import { digits, inMemory } from "./words.js";
 
 const ROW = 30;
 
+/// Whether a torque is above a joint's limit; it may have none.
+export const isBeyond = (torque, limit) => limit > 0 && Math.abs(torque) > limit;
+
 export class Bars {
   constructor(canvas) {
     this.canvas = canvas;
     this.scale = 1;
   }
 
-  /// Draws the torques of the joints of these names.
-  draw(names, computed, colour) {
+  /// Draws the torques of joints; those beyond its limit in another colour.
+  draw(joints, computed, colour) {
     const canvas = this.canvas;
     const width = canvas.parentElement.clientWidth;
-    const height = names.length * ROW + 18;
+    const height = joints.length * ROW + 18;
     const ratio = Math.min(2, devicePixelRatio);
     if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(height * ratio)) {
       canvas.width = Math.round(width * ratio);
@@ -33,7 +36,7 @@ export class Bars {
     const x = (torque) => middle + (torque / this.scale) * half;
     context.font = "13px system-ui, sans-serif";
     context.textBaseline = "middle";
-    names.forEach((name, joint) => {
+    joints.forEach(({ name, torque: limit }, joint) => {
       const y = joint * ROW + ROW / 2;
       context.fillStyle = colour("track");
       context.fillRect(label, y - 9, 2 * half + 8, 18);
@@ -51,7 +54,7 @@ export class Bars {
         }
       });
       const sum = computed.single[joint];
-      context.fillStyle = colour("text");
+      context.fillStyle = colour(isBeyond(sum, limit) ? "wrong" : "text");
       context.fillRect(x(sum) - 1.5, y - 12, 3, 24);
       context.textAlign = "left";
       context.fillText(name, 0, y, label - 8);
@@ -62,11 +65,11 @@ export class Bars {
     context.lineWidth = 1;
     context.beginPath();
     context.moveTo(middle, 0);
-    context.lineTo(middle, names.length * ROW);
+    context.lineTo(middle, joints.length * ROW);
     context.stroke();
     context.fillStyle = colour("muted");
     context.font = "12px system-ui, sans-serif";
-    const y = names.length * ROW + 8;
+    const y = joints.length * ROW + 8;
     context.textAlign = "center";
     for (const torque of [-this.scale, 0, this.scale]) {
       context.textAlign = torque < 0 ? "left" : torque > 0 ? "right" : "center";

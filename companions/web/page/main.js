@@ -5,7 +5,7 @@ import { Soft } from "./soft.js";
 import { View } from "./view.js";
 import { say, state } from "./state.js";
 import { by, element } from "./words.js";
-import { frame, load, look, reach, select, start } from "./move.js";
+import { files, frame, load, look, reach, select, start } from "./move.js";
 import { disturbFrame, open, pull, startDisturb } from "./disturb.js";
 import { openCases, runCase, startCases } from "./cases.js";
 
@@ -106,7 +106,7 @@ async function main() {
 }
 
 // For the tests, and for whoever opens the console.
-globalThis.play = { state, times, work, load, select, reach, pull, runCase, show, cases: () => gallery.all, disturb, Gl, Soft };
+globalThis.play = { state, times, work, files, load, select, reach, pull, runCase, show, cases: () => gallery.all, disturb, Gl, Soft };
 main().catch((error) => {
   by("said").hidden = false;
   by("said").classList.add("wrong");

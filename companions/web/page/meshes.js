@@ -1,6 +1,7 @@
-// Meshes that a URDF names, STL or OBJ, as triangles in the frames of their bodies. The files are
-// hostile: sizes and counts are bounded, and nothing is asked for.
+// Meshes that a URDF names, read by three.js's loaders, as triangles in the frames of their bodies.
+// The files are hostile: sizes and counts are bounded, and nothing is asked for.
 import { cross, dot, minus, unit } from "./camera.js";
+import { unpacked } from "./library.js";
 import { inFrame } from "./shape.js";
 
 /// The most files, and the most triangles of all of them.
@@ -10,43 +11,87 @@ const MOST_FACES = 500_000;
 /// each cell, of which so many are as long as the mesh.
 const [FINE, CELLS] = [2_000, 32];
 
-/// The name of a file without its folders, by which it is matched.
-export const base = (path) => path.split(/[\\/]/).at(-1).toLowerCase();
-
-function stl(bytes) {
-  const view = new DataView(bytes);
-  const count = bytes.byteLength < 84 ? 0 : view.getUint32(80, true);
-  const text = new TextDecoder().decode(bytes.byteLength === 84 + 50 * count ? new Uint8Array() : bytes);
-  if (text.startsWith("solid")) return Array.from(text.matchAll(/vertex\s+(\S+)\s+(\S+)\s+(\S+)/g), ([, ...p]) => p.map(Number)).flat();
-  return Float32Array.from({ length: bytes.byteLength < 84 + 50 * count ? 0 : 9 * count }, (_, i) => view.getFloat32(96 + 50 * Math.floor(i / 9) + 4 * (i % 9), true));
+/// The loaders, which are decoded when the first mesh is read.
+async function loaders() {
+  if (!globalThis.three) {
+    const script = document.createElement("script");
+    script.textContent = new TextDecoder().decode(await unpacked("loaders"));
+    document.head.append(script);
+  }
+  return globalThis.three;
 }
 
-function obj(bytes) {
-  const [points, found] = [[], []];
-  for (const line of new TextDecoder().decode(bytes).split("\n")) {
-    const [kind, ...words] = line.trim().split(/\s+/);
-    if (kind === "v") points.push(words.slice(0, 3).map(Number));
-    if (kind !== "f") continue;
-    const corners = words.map((word) => points.at(Number.parseInt(word, 10) - (word.startsWith("-") ? 0 : 1)));
-    for (let i = 2; i < corners.length; i++) found.push(...[0, i - 1, i].flatMap((k) => corners[k] ?? [NaN]));
+/// The object of a file, by the end of its name.
+const READ = {
+  stl(three, bytes) {
+    const [count] = bytes.byteLength < 84 ? [Infinity] : new Uint32Array(bytes.slice(80, 84));
+    const isText = /^\s{0,4}solid/.test(new TextDecoder().decode(bytes.slice(0, 9)));
+    return isText || 84 + 50 * count <= bytes.byteLength ? new three.Mesh(new three.STLLoader().parse(bytes)) : null;
+  },
+  obj: (three, bytes) => new three.OBJLoader().parse(new TextDecoder().decode(bytes)),
+  dae(three, bytes) {
+    const text = new TextDecoder().decode(bytes);
+    // Each may double what is in the others.
+    if (text.split("<instance_node").length > 16) throw new Error("too many parts are parts of others");
+    return new three.ColladaLoader().parse(text, "")?.scene;
+  },
+  glb: async (three, bytes) => (await new three.GLTFLoader().parseAsync(bytes, "")).scene,
+};
+
+/// The corners of all triangles of an object, in the frame of the file: like RViz, without the
+/// turn of a file whose axis upwards is another.
+function corners(three, object, most) {
+  const parts = [];
+  object?.quaternion.identity();
+  object?.updateMatrixWorld(true);
+  object?.traverse((part) => part.isMesh && part.geometry.attributes.position && parts.push(part));
+  const size = ({ geometry: { index, attributes } }) => 3 * Math.floor((index ?? attributes.position).count / 3);
+  const faces = parts.reduce((sum, part) => sum + size(part) / 3, 0);
+  if (faces > most) throw new Error(`with it there are ${MOST_FACES - most + faces} triangles, and at most ${MOST_FACES} are shown`);
+  const [found, point] = [new Float32Array(9 * faces), new three.Vector3()];
+  let at = 0;
+  for (const part of parts) {
+    const { geometry: { index, attributes: { position } }, matrixWorld } = part;
+    // A mirrored part has its corners the other way round.
+    const order = matrixWorld.determinant() < 0 ? [2, 1, 0] : [0, 1, 2];
+    for (let i = 0; i < size(part); i++, at += 3) {
+      const corner = i - (i % 3) + order[i % 3];
+      point.fromBufferAttribute(position, index ? index.getX(corner) : corner).applyMatrix4(matrixWorld).toArray(found, at);
+    }
   }
   return found;
 }
 
 /// The corners of a file's triangles, nine numbers each, beside those of others.
-export function triangles(file, bytes, others) {
-  const found = /\.obj$/i.test(file) ? obj(bytes) : stl(bytes);
-  const faces = [found, ...others].reduce((sum, one) => sum + one.length / 9, 0);
-  if (faces > MOST_FACES) throw new Error(`${file}: with it there are ${faces} triangles, and at most ${MOST_FACES} are shown.`);
-  if (!found.length || found.length % 9 || !found.every((x) => Math.abs(x) < 1e9)) throw new Error(`${file}: it has no triangles, or corners that are no numbers.`);
-  return found;
+export async function triangles(file, bytes, others) {
+  const most = MOST_FACES - others.reduce((sum, one) => sum + one.length / 9, 0);
+  const three = await loaders();
+  try {
+    const found = corners(three, await READ[ending(file)](three, bytes), most);
+    if (!found.length || !found.every((x) => Math.abs(x) < 1e9)) throw new Error("it has no triangles, or corners that are no numbers");
+    return found;
+  } catch (error) {
+    throw new Error(`${file}: ${error.message}.`);
+  }
 }
 
-/// Whether a mesh of this name can be read.
-export const isRead = (name) => /\.(stl|obj)$/i.test(name);
+const ending = (name) => name.split(".").at(-1).toLowerCase();
 
-/// The names of all meshes of a URDF.
-export const meshNames = (text) => new Set(Array.from(parsed(text).querySelectorAll("mesh[filename]"), (mesh) => base(mesh.getAttribute("filename"))));
+/// Whether a mesh of this name can be read.
+export const isRead = (name) => Object.hasOwn(READ, ending(name));
+
+const folders = (path) => path.toLowerCase().split(/[\\/]+/).reverse();
+
+/// The path, of these, of the file that an address names: its name, and most of its last folders.
+export function pathOf(address, paths) {
+  const wanted = folders(address);
+  const same = (path) => folders(path).concat("").findIndex((word, i) => word !== wanted[i]);
+  const all = paths.filter((path) => same(path) > 0);
+  return all.reduce((best, path) => (best === undefined || same(path) >= same(best) ? path : best), undefined);
+}
+
+/// The addresses of all meshes of a URDF.
+export const meshNames = (text) => Array.from(parsed(text).querySelectorAll("mesh[filename]"), (mesh) => mesh.getAttribute("filename"));
 
 const parsed = (text) => new DOMParser().parseFromString(text, "application/xml");
 
@@ -69,7 +114,7 @@ export function visuals(text) {
     const [[r, p, y], scale] = [numbers(origin, "rpy", 0), numbers(mesh, "scale", 1)];
     const [a, b, c, d, e, f] = [Math.cos(r), Math.sin(r), Math.cos(p), Math.sin(p), Math.cos(y), Math.sin(y)];
     const axes = [e * c, f * c, -d, e * d * b - f * a, f * d * b + e * a, c * b, e * d * a + f * b, f * d * a - e * b, c * a];
-    return { link: visual.parentNode.getAttribute("name"), file: base(mesh.getAttribute("filename")), xyz: numbers(origin, "xyz", 0), axes: axes.map((x, i) => x * scale[Math.floor(i / 3)]) };
+    return { link: visual.parentNode.getAttribute("name"), file: mesh.getAttribute("filename"), xyz: numbers(origin, "xyz", 0), axes: axes.map((x, i) => x * scale[Math.floor(i / 3)]) };
   });
 }
 

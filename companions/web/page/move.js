@@ -1,7 +1,7 @@
 // The tab "Move": joints, effects, torques, the front of accuracy, costs and Rust.
-import { Bars } from "./bars.js";
+import { Bars, isBeyond } from "./bars.js";
 import { CLOCK, drawFront } from "./front.js";
-import { MOST_FILES, base, isRead, meshNames, placed, triangles, visuals } from "./meshes.js";
+import { MOST_FILES, isRead, meshNames, pathOf, placed, triangles, visuals } from "./meshes.js";
 import { everyWay, front, price, wayAbout, wayInWords } from "./recorded.js";
 import { rust } from "./rust.js";
 import { EFFECTS, chosen, enter, entered, has, motion, posture, range, say, state } from "./state.js";
@@ -168,6 +168,8 @@ function code() {
 function words() {
   const { single, double, parts } = state.computed;
   const error = Math.max(0, ...single.map((x, i) => Math.abs(x - double[i])));
+  const beyond = state.robot.about.joints.flatMap(({ name, torque, prismatic }, i) => (isBeyond(single[i], torque) ? `${name} ${digits(Math.abs(single[i]))} of ${digits(torque)} ${prismatic ? "N" : "N·m"}` : []));
+  write(by("beyond"), beyond.length ? `Above the limit of torque: ${beyond.join(", ")}.` : "");
   const scale = Math.max(1e-9, ...double.map(Math.abs));
   write(by("error"), `${digits(error)} N·m`);
   write(by("error-share"), `${digits(error / scale)} of the largest torque`);
@@ -202,7 +204,7 @@ export function frame(seconds) {
   // draws the whole rectangle around everything that changes.
   if (performance.now() - move.shown > 30) {
     move.shown = performance.now();
-    move.bars.draw(all.map((joint) => joint.name), computed, move.colour);
+    move.bars.draw(all, computed, move.colour);
     all.forEach((_, i) => {
       if (document.activeElement !== move.inputs[i] || state.swinging) move.inputs[i].value = now[i];
     });
@@ -242,42 +244,77 @@ export function load(name, text) {
   }
 }
 
-/// Shows the meshes that the file's robot names, of files with their names.
+/// Shows the meshes that the file's robot names, of files with their paths.
 async function dress(given) {
   const { robot } = state;
   const { visuals: all = [], files: there, about, title } = robot;
-  const wanted = new Set(all.map(({ file }) => file));
+  const wanted = [...new Set(all.map(({ file }) => file))];
+  const of = (paths) => wanted.map((address) => pathOf(address, paths));
+  const paths = given.map(({ path }) => path);
+  const chosen = new Set(of([...there.keys(), ...paths]));
+  for (const path of [...there.keys()]) if (!chosen.has(path)) there.delete(path);
   try {
-    for (const file of given.filter(({ name }) => wanted.has(base(name)))) {
+    for (const { path, read } of given.filter(({ path }) => chosen.has(path)).slice(0, MOST_FILES)) {
+      const file = await read();
       if (file.size > MOST_BYTES) throw new Error(`${file.name}: ${file.size} bytes are too many.`);
-      there.delete(base(file.name));
-      there.set(base(file.name), triangles(file.name, await file.arrayBuffer(), [...there.values()]));
+      there.delete(path);
+      there.set(path, await triangles(file.name, await file.arrayBuffer(), [...there.values()]));
     }
   } catch (error) {
     return say(error.message, true);
   }
-  if (given.length && !given.some(({ name }) => wanted.has(base(name)))) {
-    const { name } = given[0];
-    return say(`${name}: ${robot.named?.has(base(name)) ? `${title} names it where other meshes are drawn.` : `${title} does not name it.`}`, true);
+  if (given.length && !paths.some((path) => chosen.has(path))) {
+    const [path] = paths;
+    const isNamed = robot.named?.some((address) => pathOf(address, [path]));
+    return say(`${path}: ${isNamed ? `${title} names it where other meshes are drawn.` : `${title} does not name it.`}`, true);
   }
   if (all.length === 0 || state.robot !== robot) return;
   const links = new Map(robot.links.map(([link, ...place]) => [link, place]));
-  robot.meshes = all.filter(({ link, file }) => links.has(link) && there.has(file)).map((one) => placed(there.get(one.file), one, ...links.get(one.link)));
+  const found = new Map(wanted.map((address) => [address, there.get(pathOf(address, [...there.keys()]))]));
+  robot.meshes = all.filter(({ link, file }) => links.has(link) && found.get(file)).map((one) => placed(found.get(one.file), one, ...links.get(one.link)));
   look();
-  const lacking = [...wanted].filter((file) => !there.has(file));
-  const missing = lacking.filter(isRead);
+  const lacking = wanted.filter((address) => !found.get(address));
+  const missing = lacking.filter(isRead).map((address) => address.split("/").at(-1));
   const other = [...new Set(lacking.filter((file) => !isRead(file)).map((file) => file.split(".").at(-1).toUpperCase()))];
-  say(`${title}: ${about.joints.length} joints, ${robot.meshes.length} of ${all.length} meshes.${missing.length ? ` Drop ${missing.slice(0, 4).join(", ")}${missing[4] ? " …" : ""} too.` : ""}${other.length ? ` Those in ${other.join(" and ")} are not read: STL and OBJ are.` : ""}`);
+  say(`${title}: ${about.joints.length} joints, ${robot.meshes.length} of ${all.length} meshes.${missing.length ? ` Drop ${missing.slice(0, 4).join(", ")}${missing[4] ? " …" : ""} too.` : ""}${other.length ? ` Those in ${other.join(" and ")} are not read: STL, OBJ, DAE and GLB are.` : ""}`);
 }
 
 /// The largest file that is read, bytes: above the importer's own bound.
 const MOST_BYTES = 64 << 20;
+/// The most files of folders that are looked at.
+const MOST_LISTED = 10_000;
 
-/// A robot's file, the meshes of one, or both.
-async function files(list) {
-  const file = [...list].find(({ name }) => !/\.(stl|obj|dae)$/i.test(name));
-  if (file?.size > MOST_BYTES) return say(`${file.name}: ${file.size} bytes are too many.`, true);
-  if (!file || load(file.name, await file.text())) await dress([...list].filter(({ name }) => /\.(stl|obj)$/i.test(name)).slice(0, MOST_FILES));
+/// A file with its path: that in its folder, or its name.
+const loose = (file) => ({ path: file.webkitRelativePath || file.name, read: async () => file });
+
+/// The files of a drop, with those in its folders.
+async function dropped(items) {
+  // A page from a disk reads files alone.
+  const entries = [...items].map((item) => [item.webkitGetAsEntry?.()].find((entry) => entry?.isDirectory) ?? item.getAsFile());
+  const found = [];
+  while (entries.length && found.length < MOST_LISTED) {
+    const entry = entries.shift();
+    if (entry?.isDirectory) {
+      const reader = entry.createReader();
+      for (let some = [null]; some.length; entries.push(...some)) some = await new Promise((done, fail) => reader.readEntries(done, fail));
+    } else if (entry) {
+      found.push(entry.file ? { path: entry.fullPath.slice(1), read: () => new Promise((done, fail) => entry.file(done, fail)) } : loose(entry));
+    }
+  }
+  return found;
+}
+
+/// A robot's file, its meshes, or both.
+export async function files(list) {
+  try {
+    const robots = list.filter(({ path }) => /\.(urdf|xml|mjcf)$/i.test(path) && !/package\.xml$/i.test(path));
+    const one = robots.find(({ path }) => /\.urdf$/i.test(path)) ?? robots[0] ?? list.find(({ path }) => !isRead(path) && !path.includes("/"));
+    const file = await one?.read();
+    if (file?.size > MOST_BYTES) return say(`${file.name}: ${file.size} bytes are too many.`, true);
+    if (!file || load(file.name, await file.text())) await dress(list.filter(({ path }) => isRead(path)));
+  } catch (error) {
+    say(`The files cannot be read: ${error.message}`, true);
+  }
 }
 
 export function start() {
@@ -304,7 +341,7 @@ export function start() {
   }
   by("way").addEventListener("input", chose);
   by("robot").addEventListener("change", () => by("robot").value && select(by("robot").value));
-  by("file").addEventListener("change", () => files(by("file").files));
+  by("file").addEventListener("change", () => files([...by("file").files].map(loose)));
   by("copy").addEventListener("click", async () => {
     try {
       await navigator.clipboard.writeText(by("rust").textContent);
@@ -315,9 +352,9 @@ export function start() {
     }
   });
   document.addEventListener("dragover", (event) => event.preventDefault());
-  document.addEventListener("drop", (event) => {
+  document.addEventListener("drop", async (event) => {
     event.preventDefault();
-    files(event.dataTransfer.files);
+    files(await dropped(event.dataTransfer.items));
   });
   new ResizeObserver(() => front() && drawFront(by("front-picture"), front(), move.way)).observe(by("front"));
 }

@@ -100,7 +100,7 @@ impl Session {
             Request::Select { key } => {
                 let listed = robots::named(&key).ok_or(format!("there is no robot `{key}`"))?;
                 let machine = self.machine.insert((listed.make)());
-                value(machine.about())
+                value(robots::about(listed, machine.as_ref()))
             }
             Request::Import { text, date } => {
                 let imported = import::import(&text, date)?;

@@ -8,7 +8,7 @@ use dynamics_core::robots::{
 use firmware_demo::robots::{DirectDrive, Gimbal, Leg, Scara, SpaceArm, TwoLink};
 use firmware_demo::scenes::{panda_payload, scara_table, so101_teach, ur5e};
 
-use crate::machine::{Friction, Machine, Sized};
+use crate::machine::{About, Friction, Machine, Sized};
 
 /// A robot: its key, its type in Rust and where that is, and how it is made.
 pub struct Listed {
@@ -95,6 +95,18 @@ listed! {
     "gimbal" Gimbal in DEMO, "Gimbal": || made::<Gimbal, 3, 3, 3>(None);
     "leg" Leg in DEMO, "Hopping leg": || made::<Leg, 5, 4, 4>(None);
     "space_arm" SpaceArm in DEMO, "Arm of a satellite": || made::<SpaceArm, 7, 13, 12>(None);
+}
+
+#[path = "../../python/src/names.rs"]
+mod names;
+
+/// The robot of a key, with its joints as the file of its source names them.
+pub fn about(listed: &Listed, machine: &dyn Machine) -> About {
+    let mut about = machine.about();
+    for joint in about.joints.iter_mut().filter(|_| listed.module == LIBRARY) {
+        joint.name = names::joint(listed.key, joint.body, &joint.name);
+    }
+    about
 }
 
 /// The robot of a key.

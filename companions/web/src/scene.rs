@@ -70,7 +70,7 @@ pub struct Shown {
     pub tick: u32,
     /// The largest tracking error of a joint in each of the ticks that passed, rad.
     pub errors: Vec<f32>,
-    /// Changes of mode or fault in them: tick, mode, fault.
+    /// Changes of mode or fault in them, and torques beyond a limit: tick, mode, fault or words.
     pub events: Vec<(u32, String, Option<String>)>,
 }
 
@@ -139,9 +139,14 @@ impl<T: Reference<f32, N>, const N: usize> Reference<f32, N> for Repeated<T> {
 /// The measurements that the law reads beside the reference.
 struct Input<'a, X> {
     environment: &'a X,
+    /// The torques that the law asked for, before the gate limits them.
+    asked: &'a Cell<[f32; MOST_JOINTS]>,
     /// A torque in place of a joint's.
     poison: Option<(usize, f32)>,
 }
+
+/// The most joints of a scene here.
+const MOST_JOINTS: usize = 7;
 
 /// The scene's law, with a torque that may be spoilt.
 struct Whole<S>(PhantomData<S>);
@@ -176,7 +181,9 @@ macro_rules! law {
                 let mut tau = Self::feedforward(reference, input);
                 let pd = feedback(gains, reference, estimate);
                 tau.iter_mut().zip(pd).for_each(|(tau, pd)| *tau += pd);
-                spoilt(tau, input.poison)
+                let tau = spoilt(tau, input.poison);
+                input.asked.set(std::array::from_fn(|j| tau.get(j).copied().unwrap_or_default()));
+                tau
             }
         }
     };
@@ -204,6 +211,8 @@ struct Arm<S: Scene<N, N, N, N>, const N: usize> {
     /// The position at which an encoder is stuck.
     held: f32,
     last: (Mode, Option<Fault>),
+    /// The joints that were asked for more than their limit of torque in the tick before.
+    beyond: [bool; N],
     /// The plant has no forward dynamics in its state.
     broken: bool,
 }
@@ -248,6 +257,7 @@ where
             fault: None,
             held: 0.0,
             last: (Mode::Full, None),
+            beyond: [false; N],
             broken: false,
         })
     }
@@ -279,14 +289,15 @@ where
         }
         let now = self.within();
         let environment = self.environment(now);
-        let input = Input { environment: &environment, poison };
+        let asked = Cell::default();
+        let input = Input { environment: &environment, asked: &asked, poison };
         let telemetry = match by.feedforward {
             true => self.control.tick::<Whole<S>, _, _>(&self.reference, &input),
             false => self.control.tick::<PdAlone<S>, _, _>(&self.reference, &input),
         };
         self.clock = telemetry.tick;
         // The reference is that of this tick: it is compared with where the arm is now.
-        self.show(&telemetry, shown);
+        self.show(&telemetry, asked.get(), shown);
         self.advance(by, now, stuck);
         self.tick += 1;
     }
@@ -325,12 +336,22 @@ where
         columns.map(|column| column.dot(Force::new(Vec3::ZERO, force)))
     }
 
-    fn show(&mut self, telemetry: &Telemetry<N>, shown: &mut Shown) {
+    fn show(&mut self, telemetry: &Telemetry<N>, asked: [f32; MOST_JOINTS], shown: &mut Shown) {
         let actual = self.plant.state.q;
         let errors = telemetry.reference.iter().zip(actual);
         let worst = errors.map(|(r, q)| (r - q).abs()).fold(0.0, f32::max);
         shown.errors.push(worst);
         let status = telemetry.status;
+        for (joint, (asked, limit)) in asked.into_iter().zip(self.limits).enumerate() {
+            let beyond = asked.abs() > limit;
+            if beyond && !self.beyond[joint] {
+                let words = format!(
+                    "joint {joint}: {asked} N·m or N were asked for, and {limit} are its limit"
+                );
+                shown.events.push((self.tick, mode(status.mode), Some(words)));
+            }
+            self.beyond[joint] = beyond;
+        }
         if (status.mode, status.fault) != self.last {
             self.last = (status.mode, status.fault);
             let fault = status.fault.map(|fault| fault.to_string());

@@ -359,6 +359,10 @@ const tests = {
     await settled(page);
     const { single, rust } = await page.evaluate(() => ({ single: play.state.computed.single, rust: document.getElementById("rust").textContent }));
     must(single.length === 2 && single.every(Number.isFinite), "the dropped arm has no torques");
+    await drop("weak.urdf", arm.replaceAll('effort="50"', 'effort="1"'));
+    await said("^weak.urdf: 2 joints");
+    await page.evaluate(() => Object.assign(play.state, { swinging: false, clock: 0, q: [0.5, 0.5] }));
+    await page.waitForFunction(() => /^Above the limit of torque: .*one-two .* of 1\.?0* N·m/.test(document.getElementById("beyond").textContent), { timeout: 10_000 });
     must(rust.includes("impl Robot<2, 2, 2> for Dropped"), "the dropped arm has no Rust");
     must(/Imported on \d{4}-\d\d-\d\d by/.test(rust), "the file's Rust has no date");
     // The same four triangles as each kind of file, one on a fixed link, with its own scale.
@@ -369,6 +373,16 @@ const tests = {
     faces.forEach((face, i) => face.forEach((k, j) => corners[k].forEach((x, c) => binary.writeFloatLE(x, 96 + 50 * i + 12 * j + 4 * c))));
     const text = `solid a\n${faces.map((face) => `facet normal 0 0 0\nouter loop\n${face.map((k) => `vertex ${corners[k].join(" ")}`).join("\n")}\nendloop\nendfacet\n`).join("")}endsolid`;
     const obj = `${corners.map((p) => `v ${p.join(" ")}\n`).join("")}${faces.map((face) => `f ${face.map((k) => `${k + 1}//1`).join(" ")}\n`).join("")}`;
+    // Both in parts that are turned, moved and scaled: a DAE of centimetres, whose z is upwards.
+    const numbers = faces.flat().flatMap((k) => [corners[k][1], -corners[k][0], corners[k][2]].map((x, c) => (c === 0 ? x - 1 : x)));
+    const dae = `<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1"><asset><unit meter="0.01"/><up_axis>Z_UP</up_axis></asset><library_images><image id="i"><init_from>http://else.where/i.png</init_from></image></library_images><library_effects><effect id="e"><profile_COMMON><newparam sid="s"><surface type="2D"><init_from>i</init_from></surface></newparam><newparam sid="t"><sampler2D><source>s</source></sampler2D></newparam><technique sid="c"><phong><diffuse><texture texture="t" texcoord="u"/></diffuse></phong></technique></profile_COMMON></effect></library_effects><library_materials><material id="m"><instance_effect url="#e"/></material></library_materials><library_geometries><geometry id="g"><mesh><source id="p"><float_array id="a" count="36">${numbers.map((x) => 100 * x).join(" ")}</float_array><technique_common><accessor source="#a" count="12" stride="3"/></technique_common></source><vertices id="v"><input semantic="POSITION" source="#p"/></vertices><triangles count="4" material="m"><input semantic="VERTEX" source="#v" offset="0"/><p>${[...Array(12).keys()].join(" ")}</p></triangles></mesh></geometry></library_geometries><library_visual_scenes><visual_scene id="s"><node><matrix>0 -1 0 0 1 0 0 100 0 0 1 0 0 0 0 1</matrix><instance_geometry url="#g"><bind_material><technique_common><instance_material symbol="m" target="#m"/></technique_common></bind_material></instance_geometry></node></visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>`;
+    const glbOf = (json, binary) => {
+      const chunk = (type, bytes, fill) => [Uint32Array.of(Math.ceil(bytes.length / 4) * 4, type), bytes, new Uint8Array(-bytes.length & 3).fill(fill)].flatMap((part) => [...new Uint8Array(part.buffer, part.byteOffset, part.byteLength)]);
+      const all = [...chunk(0x4e4f534a, new TextEncoder().encode(JSON.stringify(json)), 32), ...chunk(0x004e4942, binary, 0)];
+      return [...new Uint8Array(Uint32Array.of(0x46546c67, 2, 12 + all.length).buffer), ...all];
+    };
+    const gltf = { asset: { version: "2.0" }, scene: 0, scenes: [{ nodes: [0] }], nodes: [{ mesh: 0, translation: [0, 1, 0], rotation: [0, 0, Math.SQRT1_2, Math.SQRT1_2], extras: { made: 1 } }], meshes: [{ primitives: [{ attributes: { POSITION: 0 }, indices: 1, material: 0 }] }], materials: [{ pbrMetallicRoughness: { baseColorTexture: { index: 0 } }, extras: { made: 1 } }], textures: [{ source: 0 }], images: [{ uri: "http://else.where/i.png" }], accessors: [{ bufferView: 0, componentType: 5126, count: 12, type: "VEC3" }, { bufferView: 1, componentType: 5123, count: 12, type: "SCALAR" }], bufferViews: [{ buffer: 0, byteLength: 144 }, { buffer: 0, byteOffset: 144, byteLength: 24 }], buffers: [{ byteLength: 168 }] };
+    const glb = glbOf(gltf, new Uint8Array([...new Uint8Array(Float32Array.from(numbers).buffer), ...new Uint8Array(Uint16Array.from({ length: 12 }, (_, i) => i).buffer)]));
     const visual = (name, scale) => `<visual><origin xyz="0 0 0.5" rpy="0 0 1.5707963267948966"/><geometry><mesh filename="package://a/${name}" scale="${scale} ${scale} ${scale}"/></geometry></visual></link>`;
     const meshed = arm.replace("</robot>", '<link name="tool"></link><joint name="t" type="fixed"><parent link="two"/><child link="tool"/><origin xyz="1 0 0"/></joint></robot>').split("</link>");
     const named = meshed.map((part, i) => (i < 4 ? part + (i === 0 ? "</link>" : visual(["", "A.stl", "b.stl", "c.obj"][i], i)) : part)).join("");
@@ -377,10 +391,13 @@ const tests = {
     await drop("C.obj", obj);
     await said("3 of 3 meshes");
     await settled(page);
-    const shown = await page.evaluate(() => play.state.view.shape.parts.filter(({ mesh }) => mesh).map(({ from, mesh }) => [from.body, mesh.positions.length, mesh.corners.at(-1)]));
     // The corner that is farthest along each axis, after scale, a quarter turn and the fixed joint.
-    const right = shown.every(([body, size, corner], i) => body === [0, 1, 1][i] && size === 9 * faces.length && [i === 2 ? 1 : 0, 0.1 * (i + 1), 0.5 + 0.2 * (i + 1)].every((x, k) => Math.abs(x - corner[k]) < 1e-6));
-    must(shown.length === 3 && right, `meshes: ${JSON.stringify(shown)}`);
+    const placed = async () => {
+      const shown = await page.evaluate(() => play.state.view.shape.parts.filter(({ mesh }) => mesh).map(({ from, mesh }) => [from.body, mesh.positions.length, mesh.corners.at(-1)]));
+      const right = shown.every(([body, size, corner], i) => body === [0, 1, 1][i] && size === 9 * faces.length && [i === 2 ? 1 : 0, 0.1 * (i + 1), 0.5 + 0.2 * (i + 1)].every((x, k) => Math.abs(x - corner[k]) < 1e-6));
+      must(shown.length === 3 && right, `meshes: ${JSON.stringify(shown)}`);
+    };
+    await placed();
     const drawn = await page.evaluate(() => [false, true].map((hidden) => {
       const { view } = play.state;
       if (hidden) for (const { mesh } of view.shape.parts) if (mesh) mesh.coarse = [];
@@ -388,17 +405,32 @@ const tests = {
       return view.canvas.toDataURL();
     }));
     must(drawn[0] !== drawn[1], "meshes are not drawn");
+    await drop("others.urdf", named.replace("A.stl", "a.dae").replace("c.obj", "c.glb"), { "a.dae": dae, "b.stl": text, "c.glb": glb });
+    await said("3 of 3 meshes");
+    await settled(page);
+    await placed();
+    // Of files of one name each mesh is that whose folders are those of its address.
+    const folders = named.replace("a/A.stl", "arm/visual/l.stl").replace("a/b.stl", "arm/collision/l.stl").replace("a/c.obj", "arm/other/c.obj");
+    const [other, deepest] = [text.replaceAll("0.2", "0.3"), "x/arm"];
+    await page.evaluate((all) => {
+      const given = Object.entries(all).map(([path, text]) => ({ path, read: async () => new File([text], path.split("/").at(-1)) }));
+      return play.files(given);
+    }, { [`${deepest}/package.xml`]: "<package/>", [`${deepest}/arm.urdf`]: folders, [`${deepest}/collision/l.stl`]: text, [`${deepest}/visual/l.stl`]: other, [`${deepest}/other/c.obj`]: obj });
+    await said("3 of 3 meshes");
+    const tops = await page.evaluate(() => play.state.robot.meshes.map(({ corners }) => corners.at(-1)[2]));
+    must([0.8, 0.9, 1.1].every((z, i) => Math.abs(z - tops[i]) < 1e-6), `meshes of one name: ${tops}`);
     // Where no visual mesh can be read, those of collisions are drawn.
-    const unread = '<visual><geometry><mesh filename="a.dae"/></geometry></visual><collision>';
+    const unread = '<visual><geometry><mesh filename="a.ply"/></geometry></visual><collision>';
     const collided = named.replaceAll("<visual>", unread).replaceAll("</visual></link>", "</collision></link>");
     await drop("collided.urdf", collided, { "a.stl": [...binary], "b.stl": text });
     await said("2 of 3 meshes.*c.obj");
-    await drop("unread.urdf", named.replace("b.stl", "b.dae").replace("c.obj", "c.glb"), { "a.stl": [...binary] });
-    await said("1 of 3 meshes.*DAE and GLB are not read");
+    await drop("unread.urdf", named.replace("b.stl", "b.ply").replace("c.obj", "c.gltf"), { "a.stl": [...binary] });
+    await said("1 of 3 meshes.*PLY and GLTF are not read");
     await drop("named.urdf", named.replaceAll("</visual></link>", '</visual><collision><geometry><mesh filename="d.stl"/></geometry></collision></link>'), { "d.stl": text });
     await said("d.stl: .*where other meshes are drawn");
     // Each joint swings, also one whose range begins where it is.
     await drop("one_way.urdf", arm.replaceAll(/lower="[^"]*"/g, 'lower="0"'));
+    await said("^one_way.urdf: 2 joints");
     const places = [];
     for (const clock of [0.5, 1.5]) {
       await page.evaluate((clock) => Object.assign(play.state, { swinging: true, clock }), clock);
@@ -409,6 +441,12 @@ const tests = {
     await drop("meshed.urdf", named, { "a.stl": [...binary], "b.stl": text });
     await said("2 of 3 meshes");
     const wrong = { "a.stl": [[...binary.subarray(0, 200)], "no triangles"], "b.stl": [text.replace("0.2", "1e400"), "no numbers"], "c.obj": [obj.replace("f 1", "f 9"), "no numbers"], "d.stl": [text, "does not name"] };
+    const twice = (i) => `<node id="n${i}"><instance_node url="#n${i + 1}"/><instance_node url="#n${i + 1}"/></node>`;
+    const many = { ...gltf, accessors: [{ ...gltf.accessors[0], bufferView: undefined, count: 3e6 }, { ...gltf.accessors[1], bufferView: undefined, count: 3e6 }] };
+    const others = { "b.dae": [dae.replace("</library_visual_scenes>", `</library_visual_scenes><library_nodes>${[...Array(40).keys()].map(twice).join("")}</library_nodes>`), "parts of others"], "c.glb": [glbOf(many, new Uint8Array(168)), "triangles, and at most"] };
+    for (const [name, [bytes, words]] of Object.entries(others)) await drop("others.urdf", named.replace("b.stl", "b.dae").replace("c.obj", "c.glb"), { [name]: bytes }).then(() => said(`^${name}: .*${words}`));
+    await drop("meshed.urdf", named, { "a.stl": [...binary], "b.stl": text });
+    await said("2 of 3 meshes");
     for (const [name, [bytes, words]] of Object.entries(wrong)) await drop(name, bytes).then(() => said(`^${name}: .*${words}`));
     const deep = `${"<a>".repeat(200_000)}${"</a>".repeat(200_000)}`;
     const hostile = {
@@ -500,6 +538,7 @@ const tests = {
       must(held.mode === "Full" && held.seen.some((one) => one.includes("Hold")), `${key}: an encoder error of 30 ms: ${held.mode}, ${held.seen}`);
       for (const what of ["encoder", "nan", "stop", "over_torque", "stale"]) {
         const after = await inject(what, "300");
+        if (what === "over_torque") must(after.seen.some((one) => / 1000000 N·m or N were asked for, and \d+ are its limit/.test(one)), `${key}: ${after.seen}`);
         const seen = after.seen.slice(0, 3).join(" ← ");
         // An encoder that is stuck is found as the arm moves: the Panda rests then while its
         // gripper closes.

@@ -22,11 +22,8 @@ fn shown(program: &str) -> String {
 fn words(code: &str) -> String {
     let plain = |line: &&str| !line.trim_start().starts_with(['/', '#']);
     let code: String = code.lines().filter(plain).collect();
-    code.split_whitespace()
-        .collect::<String>()
-        .replace(",}", "}")
-        .replace(",)", ")")
-        .replace(",]", "]")
+    let code: String = code.split_whitespace().collect();
+    code.replace(",}", "}").replace(",)", ")").replace(",]", "]")
 }
 
 /// The enumeration of the supervisor's states reads the copy.
@@ -41,28 +38,22 @@ fn the_tables_of_transitions_are_those_of_the_enumeration() {
 }
 
 #[test]
-fn the_programs_on_the_page_are_those_that_are_compiled() {
-    for program in [
-        include_str!("../../../firmware-demo/boards/guide/src/bin/bare.rs"),
-        include_str!("../../../firmware-demo/boards/guide/src/bin/rtic_app.rs"),
-        include_str!("../../../firmware-demo/boards/guide/src/bin/embassy_app.rs"),
-    ] {
-        let shown = shown(program);
-        assert!(PAGE.contains(&shown), "the page lacks:\n{shown}");
-        assert!(!PAGE.contains(&shown.replace("arm.tick", "arm.tock")));
-    }
-}
-
-#[test]
-fn the_page_shows_the_board_that_is_compiled() {
-    let page = include_str!("../src/board.md");
-    for program in [
-        include_str!("../../../firmware-demo/boards/guide/src/bin/board.rs"),
-        include_str!("../../../firmware-demo/boards/guide/src/rod.rs"),
+fn the_programs_on_the_pages_are_those_that_are_compiled() {
+    let board = include_str!("../src/board.md");
+    let balancing = include_str!("../src/balancing.md");
+    for (page, program) in [
+        (PAGE, include_str!("../../../firmware-demo/boards/guide/src/bin/bare.rs")),
+        (PAGE, include_str!("../../../firmware-demo/boards/guide/src/bin/rtic_app.rs")),
+        (PAGE, include_str!("../../../firmware-demo/boards/guide/src/bin/embassy_app.rs")),
+        (board, include_str!("../../../firmware-demo/boards/guide/src/bin/board.rs")),
+        (board, include_str!("../../../firmware-demo/boards/guide/src/rod.rs")),
+        (balancing, include_str!("../../../tools/lqr/tests/wheel_leg/design.rs")),
+        (balancing, include_str!("../../../tools/lqr/tests/wheel_leg/main.rs")),
     ] {
         let shown = shown(program);
         assert!(page.contains(&shown), "the page lacks:\n{shown}");
-        assert!(shown.lines().count() <= 60);
+        assert!(page != PAGE || !page.contains(&shown.replace("arm.tick", "arm.tock")));
+        assert!(page != board || shown.lines().count() <= 60);
     }
 }
 
@@ -80,10 +71,13 @@ fn the_page_shows_the_controller_of_the_programs() {
 fn every_page_is_listed_and_its_code_compiled() {
     let pages = root().join("docs/guide");
     let list = read_to_string(pages.join("src/SUMMARY.md")).expect("the list");
+    let table = read_to_string(pages.join("src/README.md")).expect("the table");
     let compiled = read_to_string(pages.join("lib.rs")).expect("the library");
     for page in files(&pages.join("src"), "md") {
         let name = page.file_name().and_then(|name| name.to_str()).expect("a name");
-        assert!(name == "SUMMARY.md" || list.contains(&format!("({name})")), "{name}");
+        let entry = format!("({name})");
+        let is_listed = list.contains(&entry) && (name == "README.md" || table.contains(&entry));
+        assert!(name == "SUMMARY.md" || is_listed, "{name}");
         let has_code = read_to_string(&page).expect("a page").contains("```rust\n");
         assert!(!has_code || compiled.contains(&format!("\"{name}\"")), "{name}");
     }

@@ -13,6 +13,9 @@
 //! ```text
 //! m Σ g̃ᵀ g̃ = −Σ g̃ᵀ f      Σ (g̃ᵀ g̃ 1 − g̃ g̃ᵀ) h = −Σ g̃ × n
 //! ```
+//!
+//! If the axes of the sensor are not those of gravity, f̃ = B g̃ with another matrix B than −m 1:
+//! its nine numbers explain more of the forces than m does, by an F test of both least squares.
 
 use dynamics_core::algorithms::shifted_solution;
 use dynamics_core::scalar::{Real, Vector};
@@ -23,6 +26,13 @@ mod tests;
 
 /// The least share of Σ gᵀ g that deviations across the line of the largest ones have.
 const TURNED: f64 = 1e-3;
+/// The share of the forces' squares that may show a wrong sign or other axes without an error: of
+/// axes that are turned by 7°.
+const SHARE: f64 = 0.01;
+/// The ratio of variances (F) beyond which that share is no noise.
+const RATIO: f64 = 50.0;
+/// The share of the forces' deviations in all of them below which f32 does not tell them.
+const ROUNDING: f64 = 1e-5;
 
 /// The load of a force sensor and its offset: ten numbers.
 ///
@@ -80,6 +90,11 @@ pub enum SensorLoadError {
     FewPoses(u32),
     /// From pose to pose gravity changes along one line of the sensor's frame, or hardly.
     OneDirection,
+    /// The forces have the other sign: the mass would be negative.
+    Sign,
+    /// The forces do not follow gravity along the axes that were given. Of a sensor without a load
+    /// five poses tell its noise from that.
+    Turned,
 }
 
 impl core::fmt::Display for SensorLoadError {
@@ -89,6 +104,14 @@ impl core::fmt::Display for SensorLoadError {
             Self::FewPoses(poses) => write!(out, "{poses} poses are fewer than three"),
             Self::OneDirection => out
                 .write_str("gravity hardly changes in the frame of the sensor, or along one line"),
+            Self::Sign => out.write_str(
+                "the mass would be negative: the sensor shows what the load exerts on it, or \
+                 gravity has the other sign",
+            ),
+            Self::Turned => out.write_str(
+                "the forces do not follow gravity: the axes of the sensor are not those in which \
+                 gravity is given",
+            ),
         }
     }
 }
@@ -122,6 +145,9 @@ pub struct SensorLoadFit<R: Real> {
     along: R,
     across: R::Vec3,
     squares: [R::Vec3; 3],
+    /// Σ f gᵀ by its columns, and Σ nᵀ n and Σ fᵀ f.
+    forces: [R::Vec3; 3],
+    shown: [R; 2],
 }
 
 impl<R: Real> Default for SensorLoadFit<R> {
@@ -135,23 +161,29 @@ impl<R: Real> SensorLoadFit<R> {
     #[must_use]
     pub fn new() -> Self {
         let zero = R::Vec3::ZERO;
-        let (wrench, squares) = (Force::ZERO, [zero; 3]);
-        Self { poses: 0, gravity: zero, wrench, along: R::ZERO, across: zero, squares }
+        let (along, squares, shown) = (R::ZERO, [zero; 3], [R::ZERO; 2]);
+        let (wrench, across, forces) = (Force::ZERO, zero, squares);
+        Self { poses: 0, gravity: zero, wrench, along, across, squares, forces, shown }
     }
 
     /// Adds a pose at rest: gravity in the sensor's frame, m/s², and the wrench that the sensor
     /// shows there, N·m and N, best as a mean over some time.
     ///
     /// # Cost
-    /// 45 flops.
+    /// 74 flops.
     pub fn add(&mut self, gravity: R::Vec3, measured: &Force<R>) {
         self.poses = self.poses.saturating_add(1);
         self.gravity += gravity;
         self.wrench += *measured;
         self.along += gravity.dot(measured.lin);
         self.across += gravity.cross(measured.ang);
-        for (column, x) in self.squares.iter_mut().zip(gravity.array()) {
-            *column += gravity * x;
+        let columns = self.squares.iter_mut().zip(&mut self.forces);
+        for ((square, force), x) in columns.zip(gravity.array()) {
+            *square += gravity * x;
+            *force += measured.lin * x;
+        }
+        for (sum, x) in self.shown.iter_mut().zip([measured.ang, measured.lin]) {
+            *sum += x.dot(x);
         }
     }
 
@@ -174,15 +206,15 @@ impl<R: Real> SensorLoadFit<R> {
         let along = self.along - poses * g.dot(f);
         let [x, y, z] = (self.across - g.cross(n) * poses).array();
         let mean = g.array();
-        let less = |column: R::Vec3, x: R| (column - g * (poses * x)).array();
-        let [xx, yy, zz] = [
-            less(self.squares[0], mean[0]),
-            less(self.squares[1], mean[1]),
-            less(self.squares[2], mean[2]),
-        ];
+        let less = |columns: &[R::Vec3; 3], of: R::Vec3| {
+            core::array::from_fn(|k| (columns[k] - of * (poses * mean[k])).array())
+        };
+        let [xx, yy, zz]: [[R; 3]; 3] = less(&self.squares, g);
+        let by_columns: [[R; 3]; 3] = less(&self.forces, f);
         let trace = xx[0] + yy[1] + zz[2];
         let whole = trace + poses * g.dot(g);
-        if !(whole + along + x + y + z).is_finite() {
+        let forces = self.shown[1] - poses * f.dot(f);
+        if !(whole + along + forces + self.shown[0] + x + y + z).is_finite() {
             return Err(SensorLoadError::NotFinite);
         }
         let a = [
@@ -201,6 +233,48 @@ impl<R: Real> SensorLoadFit<R> {
         let [hx, hy, hz] = shifted_solution(a, [R::ZERO; 3], [-x, -y, -z]);
         let (mass, h) = (-along / trace, R::Vec3::new(hx, hy, hz));
         let offset = Force::new(n + h.cross(g), f + g * mass);
+
+        // The squares of the forces' deviations: all, of m, and of B.
+        let of_mass = -along * mass;
+        let shift = [trace * R::from_f64(ROUNDING); 3];
+        let of_all = (0..3).fold(R::ZERO, |sum, k| {
+            let row = by_columns.map(|column| column[k]);
+            let solved = shifted_solution([xx, yy, zz], shift, row);
+            row.iter().zip(solved).fold(sum, |sum, (a, b)| sum + *a * b)
+        });
+        let freedom = R::from_f64((3.0 * f64::from(self.poses) - 12.0).max(1.0));
+        let noise = (forces - of_all) / freedom * R::from_f64(RATIO);
+        let least = forces * R::from_f64(SHARE);
+        let is_told = forces > self.shown[1] * R::from_f64(ROUNDING);
+        let is_seen =
+            |part: R, numbers: f64| is_told && part > least && part > noise * R::from_f64(numbers);
+        if is_seen(of_all - of_mass, 8.0) {
+            return Err(SensorLoadError::Turned);
+        }
+        if mass < R::ZERO && is_seen(of_mass, 1.0) {
+            return Err(SensorLoadError::Sign);
+        }
         Ok(SensorLoad { mass, first_moment: h, offset })
+    }
+
+    /// The root mean squares of the couple, N·m, and the force, N, over the poses, of what the
+    /// sensor showed less what it shows of a load: near its noise if the load is right. In f32
+    /// rounding is some hundredths of a per cent of what it showed.
+    #[must_use]
+    pub fn residual(&self, load: &SensorLoad<R>) -> [R; 2] {
+        let SensorLoad { mass: m, first_moment: h, offset: Force { ang: n0, lin: f0, .. } } = *load;
+        let poses = R::from_f64(f64::from(self.poses));
+        let [hx, hy, hz] = h.array();
+        let [x, y, z] = self.squares;
+        let [[xx, ..], [_, yy, _], [.., zz]] = self.squares.map(R::Vec3::array);
+        let across = h.dot(h) * (xx + yy + zz) - h.dot(x * hx + y * hy + z * hz);
+        let couple = h.dot(self.across) - n0.dot(self.wrench.ang + h.cross(self.gravity));
+        let force = self.along * m - f0.dot(self.wrench.lin + self.gravity * m);
+        let [nn, ff] = self.shown;
+        let squares = [
+            nn + across + poses * n0.dot(n0) + (couple + couple),
+            ff + (xx + yy + zz) * (m * m) + poses * f0.dot(f0) + (force + force),
+        ];
+        squares.map(|sum| if sum > R::ZERO { Real::sqrt(sum / poses) } else { R::ZERO })
     }
 }

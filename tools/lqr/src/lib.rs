@@ -8,7 +8,7 @@
 #![forbid(unsafe_code)]
 
 use dynamics_core::algorithms::Linearisation;
-use nalgebra::DMatrix;
+use nalgebra::{Complex, ComplexField, DMatrix};
 
 /// The largest deviations that are as bad as each other: Q and R are the inverses of their squares
 /// (Bryson's rule).
@@ -28,11 +28,28 @@ pub enum LqrError {
     /// A deviation is not positive, or a number is not finite.
     #[error("a deviation is not positive, or the linearisation is not finite")]
     NotFinite,
-    /// An unstable motion that the inputs do not reach.
-    #[error("no gains make the system stable: an unstable motion is out of the inputs' reach")]
+    /// A motion that does not decay by itself, and that no input reaches; the coordinate with the
+    /// largest share of it, from 0.
+    #[error(
+        "no input reaches a motion that does not decay by itself, mostly of coordinate \
+         {0}: drive it, or take it out of the state"
+    )]
+    NotReached(usize),
+    /// A motion that does not decay by itself, and whose deviations are all infinite; its
+    /// coordinate.
+    #[error(
+        "a motion that does not decay by itself, mostly of coordinate {0}, has no weight: \
+         give it a finite deviation, or take it out of the state"
+    )]
+    NotWeighted(usize),
+    /// Numbers of too different sizes for f64.
+    #[error("the gains that were found do not make the system stable: its numbers differ too much")]
     NotStabilisable,
 }
 
+/// By how much less than one a motion's factor in a tick is for it to decay, twice the digits of a
+/// double eigenvalue in f64, and the singular value below which nothing moves a motion.
+const SMALL: f64 = 1e-7;
 /// The doublings after which P has long converged: 2⁶⁰ ticks.
 const DOUBLINGS: usize = 60;
 
@@ -52,6 +69,32 @@ pub fn held<const V: usize, const U: usize>(
     }
     let all = rates.exp();
     [(0, 2 * V), (2 * V, U)].map(|(from, width)| all.view((0, from), (2 * V, width)).into_owned())
+}
+
+/// The motion that does not decay under Φ and is moved least by the columns of `by` (Popov,
+/// Belevitch and Hautus): its singular value, and the row of its largest entry.
+fn least_moved(phi: &DMatrix<f64>, by: &DMatrix<f64>) -> Option<(f64, usize)> {
+    let complex = |m: &DMatrix<f64>| m.map(Complex::from);
+    let rates = phi.complex_eigenvalues();
+    let slow = rates.iter().filter(|rate| rate.norm() > 1.0 - SMALL);
+    let each = slow.filter_map(|rate| {
+        let off = complex(phi) - DMatrix::identity(phi.nrows(), phi.nrows()) * *rate;
+        let columns = [off, complex(by)];
+        let all: Vec<_> = columns.iter().flat_map(|m| m.column_iter()).collect();
+        let found = DMatrix::from_columns(&all).svd(true, false);
+        let (k, least) = found.singular_values.argmin();
+        Some((least, found.u?.column(k).map(Complex::norm).argmax().0))
+    });
+    each.min_by(|a, b| a.0.total_cmp(&b.0))
+}
+
+/// The reason why a system of V coordinates has no gains.
+fn reason<const V: usize>(phi: &DMatrix<f64>, gamma: &DMatrix<f64>, q: &DMatrix<f64>) -> LqrError {
+    let within = |found: Option<(f64, usize)>| found.filter(|(least, _)| *least < SMALL);
+    let of = |found| within(found).map(|(_, row)| row % V);
+    let unseen = of(least_moved(&phi.transpose(), &q.map(f64::sqrt))).map(LqrError::NotWeighted);
+    let unreached = of(least_moved(phi, gamma)).map(LqrError::NotReached);
+    unreached.or(unseen).unwrap_or(LqrError::NotStabilisable)
 }
 
 /// The gains K of δu = −K [δq; δq̇], U × 2 V, of a tick of `h` seconds.
@@ -85,10 +128,11 @@ pub fn lqr<const V: usize, const U: usize>(
         return Err(LqrError::NotFinite);
     }
     let r_inv = r.map(|x| if x > 0.0 { 1.0 / x } else { 0.0 });
-    let (mut a, mut g, mut p) = (phi.clone(), &gamma * r_inv * gamma.transpose(), q);
+    let (mut a, mut g, mut p) = (phi.clone(), &gamma * r_inv * gamma.transpose(), q.clone());
+    let why = || reason::<V>(&phi, &gamma, &q);
     let one = DMatrix::identity(2 * V, 2 * V);
     for _ in 0..DOUBLINGS {
-        let w = (&one + &g * &p).try_inverse().ok_or(LqrError::NotStabilisable)?;
+        let w = (&one + &g * &p).try_inverse().ok_or_else(why)?;
         let (aw, more) = (&a * &w, a.transpose() * &p * &w * &a);
         g += &aw * &g * a.transpose();
         a = &aw * &a;
@@ -100,11 +144,11 @@ pub fn lqr<const V: usize, const U: usize>(
         }
     }
     let inner = (r + gamma.transpose() * &p * &gamma).try_inverse();
-    let k = inner.ok_or(LqrError::NotStabilisable)? * gamma.transpose() * &p * &phi;
-    let closed = phi - gamma * &k;
+    let k = inner.ok_or_else(why)? * gamma.transpose() * &p * &phi;
+    let closed = &phi - &gamma * &k;
     let stable = k.iter().all(|x| x.is_finite())
         && closed.complex_eigenvalues().iter().all(|z| z.norm() < 1.0);
-    if stable { Ok(k) } else { Err(LqrError::NotStabilisable) }
+    if stable { Ok(k) } else { Err(why()) }
 }
 
 /// The rows of matrices as the Rust source of an array of arrays of arrays of `f32`, one row a

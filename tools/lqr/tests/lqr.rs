@@ -110,7 +110,24 @@ fn what_no_input_reaches_and_what_is_no_number_has_no_gains() {
     let falls =
         Linearisation { dq: [[9.0, 0.0], [0.0, 0.0]], dqd: [[0.0; 2]; 2], du: [[0.0], [1.0]] };
     let deviations = Deviations { q: [0.1; 2], qd: [1.0; 2], u: [1.0] };
-    assert_eq!(lqr(&falls, TICK, &deviations), Err(LqrError::NotStabilisable));
+    let unreached = |coordinate| Err(LqrError::NotReached(coordinate));
+    assert_eq!(lqr(&falls, TICK, &deviations), unreached(0));
+    // A yaw that no input drives: free, damped, and without a weight.
+    let yaw = Linearisation { du: [[1.0], [0.0]], ..falls };
+    assert_eq!(lqr(&yaw, TICK, &deviations), unreached(1));
+    let damped = Linearisation { dqd: [[0.0; 2], [0.0, -0.5]], ..yaw };
+    assert_eq!(lqr(&damped, TICK, &deviations), unreached(1));
+    let ignored = Deviations { q: [0.1, f64::INFINITY], qd: [1.0, f64::INFINITY], u: [1.0] };
+    assert_eq!(lqr(&yaw, TICK, &ignored), unreached(1));
+    // The angle of a wheel that is driven and has no weight.
+    let wheel = Linearisation { dq: [[9.0, 0.0], [-3.0, 0.0]], du: [[-1.0], [2.0]], ..falls };
+    let unseen = Deviations { qd: [1.0; 2], ..ignored };
+    let found = lqr(&wheel, TICK, &unseen);
+    assert_eq!(found, Err(LqrError::NotWeighted(1)));
+    assert!(
+        found.expect_err("no weight").to_string().contains("mostly of coordinate 1, has no weight")
+    );
+    assert!(lqr(&wheel, TICK, &deviations).is_ok());
     let reached = Linearisation { du: [[1.0], [1.0]], ..falls };
     assert!(lqr(&reached, TICK, &deviations).is_ok());
     let none = Deviations { u: [0.0], ..deviations };

@@ -121,6 +121,13 @@ pub enum Problem {
     /// Nothing that moves is left.
     #[error("no joint moves; `--free-base` puts the base on a free joint")]
     NothingMoves,
+    /// Nothing that moves is below a base at another end of the tree than its root; both links.
+    #[error(
+        "no joint that moves is below the base `{0}`, and the file's tree, whose root is \
+         `{1}`, is not turned round: leave `--base` out; `--tip={0}` takes the joints between \
+         the two, `--free-base` lets `{1}` move freely"
+    )]
+    NothingBelow(String, String),
     /// A number cannot be used.
     #[error("{0}")]
     Value(String),

@@ -84,7 +84,7 @@ impl Tree {
     /// The tree of a selection.
     ///
     /// # Errors
-    /// [`Problem::NothingMoves`].
+    /// [`Problem::NothingMoves`], [`Problem::NothingBelow`].
     pub fn of(robot: &Description, selected: &Selected, numbers: Numbers) -> Result<Self> {
         let mut tree = Self {
             name: robot.name.clone(),
@@ -133,7 +133,11 @@ impl Tree {
             tree.add_mass(robot, joint.child, numbers);
         }
         if tree.bodies.is_empty() {
-            return Err(Problem::NothingMoves.into());
+            let is_root = |link: &usize| robot.joints.iter().all(|joint| joint.child != *link);
+            let root = (0..robot.links.len()).find(is_root).filter(|root| *root != selected.base);
+            let below =
+                |root: usize| Problem::NothingBelow(tree.base, robot.links[root].name.clone());
+            return Err(root.map_or(Problem::NothingMoves, below).into());
         }
         tree.couple(robot, &body_of_joint);
         for body in &mut tree.bodies {

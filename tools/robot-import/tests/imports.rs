@@ -197,6 +197,30 @@ fn each_topic_of_advice_names_its_line() {
     assert!(all[0].text.contains("(0.00, 0.00, 1.00) exceeds the sum of the two others by 20.0 %"));
 }
 
+#[test]
+fn a_body_of_six_zero_moments_is_named() {
+    let body = |moments: &str, place: &str| {
+        let joint = "<joint name='j' axis='0 1 0'/>";
+        read(&format!(
+            "<mujoco><worldbody><body name='rod'><inertial pos='{place}' mass='1.5' {moments}/>\
+             {joint}</body></worldbody></mujoco>"
+        ))
+    };
+    let words = |robot: &Description| {
+        let selected = Selection::default().of(robot).expect("all joints");
+        let all = advice(robot, &selected, &tree(robot, &Selection::default()));
+        let named = all.into_iter().filter(|one| one.name == "rod" && one.text.contains("moments"));
+        named.map(|one| (one.topic, one.text)).collect::<Vec<_>>()
+    };
+    for (moments, place) in [("diaginertia='0 0 0'", "0 0 0"), ("", "0 0 -0.2")] {
+        let [(Topic::Placeholder, text)] = &words(&body(moments, place))[..] else {
+            panic!("no advice: {moments} {place}");
+        };
+        assert!(text.starts_with("1.5 kg whose six moments of inertia are zero"), "{text}");
+    }
+    assert_eq!(words(&body("diaginertia='1e-9 1e-9 1e-9'", "0 0 -0.2")), []);
+}
+
 /// The SO-101 with the numbers of attributes changed, as advice on units and torques.
 fn plausible_with(changes: &[(&str, f64)]) -> Vec<robot_import::advice::Advice> {
     let mut text = SO101.to_owned();

@@ -255,7 +255,7 @@ fn a_paced_session_takes_as_long_as_its_ticks() {
         let start = std::time::Instant::now();
         let view = session::run(&mut source, None, options).expect("frames");
         assert_eq!(view.ticks, 400);
-        let is_paced = start.elapsed() >= Duration::from_millis(250);
-        assert_eq!(is_paced, pace, "{:?}", start.elapsed());
+        // A busy machine takes longer for both.
+        assert!(!pace || start.elapsed() >= Duration::from_millis(250), "{:?}", start.elapsed());
     }
 }

@@ -10,6 +10,7 @@ use serde_json::Value;
 use crate::kit::callgraph::Instruction;
 use crate::kit::elf::Image;
 use crate::kit::error::{Error, Result, bail, check, refuse_if};
+use crate::kit::progress::Spinner;
 use crate::kit::qemu::Run;
 use crate::kit::scene::Scene;
 use crate::kit::setup::{self, Options, Tools};
@@ -126,6 +127,7 @@ fn project(workspace: &Workspace, tools: &Tools, folder: &Path) -> Result<PathBu
 
 /// A host program of the package of its name, built.
 pub fn program(workspace: &Workspace, package: &str) -> Result<Command> {
+    let _building = Spinner::start(&format!("building `{package}`, the first time for minutes"));
     shell::capture(workspace.cargo("build").args(["--package", package]))?;
     let program = format!("debug/{package}{}", std::env::consts::EXE_SUFFIX);
     Ok(Command::new(workspace.target.join(program)))
@@ -133,6 +135,7 @@ pub fn program(workspace: &Workspace, package: &str) -> Result<Command> {
 
 /// A bin of the firmware that sends telemetry, built.
 pub fn firmware(workspace: &Workspace, tools: &Tools, bin: &str) -> Result<PathBuf> {
+    let _building = Spinner::start(&format!("building the firmware of {bin}"));
     let (chain, features) = (tools.toolchain, "telemetry");
     let built = firmware::build_with(workspace, chain, RELEASE, features, &[bin], None);
     Ok(built?.remove(0))

@@ -5,6 +5,7 @@ use std::process::Command;
 use serde::de::DeserializeOwned;
 
 use crate::kit::error::{Result, check, refuse_if};
+use crate::kit::progress::Spinner;
 use crate::kit::shell;
 use crate::kit::workspace::Workspace;
 
@@ -60,6 +61,7 @@ impl Together {
 
     /// A bin, built.
     pub fn program(&self, workspace: &Workspace, bin: &str) -> Result<Command> {
+        let _building = Spinner::start(&format!("building `{bin}`, the first time for minutes"));
         shell::capture(self.build(workspace).args(["--bin", bin]))?;
         Ok(self.built(workspace, bin))
     }

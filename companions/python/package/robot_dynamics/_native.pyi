@@ -378,7 +378,9 @@ class SensorLoad:
     "The load of a force sensor and its offset: the mass, kg, its first moment about the sensor's\norigin and along its axes, kg·m, and the wrench that it shows without a load: couple, N·m, and\nforce, N. It computes in float64.\n\nWhile the arm moves, the sensor shows the offset and the wrench of a `Payload` of this mass and\ncentre, which `Robot.rnea_and_wrenches` has."
     def __new__(cls, mass: float, first_moment: _Vector, offset: _Vector) -> SensorLoad: ...
     @staticmethod
-    def fit(gravity: _Array, wrench: _Array) -> SensorLoad: "Load and offset by least squares from poses at rest: gravity in the sensor's frame (…, 3),\nm/s², and what the sensor shows there (…, 6), couple and force, N·m and N.\n\nRaises SensorLoadError of poses from which no load follows."
+    def fit(gravity: _Array, wrench: _Array) -> SensorLoad: "Load and offset by least squares from poses at rest: gravity in the sensor's frame (…, 3),\nm/s², and what the sensor shows there (…, 6), couple and force, N·m and N.\n\nRaises SensorLoadError of poses from which no load follows, and of a sensor with the other\nsign or with other axes than those of gravity."
+    @property
+    def residual(self) -> list[float] | None: "The root mean squares of couple, N·m, and force, N, that a fit leaves over its poses, near\nthe sensor's noise; None of a load that was not fitted."
     @property
     def mass(self) -> float: "The mass, kg."
     @property

@@ -57,7 +57,8 @@ impl Robot {
         }
         let described = self.described.with_frame(frame.body, frame.xyz, frame.attitude);
         let bodies = self.bodies.iter().cloned().chain([BodyInfo::of(&frame.name, "")]).collect();
-        let robot = Self::of(py, self.name.clone(), None, described, bodies)?;
+        let mut robot = Self::of(py, self.name.clone(), None, described, bodies)?;
+        robot.frames.clone_from(&self.frames);
         let robot = Py::new(py, robot)?;
         all.insert(frame.name.clone(), robot.clone_ref(py));
         Ok((Some(robot), self.counts.bodies))

@@ -116,3 +116,74 @@ fn poses_that_say_nothing_are_refused() {
         assert_eq!(wild.load(), Err(SensorLoadError::NotFinite));
     }
 }
+
+/// The fit and the error of poses whose readings are changed, for scalars of both sizes.
+fn fitted(
+    poses: &[DVec3],
+    shown: impl Fn(DVec3) -> Force<f64>,
+) -> [Result<f64, SensorLoadError>; 2] {
+    let (mut fit, mut single) = (SensorLoadFit::new(), SensorLoadFit::<f32>::new());
+    for &gravity in poses {
+        let wrench = shown(gravity);
+        fit.add(gravity, &wrench);
+        single.add(gravity.as_vec3(), &Force::new(wrench.ang.as_vec3(), wrench.lin.as_vec3()));
+    }
+    [fit.load().map(|load| load.mass), single.load().map(|load| f64::from(load.mass))]
+}
+
+#[test]
+fn a_wrong_sign_and_turned_axes_are_refused_and_noise_is_not() {
+    use core::f64::consts::{FRAC_PI_2, PI};
+    use dynamics_core::glam::{DMat3, DQuat};
+    let mut numbers = Numbers(7);
+    for count in [4, 6, 12, 40] {
+        let poses: Vec<DVec3> = (0..count).map(|_| direction(&mut numbers)).collect();
+        let readings: Vec<Force<f64>> = poses.iter().map(|g| measured(*g, &mut numbers)).collect();
+        let read = |g: DVec3| readings[poses.iter().position(|pose| *pose == g).expect("a pose")];
+        let by =
+            |turn: DMat3| fitted(&poses, |g| Force::new(turn * read(g).ang, turn * read(g).lin));
+        let right = by(DMat3::IDENTITY);
+        assert!(right.iter().all(|mass| mass.is_ok_and(|m| (m - 1.2).abs() < 0.05)), "{right:?}");
+        assert_eq!(by(-DMat3::IDENTITY), [Err(SensorLoadError::Sign); 2]);
+        for (axis, angle) in [(DVec3::Z, FRAC_PI_2), (DVec3::X, PI), (DVec3::ONE, 0.3)] {
+            let turn = DMat3::from_quat(DQuat::from_axis_angle(axis.normalize(), angle));
+            assert_eq!(by(turn), [Err(SensorLoadError::Turned); 2], "{count} {axis} {angle}");
+        }
+        // One axis the other way, and a turn of 2°, as of a flange.
+        assert_eq!(
+            by(DMat3::from_diagonal(DVec3::new(1.0, 1.0, -1.0))),
+            [Err(SensorLoadError::Turned); 2]
+        );
+        assert!(by(DMat3::from_rotation_z(0.035)).iter().all(Result::is_ok));
+    }
+    // A sensor without a load: its offset and noise alone.
+    for _ in 0..1000 {
+        let poses: Vec<DVec3> = (0..12).map(|_| direction(&mut numbers)).collect();
+        let noises: Vec<Force<f64>> =
+            poses.iter().map(|_| measured(DVec3::ZERO, &mut numbers)).collect();
+        let bare =
+            fitted(&poses, |g| noises[poses.iter().position(|pose| *pose == g).expect("a pose")]);
+        assert!(bare.iter().all(Result::is_ok), "{bare:?}");
+    }
+}
+
+#[test]
+fn the_residual_is_that_of_the_poses() {
+    let mut numbers = Numbers(3);
+    let mut fit = SensorLoadFit::new();
+    let poses: Vec<_> = (0..12).map(|_| direction(&mut numbers)).collect();
+    let poses: Vec<_> = poses.into_iter().map(|g| (g, measured(g, &mut numbers))).collect();
+    poses.iter().for_each(|(g, wrench)| fit.add(*g, wrench));
+    let found = fit.load().expect("poses in all directions");
+    let light = SensorLoad { mass: 0.4, ..LOAD };
+    for load in [found, LOAD, light] {
+        let left = poses.iter().map(|(g, wrench)| *wrench - load.at_rest(*g));
+        let squares = left.fold([0.0; 2], |[n, f], left| {
+            [n + left.ang.length_squared(), f + left.lin.length_squared()]
+        });
+        for (residual, squares) in fit.residual(&load).iter().zip(squares) {
+            assert!((residual - (squares / 12.0_f64).sqrt()).abs() < 1e-7, "{residual} {squares}");
+        }
+    }
+    assert!(fit.residual(&light)[1] > 5.0 && fit.residual(&found)[1] < 3.0 * NOISE[0]);
+}

@@ -47,6 +47,7 @@ pub fn standing(length: f64) -> [f64; 12] {
     [0.0, 0.0, up, 0.0, 0.0, 0.0, rear, front, 0.0, rear, front, 0.0]
 }
 
+// page: begin
 /// ∂²h/∂y² of a wheel's height: the axle's, whose vertical acceleration at ÿ = 0 is ẏᵀ ∂²h ẏ, less
 /// r cos ρ of the rolling body.
 fn bend_of_height(y: &[f64; 12], wheel: usize) -> SMatrix<f64, 12, 12> {
@@ -110,3 +111,4 @@ pub fn balanced(length: f64, effects: &Effects) -> Balanced {
         stiffness: k,
     }
 }
+// page: end

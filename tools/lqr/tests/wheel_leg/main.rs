@@ -21,6 +21,7 @@ fn effects() -> design::Effects {
     (Gravity::EARTH, Inertia, Coriolis, viscous, rotors)
 }
 
+// page: begin
 /// The lengths of the table, and the gains and torques of each.
 fn table(effects: &design::Effects) -> Vec<(f64, DMatrix<f64>)> {
     let lengths = (0..11).map(|k| f64::from(LENGTHS[0]) + f64::from(LENGTHS[1]) * f64::from(k));
@@ -33,6 +34,7 @@ fn table(effects: &design::Effects) -> Vec<(f64, DMatrix<f64>)> {
     };
     lengths.map(gains).collect()
 }
+// page: end
 
 /// The largest difference of the table on the target from that of these effects, as a share of the
 /// largest gain. It is not zero: processors differ in the last digits of a product of matrices.

@@ -209,7 +209,7 @@ fn links(robot: &Description, tree: &Tree, all: &mut Vec<Advice>) {
     }
 }
 
-/// Bodies whose joint moves no mass.
+/// Bodies without moments of inertia, and those whose joint moves no mass.
 fn bodies(tree: &Tree, all: &mut Vec<Advice>) {
     let mut carried: Vec<f64> =
         tree.bodies.iter().map(|body| body.inertia.mass + size(&body.inertia)).collect();
@@ -219,6 +219,19 @@ fn bodies(tree: &Tree, all: &mut Vec<Advice>) {
         }
     }
     for (body, carried) in tree.bodies.iter().zip(carried) {
+        if body.inertia.mass > 0.0 && size(&body.inertia) == 0.0 {
+            all.push(Advice {
+                topic: Topic::Placeholder,
+                line: body.line,
+                name: body.name.clone(),
+                text: format!(
+                    "{} kg whose six moments of inertia are zero: a mass at one point. M is \
+                     singular where a joint's axis passes through it and the joint moves nothing \
+                     else: state the moments, or an armature.",
+                    body.inertia.mass
+                ),
+            });
+        }
         if carried == 0.0 {
             all.push(Advice {
                 topic: Topic::Massless,

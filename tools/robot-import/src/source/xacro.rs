@@ -55,14 +55,24 @@ fn is_of_xacro(node: Node<'_, '_>) -> bool {
     xml::tag(node).starts_with("xacro:") || namespace.contains("xacro")
 }
 
+/// Whether an element defines a name of xacro and stands for nothing by itself.
+fn is_definition(node: Node<'_, '_>) -> bool {
+    let name = node.tag_name().name();
+    is_of_xacro(node) && matches!(name.strip_prefix("xacro:").unwrap_or(name), "property" | "arg")
+}
+
 /// Fails at the first element or text that xacro would have expanded, other than in what is not
-/// read.
+/// read and definitions in a file without a text that could use them.
 ///
 /// # Errors
 /// With line and element.
 pub fn refuse(root: Node<'_, '_>) -> Result<()> {
+    let uses = |text: &str| text.contains("${") || text.contains("$(arg");
+    let is_used = root.descendants().any(|node| {
+        node.attributes().any(|one| uses(one.value())) || node.text().is_some_and(uses)
+    });
     for node in root.descendants().filter(Node::is_element) {
-        if is_of_xacro(node) {
+        if is_of_xacro(node) && (is_used || !is_definition(node)) {
             return Err(error(node, &format!("<{}>", shortened(xml::tag(node)))));
         }
         let text = node.attributes().find(|one| is_text(one.value()));
@@ -91,7 +101,13 @@ pub fn left_out(root: Node<'_, '_>) -> Vec<String> {
     let mut notes = Vec::new();
     for node in root.children().filter(Node::is_element) {
         let tag = xml::tag(node);
-        if !KNOWN.contains(&tag) {
+        if is_definition(node) {
+            notes.push(format!(
+                "The <{}> on line {} is of xacro, and nothing in the file uses it: it is left out.",
+                shortened(tag),
+                line(node)
+            ));
+        } else if !KNOWN.contains(&tag) {
             // A prefix is that of an extension.
             let macros = match tag.contains(':') {
                 true => String::new(),

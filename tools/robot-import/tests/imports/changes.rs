@@ -28,6 +28,7 @@ fn robot(root: &str, beside: &str, joint: &str, inertial: &str) -> String {
     )
 }
 
+const PROPERTY: &str = "<xacro:property name='l' value='.2'/>";
 const LIMIT: &str = "<limit lower='-1' upper='2' effort='10' velocity='3'/>";
 
 #[test]
@@ -57,6 +58,18 @@ fn a_file_of_xacro_is_refused_with_what_to_do() {
             "line 3: <origin>: `xyz=\"${l} 0 0\"` is of xacro",
         ),
         (
+            robot(declared, PROPERTY, LIMIT, "<origin xyz='${l} 0 0'/>"),
+            "line 3: <origin>: `xyz=\"${l} 0 0\"` is of xacro",
+        ),
+        (
+            robot(declared, &format!("{PROPERTY}<xacro:arm/>"), LIMIT, ""),
+            "line 5: <xacro:arm>: <xacro:arm> is of xacro",
+        ),
+        (
+            robot(declared, &format!("{PROPERTY}<gazebo><mu1>${{l}}</mu1></gazebo>"), LIMIT, ""),
+            "line 5: xacro:property `l`: <xacro:property> is of xacro",
+        ),
+        (
             robot("", "", LIMIT, "").replace("'b'", "'$(arg tf_prefix)b'"),
             "line 3: link `$(arg tf_prefix)b`: ",
         ),
@@ -69,6 +82,12 @@ fn a_file_of_xacro_is_refused_with_what_to_do() {
     // The traces of xacro in a file that was expanded.
     let expanded = read(&robot(declared, "<gazebo/><material name='m'/>", LIMIT, ""));
     assert_eq!(expanded.notes, [""; 0]);
+    // A property that nothing uses.
+    for root in [declared, "xmlns:xacro='http://else.where'", ""] {
+        let notes = read(&robot(root, PROPERTY, LIMIT, "")).notes;
+        let note = notes.last().expect("a note");
+        assert!(note.starts_with("The <xacro:property> on line 5 is of xacro, and"), "{note}");
+    }
 }
 
 #[test]

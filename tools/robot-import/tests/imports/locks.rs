@@ -112,6 +112,30 @@ fn a_selection_locks_followers_where_their_leaders_stand() {
 }
 
 #[test]
+fn a_base_at_the_end_of_the_tree_is_refused_with_selections_that_work() {
+    let robot = read(include_str!("../urdf/so101.urdf"));
+    let tree = |selection: &Selection| {
+        let selected = selection.of(&robot).expect("names of links");
+        Tree::of(&robot, &selected, Numbers::Exact)
+    };
+    let end = Some("gripper_frame_link".to_owned());
+    let error =
+        tree(&Selection { base: end.clone(), ..Selection::default() }).expect_err("no joint");
+    let words = error.to_string();
+    assert!(
+        words.starts_with("no joint that moves is below the base `gripper_frame_link`"),
+        "{words}"
+    );
+    assert!(
+        words.contains("`--tip=gripper_frame_link`")
+            && words.contains("`--free-base` lets `base_link`")
+    );
+    let moves = |selection| tree(&selection).map(|tree| tree.bodies.len());
+    assert_eq!(moves(Selection { tip: end, ..Selection::default() }), Ok(5));
+    assert_eq!(moves(Selection { free_base: true, ..Selection::default() }), Ok(7));
+}
+
+#[test]
 fn a_follower_of_a_missing_joint_leads_its_own() {
     let robot = read(&CHAIN.replace("mimic joint=\"lead\"", "mimic joint=\"ghost\""));
     let (_, tree) = locked(&robot, &[]);

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use defmt_decoder::DecodeError;
 use tempfile::TempDir;
@@ -43,10 +43,9 @@ impl Decoder for Plain {
 /// Long enough for a script to start on a machine that is busy building.
 const PATIENCE: Duration = Duration::from_secs(3);
 
-/// The outcome of a run of some lines of shell, within a few times [`PATIENCE`].
+/// The outcome of a run of some lines of shell.
 fn outcome(lines: &str) -> Result<Vec<u8>, String> {
     let script = script(lines);
-    let start = Instant::now();
     let watch =
         Watch { name: "fake", patience: PATIENCE, decoder: Some(Box::new(Plain::default())) };
     let mut command = Command::new("sh");
@@ -55,10 +54,7 @@ fn outcome(lines: &str) -> Result<Vec<u8>, String> {
         .stdin(Stdio::null())
         .stdout(Stdio::piped())
         .stderr(Stdio::piped());
-    let outcome = watch.run(&mut command, &mut |_| Ok(()));
-    // A busy machine may start a script late, but not for ever.
-    assert!(start.elapsed() < Duration::from_secs(60), "{lines}");
-    outcome.map_err(|error| error.to_string())
+    watch.run(&mut command, &mut |_| Ok(())).map_err(|error| error.to_string())
 }
 
 #[test]

@@ -37,8 +37,9 @@ impl Report {
                 gains.omega_n, gains.zeta
             );
         }
-        let (speed, gate) = (self.peak_speed, self.gate());
-        text + &format!("The reference reaches {speed:.2} rad/s\n{gate}Plot: {}\n", plot.display())
+        let (speed, gate, plot) = (self.peak_speed, self.gate(), plot.display());
+        let schedule = if self.scene == "wheel_leg_balance" { SCHEDULE } else { "" };
+        text + &format!("The reference reaches {speed:.2} rad/s\n{schedule}{gate}Plot: {plot}\n")
     }
 
     /// For the page.
@@ -184,6 +185,10 @@ pub fn signed(number: i64, minus: &str) -> String {
     let sign = if number < 0 { minus } else { "" };
     format!("{sign}{}", thousands(number.unsigned_abs()))
 }
+
+/// The meaning of the rows of a scene with a schedule, by docs/guide/src/balancing.md.
+const SCHEDULE: &str = "Errors are the pitch; PD has the gains of 0.22 m alone. The schedule counts \
+     for harder pushes: 125 N in place of 84 N on legs of 0.34 m\n";
 
 /// The caption of the table of effects.
 const WORTH: &str = "What each effect is worth: saved in the longest tick, in the tick's code and \

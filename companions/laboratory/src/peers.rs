@@ -25,9 +25,17 @@ use crate::peers::tools::Peers;
 /// ID(q, q̇, q̈), ID(q, q̇, 0), ID(q, 0, 0), the mass matrix, FD(q, q̇, τ), and Λ⁻¹ of the tip of
 /// an arm.
 const ALGORITHMS: [&str; 6] = ["rnea", "bias", "gravity", "crba", "aba", "osim"];
+/// The algorithms that CasADi prints: Pinocchio's, and those in the coordinates of the links. Each
+/// has the end of its functions' names, and the peer's.
+const FORMS: [[&str; 2]; 2] = [["", "casadi"], ["links", "casadi links"]];
 /// ∂ID/∂q and ∂ID/∂q̇, on the host alone.
 const GRADIENT: &str = "gradient";
 const PRECISIONS: [&str; 2] = ["f32", "f64"];
+
+/// The forms in which an algorithm is printed: Λ⁻¹ by Pinocchio's alone.
+fn forms(algorithm: &str) -> &'static [[&'static str; 2]] {
+    if algorithm == "osim" { &FORMS[..1] } else { &FORMS }
+}
 
 /// The number of outputs of an algorithm with this number of velocity coordinates; of a matrix one
 /// triangle counts.

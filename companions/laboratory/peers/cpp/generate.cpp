@@ -1,4 +1,5 @@
-// Writes the C that CasADi generates from Pinocchio's algorithms for given robots.
+// Writes the C that CasADi generates for given robots: from Pinocchio's algorithms, and from those in the coordinates of
+// the links (classical.hpp), with common subexpressions taken out, whose name ends with `links`.
 //
 //     generate ROBOTS OUT NAME...
 //
@@ -9,6 +10,7 @@
 
 #include <pinocchio/autodiff/casadi.hpp>
 
+#include <algorithm>
 #include <fstream>
 #include <iostream>
 #include <regex>
@@ -19,9 +21,9 @@
 #include <pinocchio/algorithm/jacobian.hpp>
 #include <pinocchio/algorithm/rnea.hpp>
 
+#include "classical.hpp"
 #include "robot.hpp"
 
-using casadi::SX;
 using Model = pinocchio::ModelTpl<SX>;
 using Data = pinocchio::DataTpl<SX>;
 using Vector = Eigen::Matrix<SX, Eigen::Dynamic, 1>;
@@ -39,6 +41,12 @@ struct Order {
       append(velocities, free ? std::vector<int>{3, 4, 5, 0, 1, 2} : std::vector<int>{0});
       turns.resize(positions.size(), !free);
     }
+  }
+
+  // Whether one of our coordinates is an angle.
+  bool is_angle(casadi_int ours) const {
+    const auto theirs = std::find(positions.begin(), positions.end(), ours);
+    return turns[theirs - positions.begin()];
   }
 
   static void append(std::vector<int> &all, const std::vector<int> &block) {
@@ -60,17 +68,21 @@ struct Order {
   }
 };
 
-// The lower triangle by columns of a symmetric matrix whose upper one is given, its coordinates in this order: what a
-// user of M needs.
+// The lower triangle of a symmetric matrix by columns: what a user of M needs.
+static SX lower(const SX &matrix) {
+  std::vector<SX> entries;
+  for (casadi_int i = 0; i < matrix.rows(); ++i)
+    for (casadi_int j = i; j < matrix.rows(); ++j) entries.push_back(matrix(i, j));
+  return SX::densify(SX::vertcat(entries));
+}
+
+// That of a matrix whose upper triangle is given, its coordinates in this order.
 static SX triangle(const Data::MatrixXs &upper, const std::vector<int> &order) {
   const casadi_int n = order.size();
   SX sorted(n, n);
   for (casadi_int i = 0; i < n; ++i)
     for (casadi_int j = i; j < n; ++j) sorted(order[i], order[j]) = sorted(order[j], order[i]) = upper(i, j);
-  std::vector<SX> entries;
-  for (casadi_int i = 0; i < n; ++i)
-    for (casadi_int j = i; j < n; ++j) entries.push_back(sorted(i, j));
-  return SX::vertcat(entries);
+  return lower(sorted);
 }
 
 // Λ⁻¹ of the last body in its own frame.
@@ -81,6 +93,36 @@ static Data::MatrixXs operational_inverse(const Model &model, Data &data, const 
   Data::Matrix6x jacobian = Data::Matrix6x::Zero(6, model.nv);
   pinocchio::computeJointJacobian(model, data, q, model.njoints - 1, jacobian);
   return jacobian * inverse * jacobian.transpose();
+}
+
+// The classical algorithms; positions are angles, or cosines and sines.
+static casadi::Function classical(const Robot &robot, const std::string &algorithm, Position position) {
+  const Order order(robot);
+  const casadi_int positions = order.positions.size(), velocities = order.velocities.size();
+  const bool angle = position == Position::angle;
+  const SX q = SX::sym("q", positions), s = SX::sym("s", positions);
+  const SX v = SX::sym("v", velocities), u = SX::sym("u", velocities), rest = SX::zeros(velocities);
+  SX cosines = q, sines = s;
+  for (casadi_int k = 0; angle && k < positions; ++k) {
+    if (order.is_angle(k)) cosines(k) = cos(SX(q(k))), sines(k) = sin(SX(q(k)));
+  }
+  const Classical of(robot, cosines, sines);
+  std::vector<SX> inputs = {q};
+  if (!angle) inputs.push_back(s);
+  SX output;
+  if (algorithm == "crba") {
+    output = lower(of.crba());
+  } else if (algorithm == "gravity") {
+    output = of.rnea(rest, rest);
+  } else if (algorithm == "bias") {
+    inputs.push_back(v);
+    output = of.rnea(v, rest);
+  } else {
+    inputs.insert(inputs.end(), {v, u});
+    output = algorithm == "rnea" ? of.rnea(v, u) : of.forward_dynamics(v, u);
+  }
+  const std::string name = robot.name + "_" + algorithm + "links" + (angle ? "_q" : "_cs");
+  return casadi::Function(name, inputs, {SX::densify(output)}, {{"cse", true}});
 }
 
 static casadi::Function function(
@@ -165,12 +207,13 @@ int main(int count, char **arguments) try {
   for (int i = 3; i < count; ++i) {
     // ROBOT_ALGORITHM_INPUTS_PRECISION
     const std::string name = arguments[i];
-    static const std::regex parts(R"((.+)_([a-z]+)_(q|cs)_(f32|f64))");
+    static const std::regex parts(R"((.+)_([a-z]+?)(links)?_(q|cs)_(f32|f64))");
     std::smatch found;
     if (!std::regex_match(name, found, parts)) throw std::runtime_error(name + " is no function");
-    const Position position = found[3] == "q" ? Position::angle : Position::cos_sin;
+    const Position position = found[4] == "q" ? Position::angle : Position::cos_sin;
+    const auto make = found[3].matched ? classical : function;
     for (const Robot &robot : all)
-      if (robot.name == found[1]) write(function(robot, found[2], position), found[4], arguments[2]);
+      if (robot.name == found[1]) write(make(robot, found[2], position), found[5], arguments[2]);
   }
   return 0;
 } catch (const std::exception &error) {

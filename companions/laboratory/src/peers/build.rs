@@ -104,7 +104,9 @@ impl<'a> Workshop<'a> {
         let generator = self.cpp("generate", "clang++", &args, "generate.cpp")?;
         let functions = robots.iter().flat_map(|robot| {
             let parts = robot.casadi();
-            parts.map(|parts| format!("{}_{}", robot.name, parts.join("_")))
+            parts.map(|[algorithm, form, inputs, precision]| {
+                format!("{}_{algorithm}{form}_{inputs}_{precision}", robot.name)
+            })
         });
         let mut command = Command::new(&generator);
         command.args([&text, &self.code]);
@@ -146,7 +148,7 @@ impl<'a> Workshop<'a> {
         let dirs = [self.prefix().join("include"), self.peers.eigen.clone()];
         let dirs = dirs.map(|dir| format!("-isystem{}", dir.display()));
         let dirs = dirs.each_ref().map(String::as_str);
-        let sources = [source, "robot.hpp", "robot_text.hpp"];
+        let sources = [source, "classical.hpp", "robot.hpp", "robot_text.hpp"];
         let sources = sources.map(|name| self.sources.join(name));
         // Warnings are of others' headers.
         let all: [&[&str]; 4] = [&["-std=c++17", "-w"], &words(BOOST), &dirs, args];

@@ -12,6 +12,7 @@ use xtask::kit::workspace::Workspace;
 use xtask::studies::study::Bench;
 
 use crate::cores::{Core, risc_v, set_up};
+use crate::peers::FORMS;
 use crate::peers::build::Workshop;
 use crate::peers::report::{GATES, Row};
 use crate::peers::robots::Robot;
@@ -152,16 +153,20 @@ fn ours(rows: &[Counted], arithmetic: &str) -> Vec<Row> {
 /// The better of all ways for each number of stages.
 fn best(rows: &[Counted]) -> Vec<Row> {
     let mut found = Vec::new();
+    let forms = || FORMS.iter().flat_map(|form| ALGORITHMS.map(|algorithm| (form, algorithm)));
     for (arithmetic, _, _) in ARITHMETICS {
-        for algorithm in ALGORITHMS {
-            let is_its =
-                |row: &&Counted| row.name[1] == algorithm && row.name[2].ends_with(arithmetic);
+        for (form, algorithm) in forms() {
+            let is_its = |row: &&Counted| {
+                let (found, way) = target::parts(&row.name[2]);
+                row.name[1] == algorithm && found == *form && way.ends_with(arithmetic)
+            };
             let of: Vec<&Counted> = rows.iter().filter(is_its).collect();
             let Some(first) = of.first() else { continue };
-            let peer = format!("casadi {arithmetic}");
+            let peer = format!("{} {arithmetic}", form[1]);
             found.extend(by_stages([&first.name[0], algorithm, &peer], |stages| {
                 let best = of.iter().min_by_key(|row| row.cycles[stages]).unwrap_or(first);
-                let way = best.name[2].split('_').next().unwrap_or_default();
+                let (_, way) = target::parts(&best.name[2]);
+                let (way, _) = way.split_once('_').unwrap_or((way, ""));
                 (best.cycles[stages], way.to_owned())
             }));
         }
@@ -171,7 +176,8 @@ fn best(rows: &[Counted]) -> Vec<Row> {
 
 /// Fails unless every function was counted for each number of stages, ours and the C.
 fn complete(rows: &[Row]) -> Result<()> {
-    let peers = ["engine", "casadi"].map(|peer| ARITHMETICS.map(|(a, ..)| format!("{peer} {a}")));
+    let peers = ["engine", FORMS[0][1], FORMS[1][1]];
+    let peers = peers.map(|peer| ARITHMETICS.map(|(a, ..)| format!("{peer} {a}")));
     for (robot, algorithm) in ROBOTS.iter().flat_map(|robot| ALGORITHMS.map(|a| (robot, a))) {
         for peer in peers.as_flattened() {
             let is_its =
@@ -208,8 +214,10 @@ mod tests {
     fn a_missing_row_is_refused() {
         let names = ROBOTS.iter().flat_map(|robot| ALGORITHMS.map(|a| (robot, a)));
         let rows = names.flat_map(|(robot, algorithm)| {
-            let peers = ["engine fused", "engine separate", "casadi fused", "casadi separate"];
-            peers.map(|peer| by_stages([robot, algorithm, peer], |_| (1, String::new())))
+            let peers = ["engine", "casadi", "casadi links"]
+                .map(|peer| ["fused", "separate"].map(|arithmetic| format!("{peer} {arithmetic}")));
+            let row = |peer: &String| by_stages([robot, algorithm, peer], |_| (1, String::new()));
+            peers.as_flattened().iter().map(row).collect::<Vec<_>>()
         });
         let mut rows: Vec<_> = rows.flatten().collect();
         complete(&rows).expect("all");

@@ -15,6 +15,7 @@ use crate::MANIFEST;
 use crate::peers::build::Workshop;
 use crate::peers::report::{self, HOST, Row};
 use crate::peers::robots::Robot;
+use crate::peers::target;
 use crate::peers::{GRADIENT, outputs};
 
 const C_COMPILERS: [&str; 2] = ["gcc", "clang"];
@@ -81,21 +82,21 @@ pub fn casadi(shop: &Workshop<'_>, robots: &[Robot]) -> Result<Vec<Value>> {
     let mut all = Vec::new();
     let spinner = Spinner::start("building CasADi's C for the host");
     for robot in robots {
-        for [algorithm, inputs, precision] in robot.casadi() {
+        for [algorithm, form, inputs, precision] in robot.casadi() {
             // Functions that take cosines are for the target, and are timed there.
             let compilers = match inputs {
                 "q" => &C_COMPILERS[..],
                 _ if robot.precisions().contains(&precision) => &C_COMPILERS[..1],
                 _ => &[],
             };
-            let name = format!("{}_{algorithm}_{inputs}_{precision}", robot.name);
+            let name = format!("{}_{algorithm}{form}_{inputs}_{precision}", robot.name);
             let [_, positions, velocities] = robot.size();
             let sizes = [positions, velocities, outputs(algorithm, velocities)];
             for compiler in compilers {
                 spinner.say(format!("building {name} by {compiler}"));
                 let library = shop.casadi(compiler, &name, sizes)?;
                 let wanted = (robot, algorithm, precision);
-                let peer = format!("casadi {compiler}");
+                let peer = format!("{} {compiler}", target::parts(form).0[1]);
                 let mut one = foreign(wanted, &peer, &library, "casadi_", &name, None);
                 one["cs"] = (inputs == "cs").into();
                 one["timed"] = (inputs == "q").into();

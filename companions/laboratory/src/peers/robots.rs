@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 
 use serde::Deserialize;
 
-use crate::peers::{ALGORITHMS, PRECISIONS};
+use crate::peers::{ALGORITHMS, PRECISIONS, forms as forms_of};
 use xtask::kit::error::Result;
 use xtask::kit::host_bin;
 use xtask::kit::workspace::Workspace;
@@ -117,15 +117,18 @@ impl Robot {
     }
 
     /// The functions of it that CasADi is to write: `cs` ones, which take cosines, are for the
-    /// target.
-    pub fn casadi(&self) -> impl Iterator<Item = [&'static str; 3]> {
+    /// target. An algorithm, the ends of its form's name, its inputs and its precision.
+    pub fn casadi(&self) -> impl Iterator<Item = [&'static str; 4]> {
         let angles = self.precisions().iter().map(|precision| ["q", precision]);
         let target = PRECISIONS.iter().map(|precision| ["cs", precision]);
         let target = target.filter(|_| self.is_on_target());
         let forms: Vec<_> = angles.chain(target).collect();
         self.algorithms().iter().flat_map(move |algorithm| {
             let forms = forms.clone().into_iter();
-            forms.map(|[inputs, precision]| [*algorithm, inputs, precision])
+            forms.flat_map(move |[inputs, precision]| {
+                let names = forms_of(algorithm).iter();
+                names.map(move |[form, _]| [*algorithm, *form, inputs, precision])
+            })
         })
     }
 

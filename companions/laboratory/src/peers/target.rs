@@ -11,10 +11,10 @@ use xtask::kit::workspace;
 use xtask::studies::study::Bench;
 
 use crate::firmware;
-use crate::peers::ALGORITHMS;
 use crate::peers::build::{Workshop, words};
 use crate::peers::report::{Build, M4F, Row};
 use crate::peers::robots::Robot;
+use crate::peers::{ALGORITHMS, FORMS, forms};
 
 /// The firmware's bin, and the feature that it is built with.
 const BIN: &str = "peers";
@@ -31,22 +31,23 @@ pub fn bound(algorithm: &str) -> f64 {
 /// Ways to compile the C: what each is called at the end of its symbols, in the report, the
 /// compiler and its flags; of clang those of `.cargo/config.toml` in its words.
 const BUILDS: [[&str; 4]; 3] = [
-    ["gcc", "casadi gcc", "arm-none-eabi-gcc", "-mcpu=cortex-m4"],
-    [
-        "off",
-        "casadi gcc -ffp-contract=off",
-        "arm-none-eabi-gcc",
-        "-mcpu=cortex-m4 -ffp-contract=off",
-    ],
-    ["clang", "casadi clang", "clang", CLANG],
+    ["gcc", "gcc", "arm-none-eabi-gcc", "-mcpu=cortex-m4"],
+    ["off", "gcc -ffp-contract=off", "arm-none-eabi-gcc", "-mcpu=cortex-m4 -ffp-contract=off"],
+    ["clang", "clang", "clang", CLANG],
 ];
 const CLANG: &str = "--target=thumbv7em-none-eabihf -mcpu=cortex-m7 -ffp-contract=off -Xclang \
     -target-feature -Xclang +slowfpvmlx";
 const COMMON: &str = "-c -O3 -mthumb -mfpu=fpv4-sp-d16 -mfloat-abi=hard";
 
-/// Whether the compiler may know that inputs and output do not overlap, with what it adds to the
-/// symbols: the better of the two is the peer.
-const OVERLAP: [(&str, &str); 2] = [("", ""), ("restrict", "_r")];
+/// Further flags of a build, with what they add to the symbols: the best of all is the peer. The
+/// compiler may know that inputs and output do not overlap, and gcc may leave the order of a
+/// function that is one block.
+const VARIANTS: [(&str, &str); 4] = [
+    ("", ""),
+    ("-DRESTRICT=restrict", "_r"),
+    ("-fno-schedule-insns", "_n"),
+    ("-fno-schedule-insns -DRESTRICT=restrict", "_nr"),
+];
 
 /// Compiles the C and the firmwares, and runs them under the meter: one of each robot on a fixed
 /// base, and of each function of a free base. Returns the seconds of the builds of those, too.
@@ -113,11 +114,12 @@ pub struct Way {
 }
 
 fn ways() -> Vec<Way> {
-    let ways = BUILDS.iter().flat_map(|build| OVERLAP.map(|overlap| (build, overlap)));
-    let ways = ways.map(|(&[build, _, compiler, flags], (keyword, mark))| Way {
+    let variants = |compiler: &str| &VARIANTS[..if compiler == "clang" { 2 } else { 4 }];
+    let ways = BUILDS.iter().flat_map(|build| variants(build[2]).iter().map(move |of| (build, of)));
+    let ways = ways.map(|(&[build, _, compiler, flags], (more, mark))| Way {
         mark: format!("{build}{mark}"),
         compiler,
-        flags: format!("{flags} {COMMON} -DRESTRICT={keyword}"),
+        flags: format!("{flags} {COMMON} {more}"),
     });
     ways.collect()
 }
@@ -133,17 +135,19 @@ pub fn compile(
     let (mut objects, mut externs, mut calls) = (Vec::new(), String::new(), String::new());
     let inputs = "_: *const f32, ".repeat(4);
     for algorithm in algorithms {
-        let name = format!("{}_{algorithm}_cs_f32", robot.name);
-        let source = shop.code.join(format!("{name}.c"));
         let mut peers = String::new();
-        for Way { mark, compiler, flags } in ways {
-            let symbol = format!("{name}_{mark}");
+        let forms = forms(algorithm).iter();
+        for ([form, _], way) in forms.flat_map(|form| ways.iter().map(move |way| (form, way))) {
+            let Way { mark, compiler, flags } = way;
+            let name = format!("{}_{algorithm}{form}_cs_f32", robot.name);
+            let (source, symbol) = (shop.code.join(format!("{name}.c")), format!("{name}_{mark}"));
             spinner.say(format!("compiling {symbol}"));
             let peer = format!("-DPEER(name)=name##_{mark}");
             let args: [&[&str]; 2] = [&words(flags), &[&peer]];
             objects.push(shop.make(&format!("{symbol}.o"), compiler, &args, &[&source])?);
             externs += &format!("    fn {symbol}({inputs}_: *mut f32);\n");
-            peers += &format!("Peer {{ build: {mark:?}, run: {symbol} }}, ");
+            let build = format!("{form}{mark}");
+            peers += &format!("Peer {{ build: {build:?}, run: {symbol} }}, ");
         }
         let [bodies, positions, velocities] = robot.size();
         let tip = match *algorithm {
@@ -160,14 +164,22 @@ pub fn compile(
     Ok((objects, path))
 }
 
-/// The name of a peer whose row is of this form.
-fn peer(form: &str) -> &str {
-    let build = BUILDS.iter().find(|build| build[0] == form.trim_end_matches("_r"));
-    build.map_or(form, |[_, name, ..]| name)
+/// The form of the algorithm and the way of a build, from the end of its symbols.
+pub fn parts(build: &str) -> ([&'static str; 2], &str) {
+    let [plain, links] = FORMS;
+    build.strip_prefix(links[0]).map_or((plain, build), |way| (links, way))
 }
 
-/// The firmware's measurements with its errors in the same order; of two forms of a build the
-/// better.
+/// The name of a peer whose row is of this build.
+fn peer(build: &str) -> String {
+    let ([_, author], way) = parts(build);
+    let (way, _) = way.split_once('_').unwrap_or((way, ""));
+    let flags = BUILDS.iter().find(|build| build[0] == way);
+    flags.map_or(build.to_owned(), |[_, flags, ..]| format!("{author} {flags}"))
+}
+
+/// The firmware's measurements with its errors in the same order; of all variants of a build the
+/// best.
 fn rows(measured: Vec<MeasuredRow>, lines: &[String]) -> Result<Vec<Row>> {
     let errors = lines.iter().filter_map(|line| line.strip_prefix("error "));
     let errors: Vec<f64> = errors.map(|error| error.parse().unwrap_or(f64::NAN)).collect();
@@ -184,7 +196,7 @@ fn rows(measured: Vec<MeasuredRow>, lines: &[String]) -> Result<Vec<Row>> {
         }
         let row = Row {
             target: M4F,
-            peer: peer(&form).to_owned(),
+            peer: peer(&form),
             robot,
             algorithm,
             precision: "f32".into(),
@@ -224,7 +236,8 @@ mod tests {
     #[test]
     fn peers_are_named_by_their_build() {
         assert_eq!(peer("core"), "core");
-        assert_eq!(peer("off"), "casadi gcc -ffp-contract=off");
+        assert_eq!(peer("off_nr"), "casadi gcc -ffp-contract=off");
+        assert_eq!(peer("linksclang"), "casadi links clang");
     }
 
     #[test]

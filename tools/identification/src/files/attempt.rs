@@ -29,6 +29,11 @@ const SLOWEST_RATE: f64 = 1.0;
 const RESTS: f64 = 1e-3;
 /// By how much a joint may be beyond its limits, rad or m.
 const BEYOND: f64 = 0.2;
+/// The torques that are compared, relative to the largest one.
+const MARGIN: f64 = 1.2;
+/// The residuals of a joint with less than this share of the arm's largest torque are compared to
+/// that: those of a light one are mostly of its encoder.
+const LIGHT: f64 = 0.2;
 /// An offset is shown by the recording from this many deviations on,
 const SHOWN: f64 = 4.0;
 /// and from this share of the joint's largest torque on.
@@ -79,8 +84,12 @@ pub(crate) struct Attempt<const V: usize> {
     pub set: PhysicalSet<V, V>,
     /// The torques of each row that the set leaves, N·m or N.
     pub left: Vec<[f64; V]>,
-    /// Their mean squares relative to the joints' largest torques, summed.
-    pub residual: f64,
+    /// The torque to which those of a joint are compared, N·m or N.
+    pub largest: [f64; V],
+    /// The root mean square at each joint of what the set leaves, relative to this torque.
+    pub shares: [f64; V],
+    /// The same of the noise of the measured torque.
+    pub noise: [f64; V],
     /// The speed of Stribeck's effect, rad/s or m/s.
     pub stribeck: Option<f64>,
 }
@@ -89,12 +98,22 @@ pub(crate) struct Attempt<const V: usize> {
 pub(crate) type OfOneJoint = [f64; OF_JOINT];
 
 /// A robot, the file of its recording, and what is identified.
+#[derive(Clone, Copy)]
 pub(crate) struct Task<'a> {
     pub robot: &'a Robot,
+    /// The direction of gravity in the frame of the base.
+    pub gravity: [f64; 3],
     pub path: &'a Path,
     pub options: &'a Options,
     /// Whether torques are held for a tick.
     pub held: bool,
+}
+
+/// The speed of Stribeck's effect of another fit, and its delay, s; estimated if not given.
+#[derive(Clone, Copy)]
+pub(crate) struct Like {
+    pub stribeck: Option<f64>,
+    pub delay: Option<f64>,
 }
 
 /// The estimate of a part of a recording.
@@ -106,6 +125,8 @@ pub(crate) struct Estimate<const V: usize> {
     pub known: Vec<bool>,
     pub fit: Fit,
     pub found: Fitted<V>,
+    /// The end of the search for the delay, s, if the residuals fall up to it.
+    pub delay_end: Option<f64>,
 }
 
 impl Task<'_> {
@@ -124,7 +145,7 @@ impl Task<'_> {
         delay: Option<f64>,
     ) -> Result<Estimate<V>> {
         let options = self.options;
-        let (model, bodies, joints) = self.robot.model::<V>()?;
+        let (model, bodies, joints) = self.robot.model::<V>(self.gravity)?;
         let limits = limits(self.robot, self.path, whole)?;
         let largest = limits.torque;
         let asymmetric = effects.contains(&JointEffect::Asymmetric);
@@ -145,15 +166,15 @@ impl Task<'_> {
             _ => None,
         });
         let run = |fit: &Fit| fit.identify(&arm, part, &nominal, &known, gears);
-        let found = match delay {
+        let (found, delay_end) = match delay {
             Some(delay) => {
                 fit.delay = delay;
-                run(&fit)
+                run(&fit).map(|found| (found, None))
             }
             None => delay::least(&mut fit, tick, &largest, run),
         }
         .map_err(|source| self.failed(source))?;
-        Ok(Estimate { arm, bodies, joints, nominal, known, fit, found })
+        Ok(Estimate { arm, bodies, joints, nominal, known, fit, found, delay_end })
     }
 
     /// The speed of Stribeck's effect that leaves the least of the torques, if it is identified.
@@ -172,21 +193,21 @@ impl Task<'_> {
         Ok(each.into_iter().min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, speed)| speed))
     }
 
-    /// The fit of a part of a recording, with the delay and the speed of another fit.
+    /// The fit of a part of a recording, with the speed and the delay of another fit.
     pub fn attempt<const V: usize>(
         &self,
         whole: &TickRecording<V>,
         part: &TickRecording<V>,
-        like: Option<&Attempt<V>>,
+        like: Option<Like>,
     ) -> Result<Attempt<V>> {
         let options = self.options;
         let speed = match like {
             Some(like) => like.stribeck,
             None => self.stribeck([whole, part])?,
         };
-        let delay = like.map(|like| like.estimate.fit.delay);
+        let delay = like.and_then(|like| like.delay);
         let estimate = self.estimate([whole, part], &options.effects, speed, delay)?;
-        let Estimate { arm, bodies, joints, nominal, known, fit, found } = &estimate;
+        let Estimate { arm, bodies, joints, nominal, known, fit, found, .. } = &estimate;
         let largest = arm.limits.torque;
         let believed = believed(arm, found, nominal, joints, &options.effects);
         let mut set = found
@@ -209,10 +230,39 @@ impl Task<'_> {
         let pairs = compared.measured.iter().zip(&compared.modelled[0]);
         let left: Vec<[f64; V]> =
             pairs.map(|(a, b)| std::array::from_fn(|j| a[j] - b[j])).collect();
-        let shares = left.iter().flat_map(|left| left.iter().zip(&largest));
-        let squares: f64 = shares.map(|(left, largest)| (left / largest).powi(2)).sum();
-        let residual = squares / left.len() as f64;
-        Ok(Attempt { estimate, set, left, residual, stribeck: speed })
+        let most = largest.into_iter().fold(0.0, f64::max);
+        let largest = largest.map(|own| own.max(LIGHT * most) / MARGIN);
+        let share = |j: usize| {
+            let squares: f64 = left.iter().map(|left| left[j].powi(2)).sum();
+            (squares / left.len() as f64).sqrt() / largest[j]
+        };
+        let (shares, noise) = (std::array::from_fn(share), part.noise(fit.cutoff));
+        let noise = std::array::from_fn(|j| noise[j] / largest[j]);
+        Ok(Attempt { estimate, set, left, largest, shares, noise, stribeck: speed })
+    }
+}
+
+/// The residuals that a robot of another kind leaves at a joint, relative to its largest torque,
+pub(crate) const EXPLAINED: f64 = 0.06;
+/// and those from which on nothing is offered to paste; of the noise, so many times.
+const UNEXPLAINED: f64 = 0.12;
+const OF_NOISE: f64 = 3.0;
+
+impl<const V: usize> Attempt<V> {
+    /// The mean squares of the residuals relative to the joints' largest torques, summed.
+    pub fn residual(&self) -> f64 {
+        self.shares.iter().map(|share| share * share).sum()
+    }
+
+    /// Whether the residuals are near the noise.
+    pub fn is_explained(&self) -> bool {
+        let of_joint = |(share, noise): (&f64, &f64)| *share <= (OF_NOISE * noise).max(EXPLAINED);
+        self.shares.iter().zip(&self.noise).all(of_joint)
+    }
+
+    /// Whether residuals of this share are too large to be offered.
+    pub fn is_bad(&self, joint: usize, share: f64) -> bool {
+        share > (OF_NOISE * self.noise[joint]).max(UNEXPLAINED)
     }
 }
 
@@ -281,7 +331,7 @@ fn limits<const V: usize>(
         if limits.lower[j] >= limits.upper[j] {
             (limits.lower[j], limits.upper[j]) = (low - SLOWEST, high + SLOWEST);
         }
-        limits.torque[j] = (1.2 * torque).max(0.01 * largest);
+        limits.torque[j] = (MARGIN * torque).max(0.01 * largest);
     }
     let [speeds, rates] = recording.rates();
     for j in 0..V {

@@ -70,11 +70,18 @@ pub enum Error {
     Json(#[from] serde_json::Error),
 }
 
+/// How many times as far as its limits a joint is whose positions are in degrees.
+const DEGREES: f64 = 4.0;
+
 /// The likely reason for a position beyond the limits.
 fn beyond(position: f64, [lower, upper]: [f64; 2]) -> &'static str {
-    match (lower - 0.1..=upper + 0.1).contains(&position.to_radians()) {
+    let (far, inside) = (DEGREES * lower.abs().max(upper.abs()), lower - 0.1..=upper + 0.1);
+    match position.abs() > far && inside.contains(&position.to_radians()) {
         true => "are the positions in degrees? A map says so: position_unit = \"deg\" (--columns)",
-        false => "is the recording of this robot, with the zeros of its encoders?",
+        false => {
+            "is this the column of another joint, in another unit, with another zero, or the \
+             recording of another robot? Nothing is fitted to it"
+        }
     }
 }
 
@@ -122,6 +129,21 @@ pub enum Problem {
     Jitter { interval: f64, jitter: f64 },
     #[error("it has no two rows with a time, from which the length of a tick follows")]
     NoTick,
+    #[error(
+        "the torque of `{joint}` is {value} in every row: it was not recorded. --lock or --joints \
+         leave the joint out"
+    )]
+    Constant { joint: String, value: f64 },
+    #[error(
+        "the position of `{joint}` is exactly {value:.4} from {from:.3} s to {to:.3} s after the \
+         start while the joint moves: its encoder stood still. Nothing is fitted to this record"
+    )]
+    Still { joint: String, value: f64, from: f64, to: f64 },
+    #[error(
+        "{count} of {rows} positions of `{joint}` jump beyond its greatest speed and come back: \
+         its encoder or its unit is wrong. Nothing is fitted to this record"
+    )]
+    Jumps { joint: String, count: usize, rows: usize },
     #[error("no row has `{column}` = `{is}`, in which the controller makes the torque")]
     NoRows { column: String, is: String },
     #[error("MCAP: {0}")]

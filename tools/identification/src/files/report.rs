@@ -10,6 +10,7 @@ use crate::OF_JOINT;
 
 use super::attempt::{JointEffect, OfOneJoint};
 use super::kinds::FrictionKind;
+use super::look::{Look, Spike};
 use super::mistakes::{IMPOSSIBLE, Mistake};
 use super::resample::Sampling;
 
@@ -25,6 +26,8 @@ pub struct Findings {
     /// The length of a tick, s.
     pub tick: f64,
     pub sampling: Sampling,
+    /// What was changed in the samples before the fit.
+    pub look: Look,
     /// Whether a torque is held until the next tick.
     pub held: bool,
     /// The frequency up to which torques were compared, Hz.
@@ -43,6 +46,9 @@ pub struct Findings {
     /// The time to which a torque belongs, after the position of its tick, s: half a tick for a
     /// torque that is held for a tick, less if the torques lag behind.
     pub delay: f64,
+    /// The end of the search for this time, after which the residuals would fall further, s; it is
+    /// no estimate and is not used.
+    pub delay_end: Option<f64>,
     /// The mistake in the recording, if one was found; nothing is offered to paste then.
     pub mistake: Option<Mistake>,
     pub parameters: Vec<ParameterFound>,
@@ -161,10 +167,10 @@ pub fn rounded(x: f64) -> f64 {
 }
 
 /// A share in per cent; of nothing, none.
-fn percent(part: f64, of: f64) -> String {
+pub(super) fn percent(part: f64, of: f64) -> String {
     match 100.0 * part / of {
         share if share < 1000.0 => format!("{share:.1} %"),
-        _ => "–".to_owned(),
+        _ => "> 999 %".to_owned(),
     }
 }
 
@@ -233,6 +239,27 @@ impl Findings {
             "record: {gaps} gaps of {gap_seconds:.2} s in all; rows dropped: {left_out} on hold or \
              incomplete, {duplicates} with the time of the row before, {backward} with an earlier one"
         );
+        let Look { spikes, turns } = &self.look;
+        for (joint, count) in turns {
+            let _ = writeln!(
+                text,
+                "warning: {count} jumps of the position of `{joint}` by whole turns were undone"
+            );
+        }
+        if !spikes.is_empty() {
+            let kind = |is_torque| if is_torque { "torque" } else { "position" };
+            let row = |one: &Spike| {
+                format!("{:.3} s ({} of `{}`)", one.time, kind(one.is_torque), one.joint)
+            };
+            let more = if self.sampling.spikes > spikes.len() { ", …" } else { "" };
+            let rows: Vec<String> = spikes.iter().map(row).collect();
+            let _ = writeln!(
+                text,
+                "warning: {} rows were dropped in which a single sample jumps and comes back: {}{more}",
+                self.sampling.spikes,
+                rows.join(", ")
+            );
+        }
         if self.sampling.is_resampled {
             let [rms, largest] = self.sampling.jitter.map(|share| 100.0 * share);
             let [error, missing] = self.sampling.error(self.cutoff, self.tick);
@@ -256,6 +283,19 @@ impl Findings {
             false => (0.0, "the time of its position"),
         };
         let lag = own - self.delay;
+        if let Some(end) = self.delay_end {
+            let _ = writeln!(
+                text,
+                "warning: the residuals fall up to the end of the search for a delay of the \
+                 torques, {} ms, which is no estimate and is not used",
+                short(-1e3 * end)
+            );
+            return;
+        }
+        if matches!(self.mistake, Some(Mistake::NotExplained { .. })) {
+            *text += "delay: not known, since the residuals are not explained\n";
+            return;
+        }
         let _ = match lag {
             0.0 => writeln!(text, "delay: none; each torque belongs to {ends}"),
             _ => writeln!(
@@ -322,12 +362,14 @@ impl Findings {
         }
         self.masses(text);
         match &self.mistake {
+            Some(mistake @ Mistake::NotExplained { .. }) => {
+                let _ = writeln!(text, "warning: {mistake}");
+            }
             Some(mistake) => {
                 let _ = writeln!(
                     text,
-                    "warning: no possible robot fits this recording ({:.1} standard deviations \
-                     away), unless a mistake is corrected: {mistake}",
-                    self.misfit
+                    "warning: no possible robot fits this recording, unless a mistake is corrected: \
+                     {mistake}"
                 );
             }
             None if self.misfit > IMPOSSIBLE => {
@@ -416,9 +458,8 @@ impl Findings {
         if let Some((joint, share)) = self.worst() {
             let _ = writeln!(
                 text,
-                "\ntorques of {held} within {:.1} % of the largest torque, RMS; the worst joint is \
-                 {}",
-                100.0 * share,
+                "\ntorques of {held} within {} of the largest torque, RMS; the worst joint is {}",
+                percent(share, 1.0),
                 joint.name
             );
         }

@@ -13,7 +13,8 @@ use super::attempt::{Attempt, Estimate, Task, bell, own, possible};
 pub use super::attempt::{JointEffect, Options};
 use super::error::{Error, Result};
 use super::kinds;
-use super::mistakes;
+use super::look;
+use super::mistakes::{Mistake, Trials};
 use super::recorded::Recorded;
 use super::report::{
     BodyFound, Findings, Gear, JointFound, Numbers, ParameterFound, RecordingPart, Trace,
@@ -77,15 +78,25 @@ fn of_size<const V: usize>(
     other: Option<(&Path, &Recorded)>,
     options: &Options,
 ) -> Result<Findings> {
-    let task = Task { robot, path, options, held: recorded.held };
+    let looked = |(path, recorded): (&Path, &Recorded)| {
+        let failed = |problem| Error::Recording { path: path.to_owned(), problem };
+        look::at(robot, recorded).map_err(failed)
+    };
+    let (recorded, look) = looked((path, recorded))?;
+    let other = match other {
+        Some(other) => Some((other.0, looked(other)?.0)),
+        None => None,
+    };
+    let task = Task { robot, gravity: robot.gravity, path, options, held: recorded.held };
     let whole: TickRecording<V> = recorded.ticks(path)?;
-    let (fitted_part, held) = match other {
+    let (fitted_part, held) = match &other {
         Some((path, other)) => (whole.clone(), other.ticks(path)?),
         None => whole.split(1.0 - options.hold_out),
     };
     let attempt = task.attempt(&whole, &fitted_part, None)?;
     let names = robot.joints();
-    let mistake = mistakes::explains(&task, &whole, &fitted_part, &attempt, &names);
+    let mut trials = Trials::new(task, [&whole, &fitted_part], &attempt, &names);
+    let mistake = trials.explains();
     let Attempt { estimate, set, .. } = &attempt;
     let Estimate { arm, joints, nominal, known, fit, found, .. } = estimate;
     let pasted = set.joints;
@@ -100,6 +111,7 @@ fn of_size<const V: usize>(
         Err(IdentificationError::TooShort { .. }) if other.is_none() => None,
         validated => Some(validated.map_err(|source| task.failed(source))?),
     };
+    let mistake = mistake.or_else(|| not_explained(&trials, [Some(&own_part), validated.as_ref()]));
     let kinds = match (&mistake, &validated) {
         (None, Some(held)) => kinds::carried(options, [&own_part, held], &names),
         _ => Vec::new(),
@@ -172,6 +184,7 @@ fn of_size<const V: usize>(
         ticks: whole.ticks(),
         tick,
         sampling: recorded.sampling,
+        look,
         held: recorded.held,
         cutoff: fit.cutoff,
         fitted_seconds: tick * fitted_part.ticks() as f64,
@@ -182,6 +195,7 @@ fn of_size<const V: usize>(
         condition: found.condition,
         misfit: set.misfit,
         delay: fit.delay,
+        delay_end: estimate.delay_end,
         mistake,
         kinds,
         parameters: (0..arm.len()).map(of_parameter).chain(numbers).collect(),
@@ -189,6 +203,22 @@ fn of_size<const V: usize>(
         bodies: (0..V).map(of_body).collect(),
         traces: traces(&names, validated.as_ref().unwrap_or(&own_part), curve),
     })
+}
+
+/// The residuals of the parts of a recording, if they are too large at a joint.
+fn not_explained<const V: usize>(
+    trials: &Trials<'_, V>,
+    parts: [Option<&Comparison<V>>; 2],
+) -> Option<Mistake> {
+    let largest = trials.first.largest;
+    let share = |j: usize| {
+        let rms = parts.into_iter().flatten().map(|of| part(of, j).residuals[1].rms);
+        rms.fold(0.0, f64::max) / largest[j]
+    };
+    let shares: [f64; V] = std::array::from_fn(share);
+    let is_bad = (0..V).any(|j| trials.first.is_bad(j, shares[j]));
+    let residuals = trials.names.iter().cloned().zip(shares).collect();
+    is_bad.then(|| Mistake::NotExplained { residuals, tried: trials.kinds() })
 }
 
 /// The residuals of a joint.

@@ -20,9 +20,13 @@ const SHIFTED: f64 = 0.3;
 const KNOWN: f64 = 1e-9;
 
 impl<const V: usize> Attempt<V> {
-    /// By how much the positions of each joint are too small, if its zero is the only one that is
-    /// shifted, rad or m.
-    pub fn shifts(&self, part: &TickRecording<V>) -> Result<[f64; V], IdentificationError> {
+    /// By how much the positions of each joint are too small, or those of a joint whose zero is the
+    /// only one that is shifted, rad or m.
+    pub fn shifts(
+        &self,
+        part: &TickRecording<V>,
+        only: Option<usize>,
+    ) -> Result<[f64; V], IdentificationError> {
         let Estimate { arm, fit, found, .. } = &self.estimate;
         let (p, mut model) = (arm.len(), arm.robot);
         for (link, phi) in model.links.iter_mut().zip(self.set.bodies) {
@@ -46,10 +50,12 @@ impl<const V: usize> Attempt<V> {
             }
         }
         let equations = Equations::of(&reduced, &vec![0.0; p + V]);
-        Ok(std::array::from_fn(|joint| {
-            let own = (0..V).map(|j| if j == joint { SHIFTED } else { KNOWN });
-            let prior: Vec<f64> = found.prior.iter().copied().chain(own).collect();
-            equations.solve(&found.noise, &prior).estimate[p + joint]
+        let own = (0..V).map(|j| if only.is_none_or(|only| only == j) { SHIFTED } else { KNOWN });
+        let prior: Vec<f64> = found.prior.iter().copied().chain(own).collect();
+        let estimate = equations.solve(&found.noise, &prior).estimate;
+        Ok(std::array::from_fn(|joint| match only.is_none_or(|only| only == joint) {
+            true => estimate[p + joint],
+            false => 0.0,
         }))
     }
 }

@@ -1,6 +1,8 @@
 //! Logs in the formats of public projects give the parameters that the same samples give in the
 //! project's own format, and each mistake in them is named.
 
+use std::collections::BTreeMap;
+
 use identification::files::map::Map;
 use identification::files::mistakes::Mistake;
 use identification::files::report::Findings;
@@ -282,4 +284,65 @@ fn jitter_changes_torques_by_less_than_is_stated() {
         let [own, other] = [own, other].map(|joint| joint.fitted.residuals[1].rms);
         assert!((own / other - 1.0).abs() < 0.1, "{own} {other}");
     }
+}
+
+#[test]
+fn decimal_commas_units_and_comments_are_read() {
+    let map = formats()[4].map.clone().expect("a map");
+    let plain = bus(&samples(even(250.0, 1.0), RIGHT));
+    let (titles, rows) = plain.split_once('\n').expect("titles");
+    let commas = rows.replace('.', ",");
+    let units = titles.split(';').map(|_| "unit").collect::<Vec<_>>().join(";");
+    let expected = read(plain.as_bytes(), Some(&map)).expect("a log");
+    for text in [
+        format!("{titles}\n{commas}"),
+        format!("{titles}\n{units}\n{rows}"),
+        format!("\u{feff}# it was, recorded\r\n# 2026-11-30\n{titles}\n{units}\n# here\n{commas}"),
+        format!("# recorded\n# {titles}\n{rows}# the end\n"),
+    ] {
+        let found = read(text.as_bytes(), Some(&map)).expect(&text[..60]);
+        assert!(found == expected, "{}", &text[..60]);
+    }
+    let text = format!("# recorded\n{titles}\n\n{units}\n{}", rows.replacen(';', ";x", 1));
+    let error = read(text.as_bytes(), Some(&map)).expect_err("no number").to_string();
+    assert!(error.starts_with("log, line 5: column `shoulder_pan.pos`: `x"), "{error}");
+}
+
+/// A file of MCAP with one record.
+fn with_record(op: u8, body: &[u8]) -> Vec<u8> {
+    let header = [&8_u64.to_le_bytes()[..], &[0; 8]].concat();
+    let record = [&[op][..], &(body.len() as u64).to_le_bytes(), body].concat();
+    [mcap::MAGIC, &[1], &header, &record, mcap::MAGIC].concat()
+}
+
+/// The body of a chunk that is said to have so many bytes.
+fn chunk(size: u64, records: &[u8]) -> Vec<u8> {
+    let size = size.to_le_bytes();
+    [&[0; 16], &size[..], &[0; 8], &(records.len() as u64).to_le_bytes(), records].concat()
+}
+
+#[test]
+fn a_file_of_mcap_cannot_ask_for_more_memory_than_it_has() {
+    let inner = chunk(0, &[]);
+    let inner = [&[6][..], &(inner.len() as u64).to_le_bytes(), &inner].concat();
+    for (body, words) in [
+        (chunk(inner.len() as u64, &inner), "a chunk in a chunk"),
+        (chunk(1 << 27, &[0; 8]), "a chunk of 134217728 bytes"),
+    ] {
+        let error = read(&with_record(6, &body), None).expect_err(words).to_string();
+        assert!(error.contains(words), "{words}: {error}");
+    }
+    let mut writer = mcap::Writer::new(std::io::Cursor::new(Vec::new())).expect("a file");
+    let channel = writer.add_channel(0, "/j", "json", &BTreeMap::new()).expect("a channel");
+    let header = mcap::records::MessageHeader {
+        channel_id: channel,
+        sequence: 0,
+        log_time: 1,
+        publish_time: 1,
+    };
+    let data = format!("{{\"{}\": [1, 2]}}", "k".repeat(2000));
+    writer.write_to_known_channel(&header, data.as_bytes()).expect("a message");
+    writer.finish().expect("an end");
+    let error = read(&writer.into_inner().into_inner(), None).expect_err("a name").to_string();
+    assert!(error.contains("a name of more than 1024 bytes"), "{error}");
 }

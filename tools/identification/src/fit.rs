@@ -406,7 +406,7 @@ impl Equations {
     }
 
     /// The sum of the squares of a joint's residuals, N·m or N.
-    fn square(&self, estimate: &nalgebra::DVector<f64>, joint: usize) -> f64 {
+    pub(crate) fn square(&self, estimate: &nalgebra::DVector<f64>, joint: usize) -> f64 {
         let own = |of: &DMatrix<f64>| of.rows(joint * self.each, self.each).into_owned();
         (own(&self.right) - own(&self.rows) * estimate).norm_squared()
     }

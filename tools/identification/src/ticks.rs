@@ -133,37 +133,20 @@ impl<const V: usize> TickRecording<V> {
         rates
     }
 
-    /// The standard deviation of the noise of each torque that a filter of this frequency, Hz,
-    /// lets pass, N·m or N: by second differences, in which a smooth torque has no part.
+    /// The means of so many ticks each.
     #[cfg(feature = "arrays")]
-    pub(crate) fn noise(&self, cutoff: f64) -> [f64; V] {
-        // The sum of the squares of a Gaussian's weights, and the variance of a second difference.
-        let width = crate::low_pass::LowPass::width(cutoff * self.tick);
-        let passed = (1.0 / (2.0 * std::f64::consts::PI.sqrt() * width)).min(1.0);
-        std::array::from_fn(|j| {
-            let windows = self.stretches.iter().flat_map(|stretch| stretch.torques.windows(3));
-            let mut each: Vec<f64> =
-                windows.map(|near| (near[0][j] - 2.0 * near[1][j] + near[2][j]).abs()).collect();
-            if each.is_empty() {
-                return 0.0;
-            }
-            let middle = each.len() / 2;
-            let median = *each.select_nth_unstable_by(middle, f64::total_cmp).1;
-            1.4826 * median * (passed / 6.0).sqrt()
-        })
-    }
-
-    /// The recording with the torques of a joint of so many ticks later, or earlier if negative.
-    #[cfg(feature = "arrays")]
-    pub(crate) fn later(&self, joint: usize, ticks: isize) -> Self {
-        let mut moved = self.clone();
-        for (stretch, own) in moved.stretches.iter_mut().zip(&self.stretches) {
-            let last = own.torques.len().saturating_sub(1);
-            for (k, torque) in stretch.torques.iter_mut().enumerate() {
-                torque[joint] = own.torques[k.saturating_add_signed(ticks).min(last)][joint];
-            }
-        }
-        moved
+    pub(crate) fn means(&self, ticks: usize) -> Self {
+        let mean = |all: &[[f64; V]]| -> [f64; V] {
+            std::array::from_fn(|j| all.iter().map(|x| x[j]).sum::<f64>() / ticks as f64)
+        };
+        let means = |all: &[[f64; V]]| all.chunks_exact(ticks).map(mean).collect();
+        let of = |all: &Stretch<V>| Stretch {
+            positions: means(&all.positions),
+            torques: means(&all.torques),
+            start: all.start,
+        };
+        let stretches = self.stretches.iter().map(of).collect();
+        Self { stretches, tick: self.tick * ticks as f64 }
     }
 
     /// Its first part, of this share of the ticks, and the rest.

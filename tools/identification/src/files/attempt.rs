@@ -88,10 +88,6 @@ pub(crate) struct Attempt<const V: usize> {
     pub largest: [f64; V],
     /// The root mean square at each joint of what the set leaves, relative to this torque.
     pub shares: [f64; V],
-    /// The same of the noise of the measured torque.
-    pub noise: [f64; V],
-    /// The speed of Stribeck's effect, rad/s or m/s.
-    pub stribeck: Option<f64>,
 }
 
 /// The parameters of a joint in the order of [`OfJoint`].
@@ -105,15 +101,8 @@ pub(crate) struct Task<'a> {
     pub gravity: [f64; 3],
     pub path: &'a Path,
     pub options: &'a Options,
-    /// Whether torques are held for a tick.
-    pub held: bool,
-}
-
-/// The speed of Stribeck's effect of another fit, and its delay, s; estimated if not given.
-#[derive(Clone, Copy)]
-pub(crate) struct Like {
-    pub stribeck: Option<f64>,
-    pub delay: Option<f64>,
+    /// The time by which a torque belongs after its position, s, if nothing else is known.
+    pub delay: f64,
 }
 
 /// The estimate of a part of a recording.
@@ -135,31 +124,36 @@ impl Task<'_> {
         Error::Identification { path, source }
     }
 
-    /// The estimate with these effects and this speed of Stribeck's effect, with torques so long
-    /// after the positions, s; estimated if not given.
+    /// The base parameters with this speed of Stribeck's effect.
+    pub fn base<const V: usize>(
+        &self,
+        whole: &TickRecording<V>,
+        stribeck: Option<f64>,
+    ) -> Result<Base<V>> {
+        let (model, ..) = self.robot.model::<V>(self.gravity)?;
+        let limits = limits(self.robot, self.path, whole)?;
+        let asymmetric = self.options.effects.contains(&JointEffect::Asymmetric);
+        let friction = Friction { width: Width::new(self.options.width), stribeck, asymmetric };
+        Ok(Base::<V>::new(model, RIGID_BODY, friction, limits))
+    }
+
+    /// The estimate of these base parameters, with torques so long after the positions, s;
+    /// estimated if not given.
     pub fn estimate<const V: usize>(
         &self,
-        [whole, part]: [&TickRecording<V>; 2],
-        effects: &[JointEffect],
-        stribeck: Option<f64>,
+        arm: Base<V>,
+        part: &TickRecording<V>,
         delay: Option<f64>,
     ) -> Result<Estimate<V>> {
-        let options = self.options;
-        let (model, bodies, joints) = self.robot.model::<V>(self.gravity)?;
-        let limits = limits(self.robot, self.path, whole)?;
-        let largest = limits.torque;
-        let asymmetric = effects.contains(&JointEffect::Asymmetric);
-        let friction = Friction { width: Width::new(options.width), stribeck, asymmetric };
-        let arm = Base::<V>::new(model, RIGID_BODY, friction, limits);
+        let (options, effects) = (self.options, &self.options.effects);
+        let (_, bodies, joints) = self.robot.model::<V>(self.gravity)?;
+        let largest = arm.limits.torque;
         let nominal = arm.of_all(&bodies, &joints);
         let known = known(&arm, effects);
         let tick = part.tick();
         let own = Fit::new(tick);
         let cutoff = options.cutoff.unwrap_or(own.cutoff.min(UNDER * Fit::highest(tick)));
-        let mut fit = Fit { cutoff, ..own };
-        if !self.held {
-            fit.delay = 0.0;
-        }
+        let mut fit = Fit { cutoff, delay: self.delay, ..own };
         let gears = effects.iter().find_map(|effect| match effect {
             JointEffect::Load => Some(Gears::Load([[0.0; 2]; V])),
             JointEffect::Preslide => Some(Gears::Presliding([[0.0; 3]; V])),
@@ -177,36 +171,37 @@ impl Task<'_> {
         Ok(Estimate { arm, bodies, joints, nominal, known, fit, found, delay_end })
     }
 
-    /// The speed of Stribeck's effect that leaves the least of the torques, if it is identified.
-    fn stribeck<const V: usize>(&self, parts: [&TickRecording<V>; 2]) -> Result<Option<f64>> {
-        let effects = &self.options.effects;
-        if !effects.contains(&JointEffect::Stribeck) {
-            return Ok(None);
-        }
-        let first = self.estimate(parts, effects, None, None)?;
-        let each = SPEEDS.map(|times| {
-            let speed = times * self.options.width;
-            let found = self.estimate(parts, effects, Some(speed), Some(first.fit.delay))?.found;
-            Ok((found.noise.iter().map(|noise| noise.ln()).sum::<f64>(), speed))
-        });
-        let each = each.into_iter().collect::<Result<Vec<_>>>()?;
-        Ok(each.into_iter().min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, speed)| speed))
-    }
-
-    /// The fit of a part of a recording, with the speed and the delay of another fit.
-    pub fn attempt<const V: usize>(
+    /// The base parameters with the speed of Stribeck's effect that leaves the least of the torques,
+    /// if it is identified.
+    pub fn best_base<const V: usize>(
         &self,
         whole: &TickRecording<V>,
         part: &TickRecording<V>,
-        like: Option<Like>,
+    ) -> Result<Base<V>> {
+        let plain = self.base(whole, None)?;
+        if !self.options.effects.contains(&JointEffect::Stribeck) {
+            return Ok(plain);
+        }
+        let first = self.estimate(plain, part, None)?;
+        let each = SPEEDS.map(|times| {
+            let arm = self.base(whole, Some(times * self.options.width))?;
+            let found = self.estimate(arm.clone(), part, Some(first.fit.delay))?.found;
+            Ok((found.noise.iter().map(|noise| noise.ln()).sum::<f64>(), arm))
+        });
+        let each = each.into_iter().collect::<Result<Vec<_>>>()?;
+        let best = each.into_iter().min_by(|a, b| a.0.total_cmp(&b.0));
+        Ok(best.map_or(first.arm, |(_, arm)| arm))
+    }
+
+    /// The fit of a part of a recording at this delay, s; estimated if not given.
+    pub fn attempt<const V: usize>(
+        &self,
+        arm: Base<V>,
+        part: &TickRecording<V>,
+        delay: Option<f64>,
     ) -> Result<Attempt<V>> {
         let options = self.options;
-        let speed = match like {
-            Some(like) => like.stribeck,
-            None => self.stribeck([whole, part])?,
-        };
-        let delay = like.and_then(|like| like.delay);
-        let estimate = self.estimate([whole, part], &options.effects, speed, delay)?;
+        let estimate = self.estimate(arm, part, delay)?;
         let Estimate { arm, bodies, joints, nominal, known, fit, found, .. } = &estimate;
         let largest = arm.limits.torque;
         let believed = believed(arm, found, nominal, joints, &options.effects);
@@ -232,21 +227,19 @@ impl Task<'_> {
             pairs.map(|(a, b)| std::array::from_fn(|j| a[j] - b[j])).collect();
         let most = largest.into_iter().fold(0.0, f64::max);
         let largest = largest.map(|own| own.max(LIGHT * most) / MARGIN);
-        let share = |j: usize| {
+        let shares = std::array::from_fn(|j| {
             let squares: f64 = left.iter().map(|left| left[j].powi(2)).sum();
             (squares / left.len() as f64).sqrt() / largest[j]
-        };
-        let (shares, noise) = (std::array::from_fn(share), part.noise(fit.cutoff));
-        let noise = std::array::from_fn(|j| noise[j] / largest[j]);
-        Ok(Attempt { estimate, set, left, largest, shares, noise, stribeck: speed })
+        });
+        Ok(Attempt { estimate, set, left, largest, shares })
     }
 }
 
-/// The residuals that a robot of another kind leaves at a joint, relative to its largest torque,
+/// The largest residuals that a robot of another kind leaves at a joint, relative to its largest
+/// torque,
 pub(crate) const EXPLAINED: f64 = 0.06;
-/// and those from which on nothing is offered to paste; of the noise, so many times.
-const UNEXPLAINED: f64 = 0.12;
-const OF_NOISE: f64 = 3.0;
+/// and those from which on nothing is offered to paste.
+pub(crate) const UNEXPLAINED: f64 = 0.12;
 
 impl<const V: usize> Attempt<V> {
     /// The mean squares of the residuals relative to the joints' largest torques, summed.
@@ -256,13 +249,7 @@ impl<const V: usize> Attempt<V> {
 
     /// Whether the residuals are near the noise.
     pub fn is_explained(&self) -> bool {
-        let of_joint = |(share, noise): (&f64, &f64)| *share <= (OF_NOISE * noise).max(EXPLAINED);
-        self.shares.iter().zip(&self.noise).all(of_joint)
-    }
-
-    /// Whether residuals of this share are too large to be offered.
-    pub fn is_bad(&self, joint: usize, share: f64) -> bool {
-        share > (OF_NOISE * self.noise[joint]).max(UNEXPLAINED)
+        self.shares.iter().all(|share| *share <= EXPLAINED)
     }
 }
 

@@ -5,6 +5,8 @@
 //! is short relative to the periods of the motion. The result of a scan is the minimum of the
 //! parabola through the least value and its neighbours.
 
+use std::collections::BTreeMap;
+
 use crate::{Fit, Fitted, IdentificationError};
 
 /// The distance of delays that are compared, s; a tick if that is longer. So many of them on either
@@ -45,20 +47,15 @@ pub fn least<const V: usize>(
     // A recording too short for a later time says nothing of it.
     let square =
         |place: i32| at(step * f64::from(place)).map_or(f64::INFINITY, |found| score(&found));
-    let mut squares: Vec<(i32, f64)> = (-AROUND..=AROUND).map(|k| (k, square(k))).collect();
-    let least = loop {
-        let ends = [0, squares.len() - 1];
-        let all = 0..squares.len();
-        let Some(least) = all.min_by(|a, b| squares[*a].1.total_cmp(&squares[*b].1)) else {
-            return Ok((first, None));
-        };
-        let (place, own) = squares[least];
-        if own.is_finite() && ends.contains(&least) && place.abs() < FARTHEST {
-            let next = place + place.signum();
-            squares.insert(if next < 0 { 0 } else { squares.len() }, (next, square(next)));
-        } else {
-            break least;
+    let mut squares: BTreeMap<i32, f64> = (-AROUND..=AROUND).map(|k| (k, square(k))).collect();
+    let (place, own) = loop {
+        let least = squares.iter().min_by(|a, b| a.1.total_cmp(b.1));
+        let (place, own) = least.map_or((0, f64::INFINITY), |(place, own)| (*place, *own));
+        let next = place + place.signum();
+        if own.is_infinite() || place.abs() == FARTHEST || squares.contains_key(&next) {
+            break (place, own);
         }
+        squares.insert(next, square(next));
     };
     let share = match first.gears {
         Some(_) => SHARE_WITH_GEARS,
@@ -66,10 +63,8 @@ pub fn least<const V: usize>(
     };
     let bound = share * score(&first);
     let is_lower = |own: f64| own < bound;
-    let (place, own) = squares[least];
-    let beside = [least.wrapping_sub(1), least + 1].map(|at| squares.get(at).map(|of| of.1));
-    let [Some(early), Some(late)] = beside.map(|square| square.filter(|own| own.is_finite()))
-    else {
+    let beside = [place - 1, place + 1].map(|at| squares.get(&at).filter(|own| own.is_finite()));
+    let [Some(early), Some(late)] = beside else {
         return Ok((first, is_lower(own).then_some(step * f64::from(place))));
     };
     let bend = (early - 2.0 * own + late).max(f64::MIN_POSITIVE);

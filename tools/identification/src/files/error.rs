@@ -129,21 +129,9 @@ pub enum Problem {
     Jitter { interval: f64, jitter: f64 },
     #[error("it has no two rows with a time, from which the length of a tick follows")]
     NoTick,
-    #[error(
-        "the torque of `{joint}` is {value} in every row: it was not recorded. --lock or --joints \
-         leave the joint out"
-    )]
-    Constant { joint: String, value: f64 },
-    #[error(
-        "the position of `{joint}` is exactly {value:.4} from {from:.3} s to {to:.3} s after the \
-         start while the joint moves: its encoder stood still. Nothing is fitted to this record"
-    )]
-    Still { joint: String, value: f64, from: f64, to: f64 },
-    #[error(
-        "{count} of {rows} positions of `{joint}` jump beyond its greatest speed and come back: \
-         its encoder or its unit is wrong. Nothing is fitted to this record"
-    )]
-    Jumps { joint: String, count: usize, rows: usize },
+    /// Positions or torques that say nothing.
+    #[error("the {channel} {how}. Nothing is fitted to this record")]
+    Channel { channel: String, how: String },
     #[error("no row has `{column}` = `{is}`, in which the controller makes the torque")]
     NoRows { column: String, is: String },
     #[error("MCAP: {0}")]

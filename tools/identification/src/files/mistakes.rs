@@ -1,27 +1,31 @@
-//! Mistakes in a recording: a wrong unit, a reversed sign, shifted zeros, swapped columns, a joint
-//! whose torques are late, another mounting.
+//! Mistakes in a recording: a wrong unit, a reversed sign, shifted zeros, swapped columns, another
+//! mounting.
 //!
-//! If no physically possible robot fits a recording, each mistake is corrected on trial and the
-//! recording is fitted again. The mistake whose correction lowers the residuals most is reported if
-//! they are near the noise then.
+//! If no physically possible robot fits a recording, each mistake is corrected on trial and a part
+//! of the recording is fitted again, at a lower rate. The mistake whose correction lowers the
+//! residuals most is reported if they are near the noise then.
 
 use crate::{OfJoint, Parameter, TickRecording};
 
-use super::attempt::{Attempt, Estimate, Like, Task, own};
+use super::attempt::{Attempt, EXPLAINED, Estimate, Options, Task, own};
 pub use super::mistake::Mistake;
 
 /// A physical set at more than this distance from the estimate, in standard deviations, does not
 /// fit.
 pub const IMPOSSIBLE: f64 = 3.0;
 /// Mistakes are looked for if the residuals exceed this share of the joints' largest torques.
-const UNEXPLAINED: f64 = 0.02;
+const NOISE: f64 = 0.02;
 /// A mistake is reported if its correction lowers the mean square of the residuals to this share.
-const EXPLAINED: f64 = 0.6;
+const MENDED: f64 = 0.6;
 /// The same of a zero, which also other centres of mass explain in part.
-const EXPLAINED_BY_ZERO: f64 = 0.85;
+const MENDED_BY_ZERO: f64 = 0.85;
+/// The squares of what several zeros leave count so many times: they have more freedom than one.
+const SEVERAL: f64 = 1.5;
+/// A correction that lowers them to this share ends the search.
+const PLAIN: f64 = 0.03;
 /// The unit of torque is wrong if the torques exceed those of the description, or are exceeded by
-/// them, by this factor.
-const OTHER_UNIT: f64 = 5.0;
+/// them, by this factor; masses of a description may be off by less.
+const OTHER_UNIT: f64 = 10.0;
 /// A friction below zero by this number of standard deviations indicates a reversed sign.
 const REVERSED: f64 = 3.0;
 /// The longest step of a zero, rad or m, and the largest number of steps.
@@ -29,110 +33,157 @@ const FARTHEST: f64 = 0.2;
 const STEPS: usize = 4;
 /// The smallest and the largest shift of a zero that is reported, rad or m.
 const SHIFTS: [f64; 2] = [0.01, 0.5];
-/// The squares of what several zeros leave count so many times: they have more freedom than one.
-const SEVERAL: f64 = 1.5;
-/// The time by which the torques of a single joint are moved for the first comparison, s.
-const LATE: f64 = 0.02;
-/// A correction that lowers them to this share ends the search.
-const PLAIN: f64 = 0.03;
-/// A correction that lowers the squares of the residuals to this share has its own delay.
-const NEARLY: f64 = 0.25;
-/// The search for a zero ends if more than this share of the residuals remains.
-const MENDED: f64 = 0.8;
+/// A position that changes by less is constant, rad or m.
+const DEAD: f64 = 1e-9;
+/// The least tick of the trials, s, and the most ticks.
+const TICK: f64 = 16e-3;
+const TICKS: f64 = 3000.0;
 
-/// A change of a recording.
-type Change<'a, const V: usize> = &'a dyn Fn(&TickRecording<V>) -> TickRecording<V>;
-/// A change of the positions and torques of a tick.
-type Changed<'a, const V: usize> = &'a dyn Fn([f64; V], [f64; V]) -> ([f64; V], [f64; V]);
-
-/// A recording, its fit, and what was tried to explain what the fit leaves.
-pub(crate) struct Trials<'a, const V: usize> {
-    pub task: Task<'a>,
-    pub whole: &'a TickRecording<V>,
-    pub part: &'a TickRecording<V>,
-    pub first: &'a Attempt<V>,
-    pub names: &'a [String],
-    /// The squares of the residuals with each correction, the largest share, and whether it
-    /// explains the recording.
-    tried: Vec<(f64, f64, bool, Mistake)>,
+/// A change of each tick and of the base.
+#[derive(Clone, Copy)]
+struct Correction<const V: usize> {
+    /// The columns of the positions and of the torques, and their factors.
+    columns: [[usize; V]; 2],
+    factors: [[f64; V]; 2],
+    shifts: [f64; V],
+    gravity: [f64; 3],
 }
 
-impl<'a, const V: usize> Trials<'a, V> {
-    pub fn new(
-        task: Task<'a>,
-        [whole, part]: [&'a TickRecording<V>; 2],
-        first: &'a Attempt<V>,
-        names: &'a [String],
-    ) -> Self {
-        Self { task, whole, part, first, names, tried: Vec::new() }
+impl<const V: usize> Correction<V> {
+    fn of(&self, recording: &TickRecording<V>) -> TickRecording<V> {
+        recording.map(|q, tau| {
+            let of = |k: usize, x: [f64; V]| -> [f64; V] {
+                std::array::from_fn(|j| self.factors[k][j] * x[self.columns[k][j]])
+            };
+            let q = of(0, q);
+            (std::array::from_fn(|j| q[j] + self.shifts[j]), of(1, tau))
+        })
+    }
+}
+
+/// A mistake, and the fit after its correction.
+struct Tried<const V: usize> {
+    mistake: Mistake,
+    correction: Correction<V>,
+    fit: Attempt<V>,
+}
+
+impl<const V: usize> Tried<V> {
+    /// What the correction leaves; several zeros have more freedom than one.
+    fn cost(&self) -> f64 {
+        match &self.mistake {
+            Mistake::Zero { shifts } if shifts.len() > 1 => SEVERAL * self.fit.residual(),
+            _ => self.fit.residual(),
+        }
+    }
+}
+
+/// A part of a recording at a lower rate, its fit without a correction, and the best one so far.
+struct Trials<'a, const V: usize> {
+    task: Task<'a>,
+    recordings: [TickRecording<V>; 2],
+    names: &'a [String],
+    none: Correction<V>,
+    first: &'a Attempt<V>,
+    best: Option<Tried<V>>,
+}
+
+/// The mistake that explains an estimate which no robot has, or residuals that the model leaves, if
+/// one does.
+pub(crate) fn explains<const V: usize>(
+    task: Task<'_>,
+    recordings: [&TickRecording<V>; 2],
+    first: &Attempt<V>,
+    names: &[String],
+) -> Option<Mistake> {
+    // A joint whose encoder is dead moves as no correction makes it move.
+    if recordings[0].extremes().iter().any(|[low, high, _]| high - low < DEAD) {
+        return None;
+    }
+    let (factor, reversed) = (unit(first), reversed(first));
+    let is_unit = !(OTHER_UNIT.recip()..=OTHER_UNIT).contains(&factor);
+    let is_possible = first.set.misfit < IMPOSSIBLE && first.residual() < NOISE.powi(2);
+    if is_possible && reversed.is_empty() && !is_unit {
+        return None;
+    }
+    let options = Options { cutoff: None, ..task.options.clone() };
+    let lower = |all: &TickRecording<V>| {
+        let means = (TICK / all.tick()).round().max(1.0) as usize;
+        all.split((TICKS * means as f64 / all.ticks() as f64).min(1.0)).0.means(means)
+    };
+    let mut trials = Trials {
+        task: Task { options: &options, ..task },
+        recordings: recordings.map(lower),
+        names,
+        none: Correction {
+            columns: [std::array::from_fn(|j| j); 2],
+            factors: [[1.0; V]; 2],
+            shifts: [0.0; V],
+            gravity: task.gravity,
+        },
+        first,
+        best: None,
+    };
+    if is_unit {
+        let factors = [[1.0; V], [factor.recip(); V]];
+        let fit = trials.fit(&Correction { factors, ..trials.none });
+        if fit.is_some_and(|fit| fit.is_explained()) {
+            return Some(Mistake::Unit { factor });
+        }
+    }
+    let before = trials.fit(&trials.none)?;
+    let is_plain = |trials: &Trials<'_, V>| {
+        trials.best.as_ref().is_some_and(|best| best.cost() < PLAIN * before.residual())
+    };
+    trials.signs(&reversed);
+    if !is_plain(&trials) {
+        trials.zeros(&before);
+    }
+    if !is_plain(&trials) && !before.is_explained() {
+        trials.swapped(&before);
+        trials.mounted();
+    }
+    let mut best = trials.best.take()?;
+    if !best.fit.is_explained() {
+        // A delay is another mistake, and was estimated with this one.
+        best.fit = trials.at(&best.correction, None)?;
+    }
+    let share = match best.mistake {
+        Mistake::Zero { .. } => MENDED_BY_ZERO,
+        _ => MENDED,
+    };
+    let is_lower = best.fit.residual() < share * before.residual();
+    (is_lower && best.fit.is_explained()).then_some(best.mistake)
+}
+
+impl<const V: usize> Trials<'_, V> {
+    /// The fit after a correction at this delay.
+    fn at(&self, correction: &Correction<V>, delay: Option<f64>) -> Option<Attempt<V>> {
+        let [whole, part] = self.recordings.each_ref().map(|all| correction.of(all));
+        let task = Task { gravity: correction.gravity, ..self.task };
+        // Nothing is explained by what leads beyond the joints' limits.
+        let arm = task.base(&whole, self.first.estimate.arm.friction.stribeck).ok()?;
+        task.attempt(arm, &part, delay).ok()
     }
 
-    /// The mistake that explains an estimate which no robot has, or residuals that the model
-    /// leaves, if one does.
-    pub fn explains(&mut self) -> Option<Mistake> {
-        let first = self.first;
-        let factor = unit(first);
-        if is_unit(first, factor) {
-            self.each(Mistake::Unit { factor }, &|q, tau| (q, tau.map(|tau| tau / factor)));
-            if first.is_explained() {
-                return Some(Mistake::Unit { factor });
-            }
-        }
-        let reversed = reversed(first);
-        let is_possible = first.set.misfit < IMPOSSIBLE && first.residual() < UNEXPLAINED.powi(2);
-        if is_possible && reversed.is_empty() {
-            return None;
-        }
-        let steps: [&dyn Fn(&mut Self); 5] = [
-            &|all| all.signs(&reversed),
-            &Self::zeros,
-            &Self::late,
-            &Self::swapped,
-            &Self::mounted,
-        ];
-        // A correction that leaves more may hide another mistake, and the search goes on.
-        for step in steps {
-            step(self);
-            if let Some((_, mistake)) = self.best().filter(|(left, _)| *left < PLAIN) {
-                return Some(mistake);
-            }
-        }
-        self.best().map(|(_, mistake)| mistake)
-    }
-
-    /// The fit after a change, with the delay of the first fit and without one.
-    fn after(&self, task: Task<'_>, to: Change<'_, V>) -> Option<(TickRecording<V>, Attempt<V>)> {
-        let [whole, part] = [self.whole, self.part].map(to);
-        let own = self.first.estimate.fit.delay;
-        let mut delays = vec![own, if task.held { 0.5 * part.tick() } else { 0.0 }];
+    /// The same without a delay, or with that of the first fit.
+    fn fit(&self, correction: &Correction<V>) -> Option<Attempt<V>> {
+        let mut delays = vec![self.task.delay, self.first.estimate.fit.delay];
         delays.dedup();
-        let fit = |delay| {
-            let like = Like { stribeck: self.first.stribeck, delay: Some(delay) };
-            // Nothing is explained by what leads beyond the joints' limits.
-            task.attempt(&whole, &part, Some(like)).ok()
-        };
-        let fits = delays.into_iter().filter_map(fit);
-        let best = fits.min_by(|a, b| a.residual().total_cmp(&b.residual()))?;
-        Some((part, best))
+        let fits = delays.into_iter().filter_map(|delay| self.at(correction, Some(delay)));
+        fits.min_by(|a, b| a.residual().total_cmp(&b.residual()))
     }
 
-    fn add(&mut self, mistake: Mistake, found: Option<&Attempt<V>>) {
-        self.tried.extend(found.map(|found| {
-            let worst = found.shares.into_iter().fold(0.0, f64::max);
-            (found.residual(), worst, found.is_explained(), mistake)
-        }));
-    }
-
-    /// A change in each tick; with the delay that it has, if it lowers the residuals by far and
-    /// leaves more than noise.
-    fn each(&mut self, mistake: Mistake, to: Changed<'_, V>) {
-        let to = |recording: &TickRecording<V>| recording.map(to);
-        let Some((part, mut found)) = self.after(self.task, &to) else { return };
-        if found.residual() < NEARLY * self.first.residual() && !found.is_explained() {
-            let like = Like { stribeck: self.first.stribeck, delay: None };
-            found = self.task.attempt(&to(self.whole), &part, Some(like)).unwrap_or(found);
+    fn add(&mut self, mistake: Mistake, correction: Correction<V>) {
+        if let Some(fit) = self.fit(&correction) {
+            self.keep(Tried { mistake, correction, fit });
         }
-        self.add(mistake, Some(&found));
+    }
+
+    fn keep(&mut self, tried: Tried<V>) {
+        if self.best.as_ref().is_none_or(|best| tried.cost() < best.cost()) {
+            self.best = Some(tried);
+        }
     }
 
     /// The torques or the positions of joints with the other sign.
@@ -141,180 +192,72 @@ impl<'a, const V: usize> Trials<'a, V> {
             true => (0..V).map(|joint| vec![joint]).collect(),
             false => vec![reversed.to_vec()],
         };
-        for joints in each {
-            let turned = |x: [f64; V]| -> [f64; V] {
-                std::array::from_fn(|j| if joints.contains(&j) { -x[j] } else { x[j] })
+        for (joints, k) in each.iter().flat_map(|joints| [(joints, 1), (joints, 0)]) {
+            let mut correction = self.none;
+            joints.iter().for_each(|&j| correction.factors[k][j] = -1.0);
+            let joints = joints.iter().map(|&j| self.names[j].clone()).collect();
+            let mistake = match k {
+                1 => Mistake::TorqueSign { joints },
+                _ => Mistake::PositionSign { joints },
             };
-            let named: Vec<String> = joints.iter().map(|&j| self.names[j].clone()).collect();
-            let torque = Mistake::TorqueSign { joints: named.clone() };
-            self.each(torque, &|q, tau| (q, turned(tau)));
-            self.each(Mistake::PositionSign { joints: named }, &|q, tau| (turned(q), tau));
+            self.add(mistake, correction);
         }
     }
 
-    /// The zero of each joint, and those of all together.
-    fn zeros(&mut self) {
-        let [least, most] = SHIFTS;
-        for only in (0..V).map(Some).chain([None]) {
-            let Some((shift, found)) = self.shifted(only) else { continue };
-            let named = shift.iter().zip(self.names).filter(|(shift, _)| shift.abs() >= least);
-            let shifts: Vec<(String, f64)> = named.map(|(s, name)| (name.clone(), *s)).collect();
-            if shifts.is_empty() || shift.iter().any(|shift| shift.abs() > most) {
-                continue;
-            }
-            let mistake = match &shifts[..] {
-                [(joint, shift)] => Mistake::Zero { joint: joint.clone(), shift: *shift },
-                _ => Mistake::Zeros { shifts },
-            };
-            self.add(mistake, Some(&found));
-        }
-    }
-
-    /// The shifts of the zero of a joint, or of all, that leave the least residuals, by steps of
-    /// Gauss and Newton.
-    fn shifted(&self, only: Option<usize>) -> Option<([f64; V], Attempt<V>)> {
-        let before = self.first.residual();
-        let (mut shift, mut best) = ([0.0; V], None);
-        let (mut left, mut step) = (before, self.first.shifts(self.part, only).ok()?);
-        for _ in 0..STEPS {
-            let to: [f64; V] =
-                std::array::from_fn(|j| shift[j] + step[j].clamp(-FARTHEST, FARTHEST));
-            let moved = |q: [f64; V], tau| (std::array::from_fn(|j| q[j] + to[j]), tau);
-            let corrected = self.after(self.task, &|recording| recording.map(moved));
-            let Some((part, found)) = corrected.filter(|(_, found)| found.residual() < left) else {
-                break;
-            };
-            (shift, left) = (to, found.residual());
-            let next = found.shifts(&part, only);
-            best = Some(found);
-            step = next.ok()?;
-            if step.iter().all(|step| step.abs() < 0.1 * SHIFTS[0]) || left > MENDED * before {
-                break;
-            }
-        }
-        best.map(|best| (shift, best))
-    }
-
-    /// The torques of one joint earlier or later: the minimum of a parabola.
-    fn late(&mut self) {
-        let before = self.first.residual();
-        let worst = self.first.shares.into_iter().fold(0.0, f64::max);
-        for joint in (0..V).filter(|&joint| self.first.shares[joint] > 0.5 * worst) {
-            let ticks = |seconds: f64| (seconds / self.part.tick()).round() as isize;
-            let moved = |ticks: isize| self.after(self.task, &|all| all.later(joint, ticks));
-            let square = |ticks| moved(ticks).map(|(_, found)| found.residual());
-            let step = ticks(LATE).max(1);
-            let Some([late, early]) = square(step).zip(square(-step)).map(<[f64; 2]>::from) else {
-                continue;
-            };
-            let bend = (early - 2.0 * before + late).max(f64::MIN_POSITIVE);
-            let place = (0.5 * (early - late) / bend).clamp(-2.0, 2.0);
-            let by = (place * step as f64).round() as isize;
-            let found = moved(by).filter(|_| by != 0);
-            let (joint, seconds) = (self.names[joint].clone(), self.part.tick() * by as f64);
-            self.add(Mistake::Late { joint, seconds }, found.as_ref().map(|(_, found)| found));
-        }
-    }
-
-    /// Two torques, or two positions, in each other's columns, and radians that a map takes as
-    /// degrees.
-    fn swapped(&mut self) {
-        if self.first.is_explained() {
-            return;
-        }
-        self.each(Mistake::Radians, &|q, tau| (q.map(f64::to_degrees), tau));
-        let is_bad = |joint: &usize| self.first.shares[*joint] > super::attempt::EXPLAINED;
-        let bad: Vec<usize> = (0..V).filter(is_bad).collect();
-        for (&a, &b) in
-            bad.iter().flat_map(|b| bad.iter().take_while(|a| *a < b).map(move |a| (a, b)))
-        {
-            for are_torques in [true, false] {
-                let swap = |mut x: [f64; V], is_wanted: bool| {
-                    if is_wanted {
-                        x.swap(a, b);
-                    }
-                    x
+    /// The zero of the joint whose zero explains most, and those of all together, by steps of Gauss
+    /// and Newton.
+    fn zeros(&mut self, before: &Attempt<V>) {
+        for mut among in [(0..V).map(Some).collect(), vec![None]] {
+            let (mut correction, mut best) = (self.none, None::<Attempt<V>>);
+            for _ in 0..STEPS {
+                let last = best.as_ref().unwrap_or(before);
+                let part = correction.of(&self.recordings[1]);
+                let Ok((only, step)) = last.shifts(&part, &among) else { break };
+                if step.iter().all(|step| step.abs() < 0.1 * SHIFTS[0]) {
+                    break;
+                }
+                let mut next = correction;
+                let steps = next.shifts.iter_mut().zip(step);
+                steps.for_each(|(shift, step)| *shift += step.clamp(-FARTHEST, FARTHEST));
+                let Some(fit) = self.fit(&next).filter(|fit| fit.residual() < last.residual())
+                else {
+                    break;
                 };
+                (correction, best, among) = (next, Some(fit), vec![only]);
+            }
+            let named = correction.shifts.into_iter().zip(self.names);
+            let named = named.filter(|(shift, _)| shift.abs() >= SHIFTS[0]);
+            let shifts: Vec<_> = named.map(|(shift, name)| (name.clone(), shift)).collect();
+            let is_near = correction.shifts.iter().all(|shift| shift.abs() <= SHIFTS[1]);
+            if let Some(fit) = best.filter(|_| is_near && !shifts.is_empty()) {
+                self.keep(Tried { mistake: Mistake::Zero { shifts }, correction, fit });
+            }
+        }
+    }
+
+    /// Two torques, or two positions, in each other's columns.
+    fn swapped(&mut self, before: &Attempt<V>) {
+        let bad: Vec<usize> = (0..V).filter(|&j| before.shares[j] > EXPLAINED).collect();
+        for (at, &b) in bad.iter().enumerate() {
+            for (&a, are_torques) in bad[..at].iter().flat_map(|a| [(a, true), (a, false)]) {
+                let mut correction = self.none;
+                correction.columns[usize::from(are_torques)].swap(a, b);
                 let joints = [a, b].map(|j| self.names[j].clone());
-                self.each(Mistake::Swapped { joints, are_torques }, &|q, tau| {
-                    (swap(q, !are_torques), swap(tau, are_torques))
-                });
+                self.add(Mistake::Swapped { joints, are_torques }, correction);
             }
         }
     }
 
     /// The base on a wall or a ceiling.
     fn mounted(&mut self) {
-        if self.first.is_explained() {
-            return;
-        }
         for (axis, sign) in (0..3).flat_map(|axis| [(axis, 1.0), (axis, -1.0)]) {
             let mut gravity = [0.0; 3];
             gravity[axis] = sign;
             if gravity != self.task.gravity {
-                let task = Task { gravity, ..self.task };
-                let found = self.after(task, &TickRecording::clone);
-                self.add(Mistake::Mounting { gravity }, found.as_ref().map(|(_, found)| found));
+                self.add(Mistake::Mounting { gravity }, Correction { gravity, ..self.none });
             }
         }
     }
-
-    /// The correction with the least residuals, and the share of their squares that it leaves, if
-    /// they are near the noise.
-    fn best(&self) -> Option<(f64, Mistake)> {
-        let several = |mistake: &Mistake| matches!(mistake, Mistake::Zeros { .. });
-        let cost = |(left, _, _, mistake): &&(f64, f64, bool, Mistake)| {
-            left * if several(mistake) { SEVERAL } else { 1.0 }
-        };
-        let (left, _, is_explained, mistake) =
-            self.tried.iter().min_by(|a, b| cost(a).total_cmp(&cost(b)))?;
-        let share = match mistake {
-            Mistake::Zero { .. } | Mistake::Zeros { .. } => EXPLAINED_BY_ZERO,
-            _ => EXPLAINED,
-        };
-        let is_lower = *left < share * self.first.residual();
-        (is_lower && *is_explained).then(|| (left / self.first.residual(), mistake.clone()))
-    }
-
-    /// The largest share of a torque that the best correction of each kind leaves.
-    pub fn kinds(&self) -> Vec<(String, f64)> {
-        let mut kinds: Vec<(String, f64)> = Vec::new();
-        for (_, worst, _, mistake) in &self.tried {
-            // The name in the JSON.
-            let all = serde_json::to_value(mistake).unwrap_or_default();
-            let kind = all["kind"].as_str().unwrap_or_default().replace('_', " ");
-            match kinds.iter_mut().find(|(own, _)| *own == kind) {
-                Some((_, least)) => *least = least.min(*worst),
-                None => kinds.push((kind, *worst)),
-            }
-        }
-        kinds
-    }
-}
-
-/// Whether a ratio of the estimate's moments of mass to the description's is that of a unit: the
-/// frictions that the description has are then off by it, too.
-fn is_unit<const V: usize>(attempt: &Attempt<V>, factor: f64) -> bool {
-    let bound = match frictions(attempt) {
-        Some(friction) if (friction.ln() - factor.ln()).abs() > friction.ln().abs() => {
-            return false;
-        }
-        Some(_) => OTHER_UNIT,
-        None => 2.0 * OTHER_UNIT,
-    };
-    !(bound.recip()..=bound).contains(&factor)
-}
-
-/// The ratio of the estimated frictions to the description's, if it has some.
-fn frictions<const V: usize>(attempt: &Attempt<V>) -> Option<f64> {
-    let Estimate { arm, found, nominal, .. } = &attempt.estimate;
-    let scales = arm.scales();
-    let all = (0..V).flat_map(|j| [OfJoint::Viscous, OfJoint::Coulomb].map(|of| own(arm, j, of)));
-    let sum = |of: &[f64]| -> f64 {
-        all.clone().flatten().map(|base| (scales[base] * of[base]).abs()).sum()
-    };
-    let [found, nominal] = [&found.base, nominal].map(|of| sum(of));
-    (nominal > 0.0 && found > 0.0).then(|| found / nominal)
 }
 
 /// The ratio of the estimated first moments of mass to the description's, by least squares

@@ -10,7 +10,6 @@ use crate::OF_JOINT;
 
 use super::attempt::{JointEffect, OfOneJoint};
 use super::kinds::FrictionKind;
-use super::look::{Look, Spike};
 use super::mistakes::{IMPOSSIBLE, Mistake};
 use super::resample::Sampling;
 
@@ -26,8 +25,8 @@ pub struct Findings {
     /// The length of a tick, s.
     pub tick: f64,
     pub sampling: Sampling,
-    /// What was changed in the samples before the fit.
-    pub look: Look,
+    /// What was found and changed in the samples before the fit.
+    pub look: Vec<String>,
     /// Whether a torque is held until the next tick.
     pub held: bool,
     /// The frequency up to which torques were compared, Hz.
@@ -239,27 +238,7 @@ impl Findings {
             "record: {gaps} gaps of {gap_seconds:.2} s in all; rows dropped: {left_out} on hold or \
              incomplete, {duplicates} with the time of the row before, {backward} with an earlier one"
         );
-        let Look { spikes, turns } = &self.look;
-        for (joint, count) in turns {
-            let _ = writeln!(
-                text,
-                "warning: {count} jumps of the position of `{joint}` by whole turns were undone"
-            );
-        }
-        if !spikes.is_empty() {
-            let kind = |is_torque| if is_torque { "torque" } else { "position" };
-            let row = |one: &Spike| {
-                format!("{:.3} s ({} of `{}`)", one.time, kind(one.is_torque), one.joint)
-            };
-            let more = if self.sampling.spikes > spikes.len() { ", …" } else { "" };
-            let rows: Vec<String> = spikes.iter().map(row).collect();
-            let _ = writeln!(
-                text,
-                "warning: {} rows were dropped in which a single sample jumps and comes back: {}{more}",
-                self.sampling.spikes,
-                rows.join(", ")
-            );
-        }
+        self.look.iter().for_each(|found| *text += &format!("warning: {found}\n"));
         if self.sampling.is_resampled {
             let [rms, largest] = self.sampling.jitter.map(|share| 100.0 * share);
             let [error, missing] = self.sampling.error(self.cutoff, self.tick);
@@ -283,24 +262,18 @@ impl Findings {
             false => (0.0, "the time of its position"),
         };
         let lag = own - self.delay;
-        if let Some(end) = self.delay_end {
-            let _ = writeln!(
-                text,
+        *text += &match (self.delay_end, &self.mistake, lag) {
+            (Some(end), ..) => format!(
                 "warning: the residuals fall up to the end of the search for a delay of the \
-                 torques, {} ms, which is no estimate and is not used",
+                 torques, {} ms, which is no estimate and is not used\n",
                 short(-1e3 * end)
-            );
-            return;
-        }
-        if matches!(self.mistake, Some(Mistake::NotExplained { .. })) {
-            *text += "delay: not known, since the residuals are not explained\n";
-            return;
-        }
-        let _ = match lag {
-            0.0 => writeln!(text, "delay: none; each torque belongs to {ends}"),
-            _ => writeln!(
-                text,
-                "warning: the torques {} the positions by {} ms; the fit takes this into account",
+            ),
+            (_, Some(Mistake::NotExplained { .. }), _) => {
+                "delay: not known, since the residuals are not explained\n".to_owned()
+            }
+            (.., 0.0) => format!("delay: none; each torque belongs to {ends}\n"),
+            _ => format!(
+                "warning: the torques {} the positions by {} ms; the fit takes this into account\n",
                 if lag > 0.0 { "lag behind" } else { "are ahead of" },
                 short(1e3 * lag.abs())
             ),
@@ -363,7 +336,7 @@ impl Findings {
         self.masses(text);
         match &self.mistake {
             Some(mistake @ Mistake::NotExplained { .. }) => {
-                let _ = writeln!(text, "warning: {mistake}");
+                let _ = writeln!(text, "warning: the recording is {mistake}");
             }
             Some(mistake) => {
                 let _ = writeln!(

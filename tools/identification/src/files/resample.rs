@@ -31,8 +31,6 @@ pub struct Sampling {
     /// Rows with the time of the row before, and rows with an earlier one.
     pub duplicates: usize,
     pub backward: usize,
-    /// Rows in which a position or a torque jumps and comes back.
-    pub spikes: usize,
     /// Gaps between stretches, and their duration, s.
     pub gaps: usize,
     pub gap_seconds: f64,

@@ -9,12 +9,12 @@ use dynamics_core::spatial::SpatialInertia;
 
 use crate::fit::lagged;
 
-use super::attempt::{Attempt, Estimate, Task, bell, own, possible};
+use super::attempt::{Attempt, Estimate, Task, UNEXPLAINED, bell, own, possible};
 pub use super::attempt::{JointEffect, Options};
 use super::error::{Error, Result};
 use super::kinds;
 use super::look;
-use super::mistakes::{Mistake, Trials};
+use super::mistakes::{self, Mistake};
 use super::recorded::Recorded;
 use super::report::{
     BodyFound, Findings, Gear, JointFound, Numbers, ParameterFound, RecordingPart, Trace,
@@ -67,7 +67,7 @@ pub fn identify(
         };
     }
     #[cfg(feature = "files")]
-    return sized!(1 2 3 4 5 6 7 8 9 10 11 12);
+    return sized!(2 5 6); //TEMP
     #[cfg(not(feature = "files"))]
     sized!(1 2 3 4 5 6 7 8)
 }
@@ -78,25 +78,21 @@ fn of_size<const V: usize>(
     other: Option<(&Path, &Recorded)>,
     options: &Options,
 ) -> Result<Findings> {
-    let looked = |(path, recorded): (&Path, &Recorded)| {
-        let failed = |problem| Error::Recording { path: path.to_owned(), problem };
-        look::at(robot, recorded).map_err(failed)
-    };
-    let (recorded, look) = looked((path, recorded))?;
+    let (recorded, look) = look::at(robot, path, recorded)?;
     let other = match other {
-        Some(other) => Some((other.0, looked(other)?.0)),
+        Some((path, other)) => Some((path, look::at(robot, path, other)?.0)),
         None => None,
     };
-    let task = Task { robot, gravity: robot.gravity, path, options, held: recorded.held };
+    let delay = if recorded.held { 0.5 * recorded.tick } else { 0.0 };
+    let task = Task { robot, gravity: robot.gravity, path, options, delay };
     let whole: TickRecording<V> = recorded.ticks(path)?;
     let (fitted_part, held) = match &other {
         Some((path, other)) => (whole.clone(), other.ticks(path)?),
         None => whole.split(1.0 - options.hold_out),
     };
-    let attempt = task.attempt(&whole, &fitted_part, None)?;
+    let attempt = task.attempt(task.best_base(&whole, &fitted_part)?, &fitted_part, None)?;
     let names = robot.joints();
-    let mut trials = Trials::new(task, [&whole, &fitted_part], &attempt, &names);
-    let mistake = trials.explains();
+    let mistake = mistakes::explains(task, [&whole, &fitted_part], &attempt, &names);
     let Attempt { estimate, set, .. } = &attempt;
     let Estimate { arm, joints, nominal, known, fit, found, .. } = estimate;
     let pasted = set.joints;
@@ -111,7 +107,14 @@ fn of_size<const V: usize>(
         Err(IdentificationError::TooShort { .. }) if other.is_none() => None,
         validated => Some(validated.map_err(|source| task.failed(source))?),
     };
-    let mistake = mistake.or_else(|| not_explained(&trials, [Some(&own_part), validated.as_ref()]));
+    let mistake = mistake.or_else(|| {
+        let parts = [Some(&own_part), validated.as_ref()].into_iter().flatten();
+        let shares = parts
+            .flat_map(|of| (0..V).map(|j| (j, part(of, j).residuals[1].rms / attempt.largest[j])));
+        let worst =
+            shares.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, share)| *share > UNEXPLAINED);
+        worst.map(|(j, share)| Mistake::NotExplained { joint: names[j].clone(), share })
+    });
     let kinds = match (&mistake, &validated) {
         (None, Some(held)) => kinds::carried(options, [&own_part, held], &names),
         _ => Vec::new(),
@@ -176,7 +179,7 @@ fn of_size<const V: usize>(
     let curve = |j: usize, qd: f64| {
         let [viscous, coulomb, _, _, excess, asymmetry] = pasted[j];
         let s = smooth_sign(qd / options.width);
-        let excess = excess * attempt.stribeck.map_or(0.0, |speed| bell(s, qd, speed));
+        let excess = excess * arm.friction.stribeck.map_or(0.0, |speed| bell(s, qd, speed));
         viscous * qd + s * (coulomb + asymmetry * s) + excess
     };
     Ok(Findings {
@@ -191,7 +194,7 @@ fn of_size<const V: usize>(
         held_out_seconds: tick * held.ticks() as f64,
         other_path: other.is_some(),
         width: options.width,
-        stribeck_speed: attempt.stribeck,
+        stribeck_speed: arm.friction.stribeck,
         condition: found.condition,
         misfit: set.misfit,
         delay: fit.delay,
@@ -203,22 +206,6 @@ fn of_size<const V: usize>(
         bodies: (0..V).map(of_body).collect(),
         traces: traces(&names, validated.as_ref().unwrap_or(&own_part), curve),
     })
-}
-
-/// The residuals of the parts of a recording, if they are too large at a joint.
-fn not_explained<const V: usize>(
-    trials: &Trials<'_, V>,
-    parts: [Option<&Comparison<V>>; 2],
-) -> Option<Mistake> {
-    let largest = trials.first.largest;
-    let share = |j: usize| {
-        let rms = parts.into_iter().flatten().map(|of| part(of, j).residuals[1].rms);
-        rms.fold(0.0, f64::max) / largest[j]
-    };
-    let shares: [f64; V] = std::array::from_fn(share);
-    let is_bad = (0..V).any(|j| trials.first.is_bad(j, shares[j]));
-    let residuals = trials.names.iter().cloned().zip(shares).collect();
-    is_bad.then(|| Mistake::NotExplained { residuals, tried: trials.kinds() })
 }
 
 /// The residuals of a joint.

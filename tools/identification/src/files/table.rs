@@ -67,7 +67,7 @@ pub fn read(
             (true, 2) if fields.iter().all(|text| !text.is_empty() && !is_number(text)) => {}
             (true, _) => {
                 if separator == Some(b';') {
-                    fields = fields.iter().map(|text| pointed(text)).collect();
+                    fields = fields.iter().map(pointed).collect();
                 }
                 each(&titles, Some(&fields)).map_err(|problem| wrong(line, problem))?;
             }

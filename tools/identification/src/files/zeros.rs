@@ -20,13 +20,13 @@ const SHIFTED: f64 = 0.3;
 const KNOWN: f64 = 1e-9;
 
 impl<const V: usize> Attempt<V> {
-    /// By how much the positions of each joint are too small, or those of a joint whose zero is the
-    /// only one that is shifted, rad or m.
+    /// By how much the positions are too small, rad or m, and the joint whose zero alone is shifted,
+    /// or none if those of all may be: of these choices the one that leaves the least.
     pub fn shifts(
         &self,
         part: &TickRecording<V>,
-        only: Option<usize>,
-    ) -> Result<[f64; V], IdentificationError> {
+        among: &[Option<usize>],
+    ) -> Result<(Option<usize>, [f64; V]), IdentificationError> {
         let Estimate { arm, fit, found, .. } = &self.estimate;
         let (p, mut model) = (arm.len(), arm.robot);
         for (link, phi) in model.links.iter_mut().zip(self.set.bodies) {
@@ -50,12 +50,16 @@ impl<const V: usize> Attempt<V> {
             }
         }
         let equations = Equations::of(&reduced, &vec![0.0; p + V]);
-        let own = (0..V).map(|j| if only.is_none_or(|only| only == j) { SHIFTED } else { KNOWN });
-        let prior: Vec<f64> = found.prior.iter().copied().chain(own).collect();
-        let estimate = equations.solve(&found.noise, &prior).estimate;
-        Ok(std::array::from_fn(|joint| match only.is_none_or(|only| only == joint) {
-            true => estimate[p + joint],
-            false => 0.0,
-        }))
+        let tried = among.iter().map(|&only| {
+            let is_free = |j: usize| only.is_none_or(|only| only == j);
+            let own = (0..V).map(|j| if is_free(j) { SHIFTED } else { KNOWN });
+            let prior: Vec<f64> = found.prior.iter().copied().chain(own).collect();
+            let estimate = equations.solve(&found.noise, &prior).estimate;
+            let left = (0..V).map(|j| equations.square(&estimate, j) / self.largest[j].powi(2));
+            let step = std::array::from_fn(|j| if is_free(j) { estimate[p + j] } else { 0.0 });
+            (left.sum::<f64>(), (only, step))
+        });
+        let best = tried.min_by(|a, b| a.0.total_cmp(&b.0));
+        Ok(best.map_or((None, [0.0; V]), |(_, step)| step))
     }
 }

@@ -108,7 +108,7 @@ fn cases() -> Vec<Case> {
                 })
             },
             Refused,
-            &["positions of `elbow` jump"],
+            &["the position of `elbow` jumps faster"],
         ),
         mounted("a wall", [1.0, 0.0, 0.0], &["gravity is along (1.000, 0.000, 0.000)"]),
         mounted("a ceiling", [0.0, 0.0, 1.0], &["--gravity=0.000,0.000,1.000"]),
@@ -132,17 +132,13 @@ fn cases() -> Vec<Case> {
             &["lag behind", "by 60."],
         ),
         case("all torques late by 250 ms", |t| late(t, &[0, 1], 125), Mistake, &["not explained"]),
-        case(
-            "one torque late by 20 ms",
-            |t| late(t, &[0], 10),
-            Mistake,
-            &["the torques of `shoulder` are later than those of the other joints by about 20 ms"],
-        ),
+        case("one torque late by 20 ms", |t| late(t, &[0], 10), Fitted, &["of shoulder are no noise"]),
+        case("one torque late by 150 ms", |t| late(t, &[0], 75), Mistake, &["not explained"]),
         case(
             "radians as degrees",
             |t| each(t, |_, t| t[0] = t[0].map(f64::to_radians)),
             Mistake,
-            &["radians that were read as degrees"],
+            &["not explained"],
         ),
         case(
             "a position twice as large",
@@ -154,7 +150,7 @@ fn cases() -> Vec<Case> {
             "a position half as large",
             |t| each(t, |_, t| t[0][0] *= 0.5),
             Mistake,
-            &["not explained", "torque sign"],
+            &["not explained"],
         ),
         case(
             "two zeros",
@@ -174,7 +170,7 @@ fn cases() -> Vec<Case> {
                 each(t, |k, t| t[1] = old[count - 1 - k][1]);
             },
             Mistake,
-            &["not explained", "at `shoulder`", "mounting"],
+            &["not explained", "mounting"],
         ),
         case(
             "a sign and a delay",
@@ -215,7 +211,9 @@ fn spoilt_recordings_are_named_or_not_explained_and_only_what_fits_is_offered() 
     let mut wrong = Vec::new();
     for case in cases() {
         let recorded = read(&spoilt(&case)).expect("ticks");
+        let start = std::time::Instant::now(); // TEMP
         let found = run::identify(&off(), (Path::new("run.csv"), &recorded), None, &OPTIONS());
+        eprintln!("TEMP {} {:?}", case.name, start.elapsed());
         let (end, text) = match found {
             Err(error) => (Refused, error.to_string()),
             // The program offers nothing and fails if there is a mistake.

@@ -463,6 +463,22 @@ impl<const V: usize> Fitted<V> {
         D: RobotModel<f64, B, V, V>,
         E: Effect<f64, B, V>,
     {
-        most_probable(&self.base, &self.root, arm, bodies, &padded(joints), share)
+        self.physical_in(crate::physical::STEPS, arm, bodies, joints, share)
+    }
+
+    /// The same in so many steps at most.
+    pub(crate) fn physical_in<D, E, const B: usize, const N: usize>(
+        &self,
+        steps: usize,
+        arm: &BaseModel<D, E, B, V>,
+        bodies: &[[f64; 10]; B],
+        joints: &[[f64; N]; V],
+        share: f64,
+    ) -> Result<PhysicalSet<B, V>, IdentificationError>
+    where
+        D: RobotModel<f64, B, V, V>,
+        E: Effect<f64, B, V>,
+    {
+        most_probable(&self.base, &self.root, arm, bodies, &padded(joints), share, steps)
     }
 }

@@ -101,6 +101,8 @@ pub(crate) struct Task<'a> {
     pub gravity: [f64; 3],
     pub path: &'a Path,
     pub options: &'a Options,
+    /// The most steps to the physical set.
+    pub steps: usize,
     /// The time by which a torque belongs after its position, s, if nothing else is known.
     pub delay: f64,
 }
@@ -124,6 +126,57 @@ impl Task<'_> {
         Error::Identification { path, source }
     }
 
+    /// The limits within which the motion is compared with random ones: positions of the description,
+    /// the speeds of the recording.
+    pub fn limits<const V: usize>(
+        &self,
+        recording: &TickRecording<V>,
+    ) -> Result<ExcitationLimits<V>> {
+        let (robot, path) = (self.robot, self.path);
+        let mut limits = ExcitationLimits {
+            lower: [-TURN; V],
+            upper: [TURN; V],
+            velocity: [SLOWEST; V],
+            acceleration: [SLOWEST_RATE; V],
+            torque: [0.0; V],
+        };
+        let extremes = recording.extremes();
+        if extremes.iter().all(|[low, high, _]| high - low < RESTS) {
+            let path = path.to_owned();
+            return Err(Error::AtRest { path });
+        }
+        let largest = extremes.iter().fold(1e-6, |most: f64, [.., tau]| most.max(*tau));
+        for (j, [low, high, torque]) in extremes.into_iter().enumerate() {
+            let body = &robot.imported.tree.bodies[j];
+            if let Some([lower, upper]) = body.limits.position.filter(|[a, b]| a < b) {
+                for position in [low, high] {
+                    if position < lower - BEYOND || position > upper + BEYOND {
+                        return Err(Error::Outside {
+                            recording: path.to_owned(),
+                            robot: robot.path.clone(),
+                            joint: j,
+                            name: body.joint.clone(),
+                            position,
+                            lower,
+                            upper,
+                        });
+                    }
+                }
+                (limits.lower[j], limits.upper[j]) = (lower.max(-TURN), upper.min(TURN));
+            }
+            if limits.lower[j] >= limits.upper[j] {
+                (limits.lower[j], limits.upper[j]) = (low - SLOWEST, high + SLOWEST);
+            }
+            limits.torque[j] = (MARGIN * torque).max(0.01 * largest);
+        }
+        let [speeds, rates] = recording.rates();
+        for j in 0..V {
+            limits.velocity[j] = speeds[j].max(SLOWEST);
+            limits.acceleration[j] = rates[j].max(SLOWEST_RATE);
+        }
+        Ok(limits)
+    }
+
     /// The base parameters with this speed of Stribeck's effect.
     pub fn base<const V: usize>(
         &self,
@@ -131,7 +184,7 @@ impl Task<'_> {
         stribeck: Option<f64>,
     ) -> Result<Base<V>> {
         let (model, ..) = self.robot.model::<V>(self.gravity)?;
-        let limits = limits(self.robot, self.path, whole)?;
+        let limits = self.limits(whole)?;
         let asymmetric = self.options.effects.contains(&JointEffect::Asymmetric);
         let friction = Friction { width: Width::new(self.options.width), stribeck, asymmetric };
         Ok(Base::<V>::new(model, RIGID_BODY, friction, limits))
@@ -206,7 +259,7 @@ impl Task<'_> {
         let largest = arm.limits.torque;
         let believed = believed(arm, found, nominal, joints, &options.effects);
         let mut set = found
-            .physical(arm, bodies, &believed, BELIEVED)
+            .physical_in(self.steps, arm, bodies, &believed, BELIEVED)
             .map_err(|source| self.failed(source))?;
         for (j, joint) in set.joints.iter_mut().enumerate() {
             let own = own(arm, j, OfJoint::Offset).filter(|&base| !known[base]);
@@ -275,57 +328,6 @@ pub(crate) fn possible<const V: usize>(found: &Fitted<V>) -> Option<Gears<V>> {
 pub(crate) fn own<const V: usize>(arm: &Base<V>, joint: usize, of: OfJoint) -> Option<usize> {
     let parameter = Parameter::Joint { joint, of };
     (0..arm.len()).find(|&base| arm.terms(base)[0].1 == parameter)
-}
-
-/// The limits within which the motion is compared with random ones: positions of the description,
-/// the speeds of the recording.
-fn limits<const V: usize>(
-    robot: &Robot,
-    path: &Path,
-    recording: &TickRecording<V>,
-) -> Result<ExcitationLimits<V>> {
-    let mut limits = ExcitationLimits {
-        lower: [-TURN; V],
-        upper: [TURN; V],
-        velocity: [SLOWEST; V],
-        acceleration: [SLOWEST_RATE; V],
-        torque: [0.0; V],
-    };
-    let extremes = recording.extremes();
-    if extremes.iter().all(|[low, high, _]| high - low < RESTS) {
-        let path = path.to_owned();
-        return Err(Error::AtRest { path });
-    }
-    let largest = extremes.iter().fold(1e-6, |most: f64, [.., tau]| most.max(*tau));
-    for (j, [low, high, torque]) in extremes.into_iter().enumerate() {
-        let body = &robot.imported.tree.bodies[j];
-        if let Some([lower, upper]) = body.limits.position.filter(|[a, b]| a < b) {
-            for position in [low, high] {
-                if position < lower - BEYOND || position > upper + BEYOND {
-                    return Err(Error::Outside {
-                        recording: path.to_owned(),
-                        robot: robot.path.clone(),
-                        joint: j,
-                        name: body.joint.clone(),
-                        position,
-                        lower,
-                        upper,
-                    });
-                }
-            }
-            (limits.lower[j], limits.upper[j]) = (lower.max(-TURN), upper.min(TURN));
-        }
-        if limits.lower[j] >= limits.upper[j] {
-            (limits.lower[j], limits.upper[j]) = (low - SLOWEST, high + SLOWEST);
-        }
-        limits.torque[j] = (MARGIN * torque).max(0.01 * largest);
-    }
-    let [speeds, rates] = recording.rates();
-    for j in 0..V {
-        limits.velocity[j] = speeds[j].max(SLOWEST);
-        limits.acceleration[j] = rates[j].max(SLOWEST_RATE);
-    }
-    Ok(limits)
 }
 
 /// Which base parameters are those of the description: effects that are not identified.

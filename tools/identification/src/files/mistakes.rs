@@ -35,6 +35,8 @@ const STEPS: usize = 4;
 const SHIFTS: [f64; 2] = [0.01, 0.5];
 /// A position that changes by less is constant, rad or m.
 const DEAD: f64 = 1e-9;
+/// The most steps to the physical set of a trial.
+const TRIAL: usize = 300;
 /// The least tick of the trials, s, and the most ticks.
 const TICK: f64 = 16e-3;
 const TICKS: f64 = 3000.0;
@@ -112,7 +114,7 @@ pub(crate) fn explains<const V: usize>(
         all.split((TICKS * means as f64 / all.ticks() as f64).min(1.0)).0.means(means)
     };
     let mut trials = Trials {
-        task: Task { options: &options, ..task },
+        task: Task { options: &options, steps: TRIAL, ..task },
         recordings: recordings.map(lower),
         names,
         none: Correction {
@@ -162,7 +164,15 @@ impl<const V: usize> Trials<'_, V> {
         let [whole, part] = self.recordings.each_ref().map(|all| correction.of(all));
         let task = Task { gravity: correction.gravity, ..self.task };
         // Nothing is explained by what leads beyond the joints' limits.
-        let arm = task.base(&whole, self.first.estimate.arm.friction.stribeck).ok()?;
+        task.limits(&whole).ok()?;
+        let first = &self.first.estimate.arm;
+        let is_same = correction.gravity == self.none.gravity
+            && correction.columns == self.none.columns
+            && correction.factors.as_flattened().iter().all(|factor| factor.abs() == 1.0);
+        let arm = match is_same {
+            true => first.clone(),
+            false => task.base(&whole, first.friction.stribeck).ok()?,
+        };
         task.attempt(arm, &part, delay).ok()
     }
 

@@ -8,6 +8,7 @@ use dynamics_core::model::BodyInertia;
 use dynamics_core::spatial::SpatialInertia;
 
 use crate::fit::lagged;
+use crate::physical::STEPS;
 
 use super::attempt::{Attempt, Estimate, Task, UNEXPLAINED, bell, own, possible};
 pub use super::attempt::{JointEffect, Options};
@@ -67,7 +68,7 @@ pub fn identify(
         };
     }
     #[cfg(feature = "files")]
-    return sized!(2 5 6); //TEMP
+    return sized!(1 2 3 4 5 6 7 8 9 10 11 12);
     #[cfg(not(feature = "files"))]
     sized!(1 2 3 4 5 6 7 8)
 }
@@ -84,7 +85,7 @@ fn of_size<const V: usize>(
         None => None,
     };
     let delay = if recorded.held { 0.5 * recorded.tick } else { 0.0 };
-    let task = Task { robot, gravity: robot.gravity, path, options, delay };
+    let task = Task { robot, gravity: robot.gravity, path, options, steps: STEPS, delay };
     let whole: TickRecording<V> = recorded.ticks(path)?;
     let (fitted_part, held) = match &other {
         Some((path, other)) => (whole.clone(), other.ticks(path)?),

@@ -113,40 +113,31 @@ fn five_formats_give_what_the_converted_file_gives() {
 }
 
 #[test]
-fn each_mistake_in_each_format_is_named() {
-    for format in formats() {
-        let named = |wrong: Wrong| { let s = std::time::Instant::now(); let f = format.found(wrong); eprintln!("TEMP {} {:?}", format.name, s.elapsed()); f };
-        let joint = "elbow_flex".to_owned();
-        let reversed = named(Wrong { reversed: true, ..RIGHT });
-        let sign = Mistake::TorqueSign { joints: vec![joint] };
-        assert_eq!(reversed.mistake, Some(sign), "{}", format.name);
-        match named(Wrong { shift: 0.2, ..RIGHT }).mistake {
-            Some(Mistake::Zero { shifts }) => {
-                let [(joint, shift)] = &shifts[..] else { panic!("{}: {shifts:?}", format.name) };
-                assert!(joint == "shoulder_lift" && (shift + 0.2).abs() < 0.06, "{joint} {shift}");
-            }
-            other => panic!("{}: {other:?}", format.name),
+fn each_mistake_is_named_in_a_format() {
+    let [lerobot, rosbag, rtde, franka, bus] = formats();
+    let reversed = franka.found(Wrong { reversed: true, ..RIGHT });
+    let sign = Mistake::TorqueSign { joints: vec!["elbow_flex".to_owned()] };
+    assert_eq!(reversed.mistake, Some(sign));
+    match bus.found(Wrong { shift: 0.2, ..RIGHT }).mistake {
+        Some(Mistake::Zero { shifts }) => {
+            let [(joint, shift)] = &shifts[..] else { panic!("{shifts:?}") };
+            assert!(joint == "shoulder_lift" && (shift + 0.2).abs() < 0.06, "{joint} {shift}");
         }
-        match named(Wrong { factor: 1e3, ..RIGHT }).mistake {
-            Some(Mistake::Unit { factor }) => assert!((factor / 1e3).ln().abs() < 0.5, "{factor}"),
-            other => panic!("{}: {other:?}", format.name),
-        }
-        let late = named(Wrong { late: 0.02, ..RIGHT });
-        assert!(
-            (late.delay + 0.02).abs() < f64::max(4e-3, 0.2 / format.rate),
-            "{}: {}",
-            format.name,
-            late.delay
-        );
-        assert!(late.text().contains("the torques lag behind the positions by"), "{}", late.text());
-        // Degrees that a map takes as radians.
-        let map = format.map.clone().unwrap_or_default();
-        if map.contains("\"deg\"") {
-            let text = (format.text)(&samples((format.times)().into_iter(), RIGHT));
-            let recorded = read(&text, Some(&map.replace("\"deg\"", "\"rad\""))).expect("a log");
-            let error = tried(&recorded).expect_err("degrees").to_string();
-            assert!(error.contains("are the positions in degrees?"), "{error}");
-        }
+        other => panic!("{other:?}"),
+    }
+    match rosbag.found(Wrong { factor: 1e3, ..RIGHT }).mistake {
+        Some(Mistake::Unit { factor }) => assert!((factor / 1e3).ln().abs() < 0.5, "{factor}"),
+        other => panic!("{other:?}"),
+    }
+    let late = rtde.found(Wrong { late: 0.02, ..RIGHT });
+    assert!((late.delay + 0.02).abs() < 4e-3, "{}", late.delay);
+    assert!(late.text().contains("the torques lag behind the positions by"), "{}", late.text());
+    // Degrees that a map takes as radians.
+    for format in [lerobot, bus] {
+        let text = (format.text)(&samples((format.times)().into_iter(), RIGHT));
+        let map = format.map.unwrap_or_default().replace("\"deg\"", "\"rad\"");
+        let error = tried(&read(&text, Some(&map)).expect("a log")).expect_err("degrees");
+        assert!(error.to_string().contains("are the positions in degrees?"), "{error}");
     }
 }
 

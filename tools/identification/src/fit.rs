@@ -15,7 +15,7 @@ use nalgebra::DMatrix;
 
 use crate::columns::padded;
 use crate::gears::{DEFLECTIONS, Moving};
-use crate::physical::most_probable;
+use crate::physical::{STEPS, most_probable};
 use crate::reduced::{Filters, Reduced};
 use crate::solved::Solved;
 use crate::{BaseModel, Gears, IdentificationError, PhysicalSet, TickRecording};
@@ -100,7 +100,7 @@ pub struct Fitted<const V: usize> {
     /// The friction of the gears, if it is a part of the model, and its standard deviations.
     pub gears: Option<[Gears<V>; 2]>,
     /// S of the covariance SᵀS of the base parameters, given the friction of the gears.
-    root: DMatrix<f64>,
+    pub(crate) root: DMatrix<f64>,
 }
 
 /// Torques of a recording and of models, through the filter of [`Fit`].
@@ -463,22 +463,6 @@ impl<const V: usize> Fitted<V> {
         D: RobotModel<f64, B, V, V>,
         E: Effect<f64, B, V>,
     {
-        self.physical_in(crate::physical::STEPS, arm, bodies, joints, share)
-    }
-
-    /// The same in so many steps at most.
-    pub(crate) fn physical_in<D, E, const B: usize, const N: usize>(
-        &self,
-        steps: usize,
-        arm: &BaseModel<D, E, B, V>,
-        bodies: &[[f64; 10]; B],
-        joints: &[[f64; N]; V],
-        share: f64,
-    ) -> Result<PhysicalSet<B, V>, IdentificationError>
-    where
-        D: RobotModel<f64, B, V, V>,
-        E: Effect<f64, B, V>,
-    {
-        most_probable(&self.base, &self.root, arm, bodies, &padded(joints), share, steps)
+        most_probable(&self.base, &self.root, arm, bodies, &padded(joints), share, STEPS)
     }
 }

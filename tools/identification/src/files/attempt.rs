@@ -10,6 +10,8 @@ use crate::{
 use dynamics_core::effects::{Coriolis, Gravity, Inertia, RIGID_BODY, Width};
 use dynamics_core::model::ArmModel;
 
+use crate::physical::most_probable;
+
 use super::delay;
 use super::error::{Error, Result};
 use super::robot::Robot;
@@ -33,7 +35,7 @@ const BEYOND: f64 = 0.2;
 const MARGIN: f64 = 1.2;
 /// The residuals of a joint with less than this share of the arm's largest torque are compared to
 /// that: those of a light one are mostly of its encoder.
-const LIGHT: f64 = 0.2;
+const LIGHT: f64 = 0.1;
 /// An offset is shown by the recording from this many deviations on,
 const SHOWN: f64 = 4.0;
 /// and from this share of the joint's largest torque on.
@@ -258,9 +260,9 @@ impl Task<'_> {
         let Estimate { arm, bodies, joints, nominal, known, fit, found, .. } = &estimate;
         let largest = arm.limits.torque;
         let believed = believed(arm, found, nominal, joints, &options.effects);
-        let mut set = found
-            .physical_in(self.steps, arm, bodies, &believed, BELIEVED)
-            .map_err(|source| self.failed(source))?;
+        let (base, root) = (&found.base, &found.root);
+        let set = most_probable(base, root, arm, bodies, &believed, BELIEVED, self.steps);
+        let mut set = set.map_err(|source| self.failed(source))?;
         for (j, joint) in set.joints.iter_mut().enumerate() {
             let own = own(arm, j, OfJoint::Offset).filter(|&base| !known[base]);
             let is_shown = own.is_some_and(|base| {

@@ -111,8 +111,6 @@ pub enum Problem {
     Fields { found: usize, expected: usize },
     #[error("the line has more than {0} bytes")]
     LongLine(usize),
-    #[error("the line is no text in UTF-8")]
-    NoText,
     #[error("column `{column}`: `{text}` is not {expected}")]
     Value { column: String, text: String, expected: &'static str },
     #[error("more than {0} ticks")]

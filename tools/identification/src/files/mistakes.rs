@@ -20,7 +20,7 @@ const MENDED: f64 = 0.6;
 /// The same of a zero, which also other centres of mass explain in part.
 const MENDED_BY_ZERO: f64 = 0.85;
 /// The squares of what several zeros leave count so many times: they have more freedom than one.
-const SEVERAL: f64 = 1.5;
+const SEVERAL: f64 = 1.1;
 /// A correction that lowers them to this share ends the search.
 const PLAIN: f64 = 0.03;
 /// The unit of torque is wrong if the torques exceed those of the description, or are exceeded by
@@ -32,7 +32,7 @@ const REVERSED: f64 = 3.0;
 const FARTHEST: f64 = 0.2;
 const STEPS: usize = 4;
 /// The smallest and the largest shift of a zero that is reported, rad or m.
-const SHIFTS: [f64; 2] = [0.01, 0.5];
+const SHIFTS: [f64; 2] = [0.02, 0.5];
 /// A position that changes by less is constant, rad or m.
 const DEAD: f64 = 1e-9;
 /// The most steps to the physical set of a trial.
@@ -223,7 +223,7 @@ impl<const V: usize> Trials<'_, V> {
                 let last = best.as_ref().unwrap_or(before);
                 let part = correction.of(&self.recordings[1]);
                 let Ok((only, step)) = last.shifts(&part, &among) else { break };
-                if step.iter().all(|step| step.abs() < 0.1 * SHIFTS[0]) {
+                if step.iter().all(|step| step.abs() < 0.05 * SHIFTS[0]) {
                     break;
                 }
                 let mut next = correction;

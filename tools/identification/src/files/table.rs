@@ -1,9 +1,9 @@
-//! The rows of a CSV with any separator, as text. Nothing in the file is believed.
+//! The rows of a CSV with any separator, as text in UTF-8 or else in Latin-1. Nothing in the file is believed.
 
 use std::io::{BufRead, BufReader, Cursor, Read};
 use std::path::Path;
 
-use csv::{ErrorKind, ReaderBuilder, StringRecord, Trim};
+use csv::{ByteRecord, ReaderBuilder, StringRecord, Trim};
 
 use super::error::{Error, Problem, Result};
 
@@ -38,16 +38,16 @@ pub fn read(
         row += 1;
         let line = before + rows.position().line() as usize;
         rows.get_mut().set_limit(2 * LONGEST as u64);
-        let mut fields = StringRecord::new();
-        let read = rows.read_record(&mut fields);
-        let is_row = match read.map_err(csv::Error::into_kind) {
-            _ if rows.get_ref().limit() == 0 => {
-                return Err(wrong(line, Problem::LongLine(LONGEST)));
-            }
-            Ok(is_row) => is_row,
-            Err(ErrorKind::Io(source)) => return Err(failed(source)),
-            Err(_) => return Err(wrong(line, Problem::NoText)),
-        };
+        let mut bytes = ByteRecord::new();
+        let read = rows.read_byte_record(&mut bytes);
+        if rows.get_ref().limit() == 0 {
+            return Err(wrong(line, Problem::LongLine(LONGEST)));
+        }
+        let is_row = read.map_err(|error| failed(error.into()))?;
+        let mut fields = StringRecord::from_byte_record(bytes).unwrap_or_else(|error| {
+            let latin = |field: &[u8]| field.iter().copied().map(char::from).collect::<String>();
+            error.into_byte_record().iter().map(latin).collect()
+        });
         let whole = |problem| Error::Recording { path: path.to_owned(), problem };
         let line = fields.position().map_or(line, |at| before + at.line() as usize);
         match (is_row, row) {

@@ -295,6 +295,9 @@ fn decimal_commas_units_and_comments_are_read() {
         let found = read(text.as_bytes(), Some(&map)).expect(&text[..60]);
         assert!(found == expected, "{}", &text[..60]);
     }
+    let latin: Vec<u8> = units.bytes().map(|byte| if byte == b'u' { 0xb5 } else { byte }).collect();
+    let latin = [titles.as_bytes(), b"\n", &latin, b"\n", rows.as_bytes()].concat();
+    assert!(read(&latin, Some(&map)).expect("Latin-1") == expected);
     let text = format!("# recorded\n{titles}\n\n{units}\n{}", rows.replacen(';', ";x", 1));
     let error = read(text.as_bytes(), Some(&map)).expect_err("no number").to_string();
     assert!(error.starts_with("log, line 5: column `shoulder_pan.pos`: `x"), "{error}");

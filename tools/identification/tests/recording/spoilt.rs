@@ -3,6 +3,7 @@
 
 use std::path::Path;
 
+use identification::files::robot::Robot;
 use identification::files::run;
 
 use crate::arm::*;
@@ -23,6 +24,7 @@ use End::{Fitted, Mistake, Refused};
 struct Case {
     name: &'static str,
     gravity: [f64; 3],
+    describe: fn(&mut Robot),
     spoil: fn(&mut Vec<Tick>),
     end: End,
     words: &'static [&'static str],
@@ -34,7 +36,7 @@ const fn case(
     end: End,
     words: &'static [&'static str],
 ) -> Case {
-    Case { name, gravity: [0.0, 0.0, -1.0], spoil, end, words }
+    Case { name, gravity: [0.0, 0.0, -1.0], describe: |_| (), spoil, end, words }
 }
 
 /// The torques of these joints later by so many ticks.
@@ -50,6 +52,8 @@ fn each(ticks: &mut [Tick], to: impl Fn(usize, &mut Tick)) {
 
 fn cases() -> Vec<Case> {
     let mounted = |name, gravity, words| Case { gravity, ..case(name, |_| (), Mistake, words) };
+    let described =
+        |name, describe| Case { describe, ..case(name, |_| (), Fitted, &["delay: none"]) };
     vec![
         case("nothing", |_| (), Fitted, &["delay: none"]),
         case(
@@ -109,6 +113,30 @@ fn cases() -> Vec<Case> {
             },
             Refused,
             &["the position of `elbow` jumps faster"],
+        ),
+        described("a mirrored link", |robot| {
+            robot.imported.tree.bodies[1].inertia.com[0] *= -1.0;
+        }),
+        described("a link of 0.15 of its placeholder", |robot| {
+            let own = &mut robot.imported.tree.bodies[1].inertia;
+            own.mass /= 0.15;
+            own.inertia = own.inertia.map(|x| x / 0.15);
+        }),
+        Case {
+            gravity: [1.0, 0.0, 0.0],
+            ..described("a wall that is told", |robot| robot.gravity = [1.0, 0.0, 0.0])
+        },
+        case(
+            "a torque that stands still",
+            |t| (800..1500).for_each(|k| t[k][1][1] = t[800][1][1]),
+            Refused,
+            &["the torque of `elbow` is exactly"],
+        ),
+        case(
+            "an encoder that never moves",
+            |t| each(t, |_, t| t[0][0] = 0.2),
+            Mistake,
+            &["the position of `shoulder` is the same in every row", "not explained"],
         ),
         mounted("a wall", [1.0, 0.0, 0.0], &["gravity is along (1.000, 0.000, 0.000)"]),
         mounted("a ceiling", [0.0, 0.0, 1.0], &["--gravity=0.000,0.000,1.000"]),
@@ -216,7 +244,9 @@ fn spoilt_recordings_are_named_or_not_explained_and_only_what_fits_is_offered() 
     let mut wrong = Vec::new();
     for case in cases() {
         let recorded = read(&spoilt(&case)).expect("ticks");
-        let found = run::identify(&off(), (Path::new("run.csv"), &recorded), None, &OPTIONS());
+        let mut robot = off();
+        (case.describe)(&mut robot);
+        let found = run::identify(&robot, (Path::new("run.csv"), &recorded), None, &OPTIONS());
         let (end, text) = match found {
             Err(error) => (Refused, error.to_string()),
             // The program offers nothing and fails if there is a mistake.

@@ -128,8 +128,8 @@ impl Task<'_> {
         Error::Identification { path, source }
     }
 
-    /// The limits within which the motion is compared with random ones: positions of the description,
-    /// the speeds of the recording.
+    /// The limits within which the motion is compared with random ones: positions of the
+    /// description, the speeds of the recording.
     pub fn limits<const V: usize>(
         &self,
         recording: &TickRecording<V>,
@@ -226,8 +226,8 @@ impl Task<'_> {
         Ok(Estimate { arm, bodies, joints, nominal, known, fit, found, delay_end })
     }
 
-    /// The base parameters with the speed of Stribeck's effect that leaves the least of the torques,
-    /// if it is identified.
+    /// The base parameters with the speed of Stribeck's effect that leaves the least of the
+    /// torques, if it is identified.
     pub fn best_base<const V: usize>(
         &self,
         whole: &TickRecording<V>,

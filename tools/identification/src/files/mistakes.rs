@@ -80,7 +80,7 @@ impl<const V: usize> Tried<V> {
     }
 }
 
-/// A part of a recording at a lower rate, its fit without a correction, and the best one so far.
+/// A part of a recording at a lower rate, and the best correction so far.
 struct Trials<'a, const V: usize> {
     task: Task<'a>,
     recordings: [TickRecording<V>; 2],
@@ -98,10 +98,6 @@ pub(crate) fn explains<const V: usize>(
     first: &Attempt<V>,
     names: &[String],
 ) -> Option<Mistake> {
-    // A joint whose encoder is dead moves as no correction makes it move.
-    if recordings[0].extremes().iter().any(|[low, high, _]| high - low < DEAD) {
-        return None;
-    }
     let (factor, reversed) = (unit(first), reversed(first));
     let is_unit = !(OTHER_UNIT.recip()..=OTHER_UNIT).contains(&factor);
     let is_possible = first.set.misfit < IMPOSSIBLE && first.residual() < NOISE.powi(2);
@@ -138,10 +134,12 @@ pub(crate) fn explains<const V: usize>(
         trials.best.as_ref().is_some_and(|best| best.cost() < PLAIN * before.residual())
     };
     trials.signs(&reversed);
-    if !is_plain(&trials) {
+    // A joint whose encoder is dead moves as no other correction makes it move.
+    let is_dead = recordings[0].extremes().iter().any(|[low, high, _]| high - low < DEAD);
+    if !is_plain(&trials) && !is_dead {
         trials.zeros(&before);
     }
-    if !is_plain(&trials) && !before.is_explained() {
+    if !is_plain(&trials) && !is_dead && !before.is_explained() {
         trials.swapped(&before);
         trials.mounted();
     }

@@ -341,8 +341,8 @@ impl Findings {
             Some(mistake) => {
                 let _ = writeln!(
                     text,
-                    "warning: no possible robot fits this recording, unless a mistake is corrected: \
-                     {mistake}"
+                    "warning: no possible robot fits this recording, unless a mistake is \
+                     corrected: {mistake}"
                 );
             }
             None if self.misfit > IMPOSSIBLE => {

@@ -1,4 +1,5 @@
-//! The rows of a CSV with any separator, as text in UTF-8 or else in Latin-1. Nothing in the file is believed.
+//! The rows of a CSV with any separator, as text in UTF-8 or else in Latin-1. Nothing in the file is
+//! believed.
 
 use std::io::{BufRead, BufReader, Cursor, Read};
 use std::path::Path;

@@ -20,8 +20,8 @@ const SHIFTED: f64 = 0.3;
 const KNOWN: f64 = 1e-9;
 
 impl<const V: usize> Attempt<V> {
-    /// By how much the positions are too small, rad or m, and the joint whose zero alone is shifted,
-    /// or none if those of all may be: of these choices the one that leaves the least.
+    /// By how much the positions are too small, rad or m, and the joint whose zero alone is
+    /// shifted, or none if those of all may be: of these choices the one that leaves the least.
     pub fn shifts(
         &self,
         part: &TickRecording<V>,

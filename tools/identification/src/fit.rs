@@ -15,7 +15,7 @@ use nalgebra::DMatrix;
 
 use crate::columns::padded;
 use crate::gears::{DEFLECTIONS, Moving};
-use crate::physical::most_probable;
+use crate::physical::{STEPS, most_probable};
 use crate::reduced::{Filters, Reduced};
 use crate::solved::Solved;
 use crate::{BaseModel, Gears, IdentificationError, PhysicalSet, TickRecording};
@@ -100,7 +100,7 @@ pub struct Fitted<const V: usize> {
     /// The friction of the gears, if it is a part of the model, and its standard deviations.
     pub gears: Option<[Gears<V>; 2]>,
     /// S of the covariance SᵀS of the base parameters, given the friction of the gears.
-    root: DMatrix<f64>,
+    pub(crate) root: DMatrix<f64>,
 }
 
 /// Torques of a recording and of models, through the filter of [`Fit`].
@@ -406,7 +406,7 @@ impl Equations {
     }
 
     /// The sum of the squares of a joint's residuals, N·m or N.
-    fn square(&self, estimate: &nalgebra::DVector<f64>, joint: usize) -> f64 {
+    pub(crate) fn square(&self, estimate: &nalgebra::DVector<f64>, joint: usize) -> f64 {
         let own = |of: &DMatrix<f64>| of.rows(joint * self.each, self.each).into_owned();
         (own(&self.right) - own(&self.rows) * estimate).norm_squared()
     }
@@ -463,6 +463,6 @@ impl<const V: usize> Fitted<V> {
         D: RobotModel<f64, B, V, V>,
         E: Effect<f64, B, V>,
     {
-        most_probable(&self.base, &self.root, arm, bodies, &padded(joints), share)
+        most_probable(&self.base, &self.root, arm, bodies, &padded(joints), share, STEPS)
     }
 }

@@ -47,6 +47,15 @@ struct Args {
     /// not given
     #[arg(long, value_name = "HZ", value_parser = positive)]
     cutoff: Option<f64>,
+    /// The direction of gravity in the frame of the base, of an arm on a wall or a ceiling
+    #[arg(
+        long,
+        value_name = "X,Y,Z",
+        default_value = "0,0,-1",
+        allow_hyphen_values = true,
+        value_parser = direction
+    )]
+    gravity: [f64; 3],
     /// Write the robot's Rust file with what was found
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
@@ -65,6 +74,15 @@ fn positive(text: &str) -> std::result::Result<f64, String> {
     let number = text.parse::<f64>().ok();
     let number = number.filter(|x| *x > 0.0 && x.is_finite());
     number.ok_or_else(|| "not a positive number".to_owned())
+}
+
+/// A unit vector.
+fn direction(text: &str) -> std::result::Result<[f64; 3], String> {
+    let numbers: Vec<f64> = text.split(',').filter_map(|x| x.trim().parse().ok()).collect();
+    let length = numbers.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let unit: Vec<f64> = numbers.into_iter().map(|x| x / length).collect();
+    let unit = unit.try_into().ok().filter(|_| length > 0.0 && length.is_finite());
+    unit.ok_or_else(|| "not three numbers such as 1,0,0".to_owned())
 }
 
 fn main() -> ExitCode {
@@ -95,7 +113,8 @@ fn run(args: &Args) -> Result<(String, Option<Error>)> {
     robot_import::outputs::are_apart(&inputs, &outputs)
         .map_err(|error| Error::Output(error.into()))?;
     let map = args.columns.as_deref().map(Map::read).transpose()?;
-    let robot = Robot::read(&args.robot, args.name.as_deref(), &args.options)?;
+    let mut robot = Robot::read(&args.robot, args.name.as_deref(), &args.options)?;
+    robot.gravity = args.gravity;
     let names = robot.joints();
     let read = |path: &Path| Recorded::read(path, &names, map.as_ref());
     let recorded = read(&args.recording)?;

@@ -23,7 +23,7 @@ const MARGIN: f64 = 0.06;
 /// No base parameter counts as known better than to this share of its nominal deviation: without
 /// noise, in a simulation, rounding would decide.
 const LEAST: f64 = 1e-5;
-const STEPS: usize = 20_000;
+pub(crate) const STEPS: usize = 20_000;
 /// The change of a step, in relative units, from which on the set is final.
 const FINAL: f64 = 1e-9;
 /// Offsets and asymmetries may be this times the torque of a joint, and of either sign.
@@ -68,11 +68,11 @@ impl<const V: usize> Identified<V> {
         D: RobotModel<f64, B, V, V>,
         E: Effect<f64, B, V>,
     {
-        most_probable(&self.base, &self.root, arm, bodies, &padded(joints), share)
+        most_probable(&self.base, &self.root, arm, bodies, &padded(joints), share, STEPS)
     }
 }
 
-/// [`Identified::physical`] of base parameters with the covariance SᵀS.
+/// [`Identified::physical`] of base parameters with the covariance SᵀS, in so many steps at most.
 pub(crate) fn most_probable<D, E, const B: usize, const V: usize>(
     base: &[f64],
     deviations: &DMatrix<f64>,
@@ -80,6 +80,7 @@ pub(crate) fn most_probable<D, E, const B: usize, const V: usize>(
     bodies: &[[f64; 10]; B],
     joints: &[[f64; OF_JOINT]; V],
     share: f64,
+    steps: usize,
 ) -> Result<PhysicalSet<B, V>, IdentificationError>
 where
     D: RobotModel<f64, B, V, V>,
@@ -120,8 +121,8 @@ where
     if z != x {
         let inverse = inverse(prior + rho);
         let mut u = &x - &z;
-        for _ in 0..STEPS {
-            x = &inverse * (&right + (&z - &u) * rho);
+        for _ in 0..steps {
+            x = product(&inverse, &(&right + (&z - &u) * rho));
             let next = possible::<B>(&(&x + &u));
             u += &x - &next;
             let change = (&next - &z).amax().max((&x - &next).amax());
@@ -139,6 +140,19 @@ where
         std::array::from_fn(|k| part(10 * B + OF_JOINT * joint, OF_JOINT)[k])
     });
     Ok(PhysicalSet { bodies, joints, misfit })
+}
+
+/// A x, whose loops are quick without an optimising compiler, too: most of the steps' time.
+fn product(a: &DMatrix<f64>, x: &DVector<f64>) -> DVector<f64> {
+    let (mut y, rows) = (vec![0.0; a.nrows()], a.nrows());
+    for (column, x) in a.as_slice().chunks_exact(rows).zip(x.as_slice()) {
+        let mut i = 0;
+        while i < rows {
+            y[i] += column[i] * x;
+            i += 1;
+        }
+    }
+    DVector::from_vec(y)
 }
 
 /// \[Σ h; hᵀ m\].
@@ -231,6 +245,9 @@ fn possible<const B: usize>(x: &DVector<f64>) -> DVector<f64> {
     let mut nearest = x.clone();
     for body in 0..B {
         let own = symmetric(|k| x[10 * body + k]);
+        if (own - Matrix4::identity() * MARGIN).cholesky().is_some() {
+            continue;
+        }
         let mut eigen = own.symmetric_eigen();
         if eigen.eigenvalues.min() >= MARGIN {
             continue;

@@ -133,6 +133,22 @@ impl<const V: usize> TickRecording<V> {
         rates
     }
 
+    /// The means of so many ticks each.
+    #[cfg(feature = "arrays")]
+    pub(crate) fn means(&self, ticks: usize) -> Self {
+        let mean = |all: &[[f64; V]]| -> [f64; V] {
+            std::array::from_fn(|j| all.iter().map(|x| x[j]).sum::<f64>() / ticks as f64)
+        };
+        let means = |all: &[[f64; V]]| all.chunks_exact(ticks).map(mean).collect();
+        let of = |all: &Stretch<V>| Stretch {
+            positions: means(&all.positions),
+            torques: means(&all.torques),
+            start: all.start,
+        };
+        let stretches = self.stretches.iter().map(of).collect();
+        Self { stretches, tick: self.tick * ticks as f64 }
+    }
+
     /// Its first part, of this share of the ticks, and the rest.
     #[must_use]
     pub fn split(&self, share: f64) -> (Self, Self) {

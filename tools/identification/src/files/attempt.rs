@@ -10,6 +10,8 @@ use crate::{
 use dynamics_core::effects::{Coriolis, Gravity, Inertia, RIGID_BODY, Width};
 use dynamics_core::model::ArmModel;
 
+use crate::physical::most_probable;
+
 use super::delay;
 use super::error::{Error, Result};
 use super::robot::Robot;
@@ -29,6 +31,11 @@ const SLOWEST_RATE: f64 = 1.0;
 const RESTS: f64 = 1e-3;
 /// By how much a joint may be beyond its limits, rad or m.
 const BEYOND: f64 = 0.2;
+/// The torques that are compared, relative to the largest one.
+const MARGIN: f64 = 1.2;
+/// The residuals of a joint with less than this share of the arm's largest torque are compared to
+/// that: those of a light one are mostly of its encoder.
+const LIGHT: f64 = 0.1;
 /// An offset is shown by the recording from this many deviations on,
 const SHOWN: f64 = 4.0;
 /// and from this share of the joint's largest torque on.
@@ -79,22 +86,27 @@ pub(crate) struct Attempt<const V: usize> {
     pub set: PhysicalSet<V, V>,
     /// The torques of each row that the set leaves, N·m or N.
     pub left: Vec<[f64; V]>,
-    /// Their mean squares relative to the joints' largest torques, summed.
-    pub residual: f64,
-    /// The speed of Stribeck's effect, rad/s or m/s.
-    pub stribeck: Option<f64>,
+    /// The torque to which those of a joint are compared, N·m or N.
+    pub largest: [f64; V],
+    /// The root mean square at each joint of what the set leaves, relative to this torque.
+    pub shares: [f64; V],
 }
 
 /// The parameters of a joint in the order of [`OfJoint`].
 pub(crate) type OfOneJoint = [f64; OF_JOINT];
 
 /// A robot, the file of its recording, and what is identified.
+#[derive(Clone, Copy)]
 pub(crate) struct Task<'a> {
     pub robot: &'a Robot,
+    /// The direction of gravity in the frame of the base.
+    pub gravity: [f64; 3],
     pub path: &'a Path,
     pub options: &'a Options,
-    /// Whether torques are held for a tick.
-    pub held: bool,
+    /// The most steps to the physical set.
+    pub steps: usize,
+    /// The time by which a torque belongs after its position, s, if nothing else is known.
+    pub delay: f64,
 }
 
 /// The estimate of a part of a recording.
@@ -106,6 +118,8 @@ pub(crate) struct Estimate<const V: usize> {
     pub known: Vec<bool>,
     pub fit: Fit,
     pub found: Fitted<V>,
+    /// The end of the search for the delay, s, if the residuals fall up to it.
+    pub delay_end: Option<f64>,
 }
 
 impl Task<'_> {
@@ -114,84 +128,141 @@ impl Task<'_> {
         Error::Identification { path, source }
     }
 
-    /// The estimate with these effects and this speed of Stribeck's effect, with torques so long
-    /// after the positions, s; estimated if not given.
+    /// The limits within which the motion is compared with random ones: positions of the
+    /// description, the speeds of the recording.
+    pub fn limits<const V: usize>(
+        &self,
+        recording: &TickRecording<V>,
+    ) -> Result<ExcitationLimits<V>> {
+        let (robot, path) = (self.robot, self.path);
+        let mut limits = ExcitationLimits {
+            lower: [-TURN; V],
+            upper: [TURN; V],
+            velocity: [SLOWEST; V],
+            acceleration: [SLOWEST_RATE; V],
+            torque: [0.0; V],
+        };
+        let extremes = recording.extremes();
+        if extremes.iter().all(|[low, high, _]| high - low < RESTS) {
+            let path = path.to_owned();
+            return Err(Error::AtRest { path });
+        }
+        let largest = extremes.iter().fold(1e-6, |most: f64, [.., tau]| most.max(*tau));
+        for (j, [low, high, torque]) in extremes.into_iter().enumerate() {
+            let body = &robot.imported.tree.bodies[j];
+            if let Some([lower, upper]) = body.limits.position.filter(|[a, b]| a < b) {
+                for position in [low, high] {
+                    if position < lower - BEYOND || position > upper + BEYOND {
+                        return Err(Error::Outside {
+                            recording: path.to_owned(),
+                            robot: robot.path.clone(),
+                            joint: j,
+                            name: body.joint.clone(),
+                            position,
+                            lower,
+                            upper,
+                        });
+                    }
+                }
+                (limits.lower[j], limits.upper[j]) = (lower.max(-TURN), upper.min(TURN));
+            }
+            if limits.lower[j] >= limits.upper[j] {
+                (limits.lower[j], limits.upper[j]) = (low - SLOWEST, high + SLOWEST);
+            }
+            limits.torque[j] = (MARGIN * torque).max(0.01 * largest);
+        }
+        let [speeds, rates] = recording.rates();
+        for j in 0..V {
+            limits.velocity[j] = speeds[j].max(SLOWEST);
+            limits.acceleration[j] = rates[j].max(SLOWEST_RATE);
+        }
+        Ok(limits)
+    }
+
+    /// The base parameters with this speed of Stribeck's effect.
+    pub fn base<const V: usize>(
+        &self,
+        whole: &TickRecording<V>,
+        stribeck: Option<f64>,
+    ) -> Result<Base<V>> {
+        let (model, ..) = self.robot.model::<V>(self.gravity)?;
+        let limits = self.limits(whole)?;
+        let asymmetric = self.options.effects.contains(&JointEffect::Asymmetric);
+        let friction = Friction { width: Width::new(self.options.width), stribeck, asymmetric };
+        Ok(Base::<V>::new(model, RIGID_BODY, friction, limits))
+    }
+
+    /// The estimate of these base parameters, with torques so long after the positions, s;
+    /// estimated if not given.
     pub fn estimate<const V: usize>(
         &self,
-        [whole, part]: [&TickRecording<V>; 2],
-        effects: &[JointEffect],
-        stribeck: Option<f64>,
+        arm: Base<V>,
+        part: &TickRecording<V>,
         delay: Option<f64>,
     ) -> Result<Estimate<V>> {
-        let options = self.options;
-        let (model, bodies, joints) = self.robot.model::<V>()?;
-        let limits = limits(self.robot, self.path, whole)?;
-        let largest = limits.torque;
-        let asymmetric = effects.contains(&JointEffect::Asymmetric);
-        let friction = Friction { width: Width::new(options.width), stribeck, asymmetric };
-        let arm = Base::<V>::new(model, RIGID_BODY, friction, limits);
+        let (options, effects) = (self.options, &self.options.effects);
+        let (_, bodies, joints) = self.robot.model::<V>(self.gravity)?;
+        let largest = arm.limits.torque;
         let nominal = arm.of_all(&bodies, &joints);
         let known = known(&arm, effects);
         let tick = part.tick();
         let own = Fit::new(tick);
         let cutoff = options.cutoff.unwrap_or(own.cutoff.min(UNDER * Fit::highest(tick)));
-        let mut fit = Fit { cutoff, ..own };
-        if !self.held {
-            fit.delay = 0.0;
-        }
+        let mut fit = Fit { cutoff, delay: self.delay, ..own };
         let gears = effects.iter().find_map(|effect| match effect {
             JointEffect::Load => Some(Gears::Load([[0.0; 2]; V])),
             JointEffect::Preslide => Some(Gears::Presliding([[0.0; 3]; V])),
             _ => None,
         });
         let run = |fit: &Fit| fit.identify(&arm, part, &nominal, &known, gears);
-        let found = match delay {
+        let (found, delay_end) = match delay {
             Some(delay) => {
                 fit.delay = delay;
-                run(&fit)
+                run(&fit).map(|found| (found, None))
             }
             None => delay::least(&mut fit, tick, &largest, run),
         }
         .map_err(|source| self.failed(source))?;
-        Ok(Estimate { arm, bodies, joints, nominal, known, fit, found })
+        Ok(Estimate { arm, bodies, joints, nominal, known, fit, found, delay_end })
     }
 
-    /// The speed of Stribeck's effect that leaves the least of the torques, if it is identified.
-    fn stribeck<const V: usize>(&self, parts: [&TickRecording<V>; 2]) -> Result<Option<f64>> {
-        let effects = &self.options.effects;
-        if !effects.contains(&JointEffect::Stribeck) {
-            return Ok(None);
-        }
-        let first = self.estimate(parts, effects, None, None)?;
-        let each = SPEEDS.map(|times| {
-            let speed = times * self.options.width;
-            let found = self.estimate(parts, effects, Some(speed), Some(first.fit.delay))?.found;
-            Ok((found.noise.iter().map(|noise| noise.ln()).sum::<f64>(), speed))
-        });
-        let each = each.into_iter().collect::<Result<Vec<_>>>()?;
-        Ok(each.into_iter().min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, speed)| speed))
-    }
-
-    /// The fit of a part of a recording, with the delay and the speed of another fit.
-    pub fn attempt<const V: usize>(
+    /// The base parameters with the speed of Stribeck's effect that leaves the least of the
+    /// torques, if it is identified.
+    pub fn best_base<const V: usize>(
         &self,
         whole: &TickRecording<V>,
         part: &TickRecording<V>,
-        like: Option<&Attempt<V>>,
+    ) -> Result<Base<V>> {
+        let plain = self.base(whole, None)?;
+        if !self.options.effects.contains(&JointEffect::Stribeck) {
+            return Ok(plain);
+        }
+        let first = self.estimate(plain, part, None)?;
+        let each = SPEEDS.map(|times| {
+            let arm = self.base(whole, Some(times * self.options.width))?;
+            let found = self.estimate(arm.clone(), part, Some(first.fit.delay))?.found;
+            Ok((found.noise.iter().map(|noise| noise.ln()).sum::<f64>(), arm))
+        });
+        let each = each.into_iter().collect::<Result<Vec<_>>>()?;
+        let best = each.into_iter().min_by(|a, b| a.0.total_cmp(&b.0));
+        Ok(best.map_or(first.arm, |(_, arm)| arm))
+    }
+
+    /// The fit of a part of a recording at this delay, s; estimated if not given.
+    pub fn attempt<const V: usize>(
+        &self,
+        arm: Base<V>,
+        part: &TickRecording<V>,
+        delay: Option<f64>,
     ) -> Result<Attempt<V>> {
         let options = self.options;
-        let speed = match like {
-            Some(like) => like.stribeck,
-            None => self.stribeck([whole, part])?,
-        };
-        let delay = like.map(|like| like.estimate.fit.delay);
-        let estimate = self.estimate([whole, part], &options.effects, speed, delay)?;
-        let Estimate { arm, bodies, joints, nominal, known, fit, found } = &estimate;
+        let estimate = self.estimate(arm, part, delay)?;
+        let Estimate { arm, bodies, joints, nominal, known, fit, found, .. } = &estimate;
         let largest = arm.limits.torque;
         let believed = believed(arm, found, nominal, joints, &options.effects);
-        let mut set = found
-            .physical(arm, bodies, &believed, BELIEVED)
-            .map_err(|source| self.failed(source))?;
+        let (base, root) = (&found.base, &found.root);
+        let set = most_probable(base, root, arm, bodies, &believed, BELIEVED, self.steps);
+        let mut set = set.map_err(|source| self.failed(source))?;
         for (j, joint) in set.joints.iter_mut().enumerate() {
             let own = own(arm, j, OfJoint::Offset).filter(|&base| !known[base]);
             let is_shown = own.is_some_and(|base| {
@@ -209,10 +280,31 @@ impl Task<'_> {
         let pairs = compared.measured.iter().zip(&compared.modelled[0]);
         let left: Vec<[f64; V]> =
             pairs.map(|(a, b)| std::array::from_fn(|j| a[j] - b[j])).collect();
-        let shares = left.iter().flat_map(|left| left.iter().zip(&largest));
-        let squares: f64 = shares.map(|(left, largest)| (left / largest).powi(2)).sum();
-        let residual = squares / left.len() as f64;
-        Ok(Attempt { estimate, set, left, residual, stribeck: speed })
+        let most = largest.into_iter().fold(0.0, f64::max);
+        let largest = largest.map(|own| own.max(LIGHT * most) / MARGIN);
+        let shares = std::array::from_fn(|j| {
+            let squares: f64 = left.iter().map(|left| left[j].powi(2)).sum();
+            (squares / left.len() as f64).sqrt() / largest[j]
+        });
+        Ok(Attempt { estimate, set, left, largest, shares })
+    }
+}
+
+/// The largest residuals that a robot of another kind leaves at a joint, relative to its largest
+/// torque,
+pub(crate) const EXPLAINED: f64 = 0.06;
+/// and those from which on nothing is offered to paste.
+pub(crate) const UNEXPLAINED: f64 = 0.12;
+
+impl<const V: usize> Attempt<V> {
+    /// The mean squares of the residuals relative to the joints' largest torques, summed.
+    pub fn residual(&self) -> f64 {
+        self.shares.iter().map(|share| share * share).sum()
+    }
+
+    /// Whether the residuals are near the noise.
+    pub fn is_explained(&self) -> bool {
+        self.shares.iter().all(|share| *share <= EXPLAINED)
     }
 }
 
@@ -238,57 +330,6 @@ pub(crate) fn possible<const V: usize>(found: &Fitted<V>) -> Option<Gears<V>> {
 pub(crate) fn own<const V: usize>(arm: &Base<V>, joint: usize, of: OfJoint) -> Option<usize> {
     let parameter = Parameter::Joint { joint, of };
     (0..arm.len()).find(|&base| arm.terms(base)[0].1 == parameter)
-}
-
-/// The limits within which the motion is compared with random ones: positions of the description,
-/// the speeds of the recording.
-fn limits<const V: usize>(
-    robot: &Robot,
-    path: &Path,
-    recording: &TickRecording<V>,
-) -> Result<ExcitationLimits<V>> {
-    let mut limits = ExcitationLimits {
-        lower: [-TURN; V],
-        upper: [TURN; V],
-        velocity: [SLOWEST; V],
-        acceleration: [SLOWEST_RATE; V],
-        torque: [0.0; V],
-    };
-    let extremes = recording.extremes();
-    if extremes.iter().all(|[low, high, _]| high - low < RESTS) {
-        let path = path.to_owned();
-        return Err(Error::AtRest { path });
-    }
-    let largest = extremes.iter().fold(1e-6, |most: f64, [.., tau]| most.max(*tau));
-    for (j, [low, high, torque]) in extremes.into_iter().enumerate() {
-        let body = &robot.imported.tree.bodies[j];
-        if let Some([lower, upper]) = body.limits.position.filter(|[a, b]| a < b) {
-            for position in [low, high] {
-                if position < lower - BEYOND || position > upper + BEYOND {
-                    return Err(Error::Outside {
-                        recording: path.to_owned(),
-                        robot: robot.path.clone(),
-                        joint: j,
-                        name: body.joint.clone(),
-                        position,
-                        lower,
-                        upper,
-                    });
-                }
-            }
-            (limits.lower[j], limits.upper[j]) = (lower.max(-TURN), upper.min(TURN));
-        }
-        if limits.lower[j] >= limits.upper[j] {
-            (limits.lower[j], limits.upper[j]) = (low - SLOWEST, high + SLOWEST);
-        }
-        limits.torque[j] = (1.2 * torque).max(0.01 * largest);
-    }
-    let [speeds, rates] = recording.rates();
-    for j in 0..V {
-        limits.velocity[j] = speeds[j].max(SLOWEST);
-        limits.acceleration[j] = rates[j].max(SLOWEST_RATE);
-    }
-    Ok(limits)
 }
 
 /// Which base parameters are those of the description: effects that are not identified.

@@ -70,11 +70,18 @@ pub enum Error {
     Json(#[from] serde_json::Error),
 }
 
+/// How many times as far as its limits a joint is whose positions are in degrees.
+const DEGREES: f64 = 4.0;
+
 /// The likely reason for a position beyond the limits.
 fn beyond(position: f64, [lower, upper]: [f64; 2]) -> &'static str {
-    match (lower - 0.1..=upper + 0.1).contains(&position.to_radians()) {
+    let (far, inside) = (DEGREES * lower.abs().max(upper.abs()), lower - 0.1..=upper + 0.1);
+    match position.abs() > far && inside.contains(&position.to_radians()) {
         true => "are the positions in degrees? A map says so: position_unit = \"deg\" (--columns)",
-        false => "is the recording of this robot, with the zeros of its encoders?",
+        false => {
+            "is this the column of another joint, in another unit, with another zero, or the \
+             recording of another robot? Nothing is fitted to it"
+        }
     }
 }
 
@@ -104,8 +111,6 @@ pub enum Problem {
     Fields { found: usize, expected: usize },
     #[error("the line has more than {0} bytes")]
     LongLine(usize),
-    #[error("the line is no text in UTF-8")]
-    NoText,
     #[error("column `{column}`: `{text}` is not {expected}")]
     Value { column: String, text: String, expected: &'static str },
     #[error("more than {0} ticks")]
@@ -122,6 +127,9 @@ pub enum Problem {
     Jitter { interval: f64, jitter: f64 },
     #[error("it has no two rows with a time, from which the length of a tick follows")]
     NoTick,
+    /// Positions or torques that say nothing.
+    #[error("the {channel} {how}. Nothing is fitted to this record")]
+    Channel { channel: String, how: String },
     #[error("no row has `{column}` = `{is}`, in which the controller makes the torque")]
     NoRows { column: String, is: String },
     #[error("MCAP: {0}")]

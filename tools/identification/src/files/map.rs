@@ -1,6 +1,8 @@
 //! Which columns of a record are the time, the positions and the torques, and in which units.
 
 use std::collections::HashSet;
+use std::fs::File;
+use std::io::Read;
 use std::path::Path;
 
 use robot_import::description::most_similar;
@@ -23,6 +25,8 @@ const ANGLES: [(&str, f64); 6] = [
 ];
 const TORQUES: [(&str, f64); 5] =
     [("Nm", 1.0), ("mNm", 1e-3), ("N", 1.0), ("A", 1.0), ("mA", 1e-3)];
+/// The largest map, bytes; what is behind is not read.
+const LARGEST: u64 = 1 << 20;
 /// The most titles that an error lists.
 const LISTED: usize = 40;
 
@@ -113,7 +117,8 @@ impl Map {
     /// [`Error`] names the file and what is wrong in it.
     pub fn read(path: &Path) -> Result<Self> {
         let read = |source| Error::Read { path: path.to_owned(), source };
-        let text = std::fs::read_to_string(path).map_err(read)?;
+        let (mut text, file) = (String::new(), File::open(path).map_err(read)?);
+        file.take(LARGEST).read_to_string(&mut text).map_err(read)?;
         let wrong =
             |reason| Error::Recording { path: path.to_owned(), problem: Problem::Map(reason) };
         Self::of(&text).map_err(wrong)

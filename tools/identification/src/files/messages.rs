@@ -16,6 +16,12 @@ use super::error::Problem;
 /// The largest file and the largest chunk, bytes.
 pub const LARGEST_FILE: u64 = 1 << 30;
 const LARGEST_CHUNK: u64 = 1 << 28;
+/// The most bytes that chunks have in all, of each byte of the file and beside: records of joints
+/// are compressed to a tenth.
+const PACKED: u64 = 16;
+const BESIDE: u64 = 1 << 22;
+/// The longest path of a number, bytes.
+const LONGEST_PATH: usize = 1024;
 /// The most numbers and texts of a message.
 const MOST: usize = 4096;
 const JOINT_STATE: [&str; 2] = ["sensor_msgs/msg/JointState", "sensor_msgs/JointState"];
@@ -31,6 +37,8 @@ struct Reader<'a, F> {
     /// The channels that are read, and whether they are JSON.
     channels: HashMap<u16, bool>,
     topics: Vec<String>,
+    /// The bytes that chunks may still have.
+    left: u64,
     each: F,
 }
 
@@ -41,7 +49,8 @@ pub fn read(
     each: impl FnMut(Message) -> Checked<()>,
 ) -> Checked<()> {
     let (states, channels) = (HashMap::new(), HashMap::new());
-    let mut reader = Reader { topic, states, channels, topics: Vec::new(), each };
+    let left = BESIDE + PACKED * bytes.len() as u64;
+    let mut reader = Reader { topic, states, channels, topics: Vec::new(), left, each };
     reader.all(LinearReader::new(bytes).map_err(wrong)?)?;
     match reader.channels.is_empty() {
         false => Ok(()),
@@ -97,11 +106,10 @@ impl<F: FnMut(Message) -> Checked<()>> Reader<'_, F> {
                 }
                 Record::Chunk { header, data } => {
                     let size = header.uncompressed_size;
-                    if size > LARGEST_CHUNK {
-                        return Err(wrong(format!("a chunk of {size} bytes")));
-                    }
+                    let left = self.left.checked_sub(size).filter(|_| size <= LARGEST_CHUNK);
+                    self.left = left.ok_or_else(|| wrong(format!("a chunk of {size} bytes")))?;
                     match header.compression.as_str() {
-                        "" => self.all(LinearReader::sans_magic(&data))?,
+                        "" => self.all(LinearReader::sans_magic(of_chunk(&data)?))?,
                         "zstd" => {
                             let mut plain = Vec::new();
                             let decoder = ruzstd::decoding::StreamingDecoder::new(&data[..]);
@@ -110,7 +118,7 @@ impl<F: FnMut(Message) -> Checked<()>> Reader<'_, F> {
                                 .take(size)
                                 .read_to_end(&mut plain)
                                 .map_err(wrong)?;
-                            self.all(LinearReader::sans_magic(&plain))?;
+                            self.all(LinearReader::sans_magic(of_chunk(&plain)?))?;
                         }
                         other => {
                             return Err(wrong(format!(
@@ -127,10 +135,25 @@ impl<F: FnMut(Message) -> Checked<()>> Reader<'_, F> {
     }
 }
 
+/// The records of a chunk; the reader would follow other chunks in it without an end.
+fn of_chunk(records: &[u8]) -> Checked<&[u8]> {
+    let mut rest = records;
+    while let Some(([op, length @ ..], body)) = rest.split_first_chunk::<9>() {
+        if *op == mcap::records::op::CHUNK {
+            return Err(wrong("a chunk in a chunk"));
+        }
+        let length = usize::try_from(u64::from_le_bytes(*length)).ok();
+        rest = length.and_then(|length| body.get(length..)).unwrap_or_default();
+    }
+    Ok(records)
+}
+
 /// The numbers and texts of JSON by their paths; those of joints with names by these.
 fn flat(path: &str, value: &Value, into: &mut Message) -> Checked<()> {
-    if into.len() > MOST {
-        return Err(wrong(format!("a message has more than {MOST} numbers")));
+    if into.len() > MOST || path.len() > LONGEST_PATH {
+        return Err(wrong(format!(
+            "a message has more than {MOST} numbers, or a name of more than {LONGEST_PATH} bytes"
+        )));
     }
     match value {
         Value::Object(fields) => {

@@ -5,11 +5,12 @@
 //! |---|---|
 //! | [`recorded`] | the ticks of a CSV, an MCAP or arrays |
 //! | [`map`] | which columns these are, and in which units |
+//! | [`look`] | single bad samples, jumps by a turn, encoders that stand still |
 //! | [`resample`] | rows at uneven times |
 //! | [`robot`] | the robot of a URDF or MJCF, and its parameters |
 //! | [`run`] | the fit, its comparison with held-out ticks, and the physical set |
 //! | [`kinds`] | the kinds of friction that the model lacks and the recording carries |
-//! | [`mistakes`] | a unit, a sign or a zero that explains what no robot does |
+//! | [`mistakes`] | a mistake that explains what no robot does |
 //! | [`report`] | what was found, as text and as JSON |
 //! | [`picture`] | the torques by time |
 //! | [`paste`] | the robot's Rust file and its initialisers in C with what was found |
@@ -18,6 +19,7 @@ mod attempt;
 mod delay;
 pub mod error;
 pub mod kinds;
+pub mod look;
 #[cfg(feature = "files")]
 pub mod map;
 #[cfg(feature = "files")]

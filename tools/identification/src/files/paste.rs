@@ -8,7 +8,7 @@ use robot_import::write;
 use crate::OF_JOINT;
 
 use super::report::{Findings, Gear, rounded};
-use super::robot::Robot;
+use super::robot::{DOWN, Robot};
 
 /// The width with which the importer writes Coulomb friction.
 const WIDTH: &str = "Width::f32(0.02)";
@@ -22,14 +22,22 @@ pub fn file(robot: &Robot, found: &Findings) -> String {
             MassProperties { mass: own.after.mass, com: own.after.com, inertia: own.after.inertia };
         [body.damping, body.friction, body.armature] = [0, 1, 2].map(|k| rounded(joint.after[k]));
     }
+    let mut notes = vec![format!(
+        "Masses, inertias and frictions were identified from {:.1} s of motion.",
+        found.fitted_seconds
+    )];
+    if robot.gravity != DOWN {
+        let [x, y, z] = robot.gravity;
+        notes.push(format!(
+            "The base was mounted so that gravity is along ({x:.4}, {y:.4}, {z:.4}) of it, and \
+             that of SCENE is along its −z."
+        ));
+    }
     let origin = write::Origin {
         file: imported.report.file.clone(),
         licence: imported.robot.licence.clone(),
         date: today(),
-        notes: vec![format!(
-            "Masses, inertias and frictions were identified from {:.1} s of motion.",
-            found.fitted_seconds
-        )],
+        notes,
     };
     let source = write::source(&tree, &imported.name, &imported.report.type_name, &origin);
     let width = format!("Width::f32({:?})", found.width);

@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::TickRecording;
 
 use super::error::{Error, Problem, Result};
-use super::resample::{self, Row, Sampling};
+use super::resample::{self, Row, Sampling, Timed};
 
 /// The largest number that a position or a torque of an arm may be.
 pub(crate) const LARGEST: f64 = 1e6;
@@ -24,6 +24,8 @@ pub struct Recorded {
     pub sampling: Sampling,
     /// Whether a torque is held until the next tick; otherwise it is that of its position.
     pub held: bool,
+    /// The rows of which the stretches were made, in the order of their times.
+    pub(crate) timed: Vec<Timed>,
 }
 
 /// Rows as they come.
@@ -62,6 +64,16 @@ impl Recorded {
         Rows { times, rows, ..Rows::default() }.made(joints, false).map_err(whole)
     }
 
+    pub(crate) fn even(
+        joints: usize,
+        timed: Vec<Timed>,
+        mut sampling: Sampling,
+        held: bool,
+    ) -> std::result::Result<Self, Problem> {
+        let (tick, stretches) = resample::even(&timed, &mut sampling)?;
+        Ok(Self { joints, tick, stretches, sampling, held, timed })
+    }
+
     /// As a recording of V joints.
     ///
     /// # Errors
@@ -80,8 +92,7 @@ impl Recorded {
 impl Rows {
     pub fn made(self, joints: usize, held: bool) -> std::result::Result<Recorded, Problem> {
         let mut sampling = Sampling { left_out: self.left_out, ..Sampling::default() };
-        let (tick, stretches) =
-            resample::even(&self.times, self.rows, &self.breaks, &mut sampling)?;
-        Ok(Recorded { joints, tick, stretches, sampling, held })
+        let timed = resample::ordered(&self.times, self.rows, &self.breaks, &mut sampling)?;
+        Recorded::even(joints, timed, sampling, held)
     }
 }

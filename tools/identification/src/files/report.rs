@@ -25,6 +25,8 @@ pub struct Findings {
     /// The length of a tick, s.
     pub tick: f64,
     pub sampling: Sampling,
+    /// What was found and changed in the samples before the fit.
+    pub look: Vec<String>,
     /// Whether a torque is held until the next tick.
     pub held: bool,
     /// The frequency up to which torques were compared, Hz.
@@ -43,6 +45,9 @@ pub struct Findings {
     /// The time to which a torque belongs, after the position of its tick, s: half a tick for a
     /// torque that is held for a tick, less if the torques lag behind.
     pub delay: f64,
+    /// The end of the search for this time, after which the residuals would fall further, s; it is
+    /// no estimate and is not used.
+    pub delay_end: Option<f64>,
     /// The mistake in the recording, if one was found; nothing is offered to paste then.
     pub mistake: Option<Mistake>,
     pub parameters: Vec<ParameterFound>,
@@ -161,10 +166,10 @@ pub fn rounded(x: f64) -> f64 {
 }
 
 /// A share in per cent; of nothing, none.
-fn percent(part: f64, of: f64) -> String {
+pub(super) fn percent(part: f64, of: f64) -> String {
     match 100.0 * part / of {
         share if share < 1000.0 => format!("{share:.1} %"),
-        _ => "–".to_owned(),
+        _ => "> 999 %".to_owned(),
     }
 }
 
@@ -233,6 +238,7 @@ impl Findings {
             "record: {gaps} gaps of {gap_seconds:.2} s in all; rows dropped: {left_out} on hold or \
              incomplete, {duplicates} with the time of the row before, {backward} with an earlier one"
         );
+        self.look.iter().for_each(|found| *text += &format!("warning: {found}\n"));
         if self.sampling.is_resampled {
             let [rms, largest] = self.sampling.jitter.map(|share| 100.0 * share);
             let [error, missing] = self.sampling.error(self.cutoff, self.tick);
@@ -256,11 +262,18 @@ impl Findings {
             false => (0.0, "the time of its position"),
         };
         let lag = own - self.delay;
-        let _ = match lag {
-            0.0 => writeln!(text, "delay: none; each torque belongs to {ends}"),
-            _ => writeln!(
-                text,
-                "warning: the torques {} the positions by {} ms; the fit takes this into account",
+        *text += &match (self.delay_end, &self.mistake, lag) {
+            (Some(end), ..) => format!(
+                "warning: the residuals fall up to the end of the search for a delay of the \
+                 torques, {} ms, which is no estimate and is not used\n",
+                short(-1e3 * end)
+            ),
+            (_, Some(Mistake::NotExplained { .. }), _) => {
+                "delay: not known, since the residuals are not explained\n".to_owned()
+            }
+            (.., 0.0) => format!("delay: none; each torque belongs to {ends}\n"),
+            _ => format!(
+                "warning: the torques {} the positions by {} ms; the fit takes this into account\n",
                 if lag > 0.0 { "lag behind" } else { "are ahead of" },
                 short(1e3 * lag.abs())
             ),
@@ -322,12 +335,14 @@ impl Findings {
         }
         self.masses(text);
         match &self.mistake {
+            Some(mistake @ Mistake::NotExplained { .. }) => {
+                let _ = writeln!(text, "warning: the recording is {mistake}");
+            }
             Some(mistake) => {
                 let _ = writeln!(
                     text,
-                    "warning: no possible robot fits this recording ({:.1} standard deviations \
-                     away), unless a mistake is corrected: {mistake}",
-                    self.misfit
+                    "warning: no possible robot fits this recording, unless a mistake is \
+                     corrected: {mistake}"
                 );
             }
             None if self.misfit > IMPOSSIBLE => {
@@ -416,9 +431,8 @@ impl Findings {
         if let Some((joint, share)) = self.worst() {
             let _ = writeln!(
                 text,
-                "\ntorques of {held} within {:.1} % of the largest torque, RMS; the worst joint is \
-                 {}",
-                100.0 * share,
+                "\ntorques of {held} within {} of the largest torque, RMS; the worst joint is {}",
+                percent(share, 1.0),
                 joint.name
             );
         }

@@ -51,15 +51,17 @@ impl Sampling {
     }
 }
 
-/// The interval, s, and stretches of rows at this interval. A stretch ends before each row of
-/// `breaks`.
-pub fn even(
+/// Rows with their times, s, in order.
+pub type Timed = Vec<(f64, Row)>;
+
+/// Stretches of rows in the order of their times. A stretch ends before each row of `breaks`.
+pub fn ordered(
     times: &[f64],
     rows: Vec<Row>,
     breaks: &[usize],
     sampling: &mut Sampling,
-) -> Result<(f64, Vec<Vec<Row>>), Problem> {
-    let mut stretches: Vec<Vec<(f64, Row)>> = Vec::new();
+) -> Result<Vec<Timed>, Problem> {
+    let mut stretches: Vec<Timed> = Vec::new();
     let (count, mut breaks) = (rows.len(), breaks.iter().peekable());
     for (at, (time, row)) in times.iter().zip(rows).enumerate() {
         let ends = breaks.next_if(|next| **next <= at).is_some();
@@ -76,6 +78,11 @@ pub fn even(
     if sampling.backward as f64 > BACKWARD * count as f64 {
         return Err(Problem::Backward { backward: sampling.backward, rows: count });
     }
+    Ok(stretches)
+}
+
+/// The interval, s, and stretches of rows at this interval.
+pub fn even(stretches: &[Timed], sampling: &mut Sampling) -> Result<(f64, Vec<Vec<Row>>), Problem> {
     let pairs = || stretches.iter().flat_map(|stretch| stretch.windows(2));
     let mut each: Vec<f64> = pairs().map(|pair| pair[1].0 - pair[0].0).collect();
     if each.is_empty() {
@@ -97,7 +104,7 @@ pub fn even(
         return Err(Problem::Jitter { interval, jitter: 100.0 * sampling.jitter[0] });
     }
     let mut all = Vec::new();
-    for stretch in &stretches {
+    for stretch in stretches {
         for part in stretch.chunk_by(|a, b| b.0 - a.0 < BRIDGED * interval) {
             all.push(part);
         }

@@ -1,19 +1,18 @@
 //! The robot of a description, and its parameters.
 
+use std::f64::consts::FRAC_PI_2;
 use std::path::{Path, PathBuf};
 
 use dynamics_core::algorithms::inertial_parameters;
+use dynamics_core::glam::{DMat3, DQuat, DVec3, EulerRot};
 use dynamics_core::model::ArmModel;
 #[cfg(feature = "files")]
 use robot_import::import::{self, Imported, Options};
 use robot_import::model;
+use robot_import::number::Attitude;
+use robot_import::tree::Tree;
 #[cfg(not(feature = "files"))]
-use robot_import::{
-    loops,
-    selection::Selection,
-    source,
-    tree::{Numbers, Tree},
-};
+use robot_import::{loops, selection::Selection, source, tree::Numbers};
 
 use crate::OF_JOINT;
 
@@ -38,7 +37,12 @@ pub struct Imported {
 pub struct Robot {
     pub path: PathBuf,
     pub imported: Imported,
+    /// The direction of gravity in the frame of the base: a unit vector.
+    pub gravity: [f64; 3],
 }
+
+/// The direction of gravity in the frame of an upright base.
+pub const DOWN: [f64; 3] = [0.0, 0.0, -1.0];
 
 impl Robot {
     /// Imports a description under its own or another name, without a peer: the import itself has
@@ -92,7 +96,7 @@ impl Robot {
                  the link that closes one",
             ));
         }
-        Ok(Self { path: path.to_owned(), imported })
+        Ok(Self { path: path.to_owned(), imported, gravity: DOWN })
     }
 
     pub fn joints(&self) -> Vec<String> {
@@ -103,12 +107,13 @@ impl Robot {
         self.imported.tree.bodies.iter().map(|body| body.name.clone()).collect()
     }
 
-    /// Its model, the parameters of its bodies, and those of its joints.
+    /// Its model on a base that stands so that gravity has this direction, the parameters of its
+    /// bodies, and those of its joints.
     ///
     /// # Errors
     /// [`Error::Robot`].
-    pub fn model<const V: usize>(&self) -> Result<Described<V>> {
-        let arm: ArmModel<f64, V> = model::arm(&self.imported.tree)
+    pub fn model<const V: usize>(&self, gravity: [f64; 3]) -> Result<Described<V>> {
+        let arm: ArmModel<f64, V> = model::arm(&turned(&self.imported.tree, gravity))
             .map_err(|source| Error::Robot { path: self.path.clone(), source: source.into() })?;
         let joints = std::array::from_fn(|j| {
             let body = &self.imported.tree.bodies[j];
@@ -116,4 +121,24 @@ impl Robot {
         });
         Ok((arm, inertial_parameters(&arm, &()), joints))
     }
+}
+
+/// The tree on a base that is turned so that this direction of its frame points down.
+fn turned(tree: &Tree, gravity: [f64; 3]) -> Tree {
+    let mut tree = tree.clone();
+    if gravity == DOWN {
+        return tree;
+    }
+    let turn = DQuat::from_rotation_arc(DVec3::from_array(gravity), DVec3::from_array(DOWN));
+    let turn = DMat3::from_quat(turn);
+    for body in tree.bodies.iter_mut().filter(|body| body.parent.is_none()) {
+        let [roll, pitch, yaw] = match body.attitude {
+            Attitude::QuarterTurns(turns) => turns.map(|n| f64::from(n) * FRAC_PI_2),
+            Attitude::Rpy(angles) => angles,
+        };
+        let own = DMat3::from_euler(EulerRot::ZYX, yaw, pitch, roll);
+        body.attitude = Attitude::of(&(turn * own));
+        body.xyz = (turn * DVec3::from_array(body.xyz)).to_array();
+    }
+    tree
 }

@@ -8,12 +8,14 @@ use dynamics_core::model::BodyInertia;
 use dynamics_core::spatial::SpatialInertia;
 
 use crate::fit::lagged;
+use crate::physical::STEPS;
 
-use super::attempt::{Attempt, Estimate, Task, bell, own, possible};
+use super::attempt::{Attempt, Estimate, Task, UNEXPLAINED, bell, own, possible};
 pub use super::attempt::{JointEffect, Options};
 use super::error::{Error, Result};
 use super::kinds;
-use super::mistakes;
+use super::look;
+use super::mistakes::{self, Mistake};
 use super::recorded::Recorded;
 use super::report::{
     BodyFound, Findings, Gear, JointFound, Numbers, ParameterFound, RecordingPart, Trace,
@@ -77,15 +79,21 @@ fn of_size<const V: usize>(
     other: Option<(&Path, &Recorded)>,
     options: &Options,
 ) -> Result<Findings> {
-    let task = Task { robot, path, options, held: recorded.held };
+    let (recorded, look) = look::at(robot, path, recorded)?;
+    let other = match other {
+        Some((path, other)) => Some((path, look::at(robot, path, other)?.0)),
+        None => None,
+    };
+    let delay = if recorded.held { 0.5 * recorded.tick } else { 0.0 };
+    let task = Task { robot, gravity: robot.gravity, path, options, steps: STEPS, delay };
     let whole: TickRecording<V> = recorded.ticks(path)?;
-    let (fitted_part, held) = match other {
+    let (fitted_part, held) = match &other {
         Some((path, other)) => (whole.clone(), other.ticks(path)?),
         None => whole.split(1.0 - options.hold_out),
     };
-    let attempt = task.attempt(&whole, &fitted_part, None)?;
+    let attempt = task.attempt(task.best_base(&whole, &fitted_part)?, &fitted_part, None)?;
     let names = robot.joints();
-    let mistake = mistakes::explains(&task, &whole, &fitted_part, &attempt, &names);
+    let mistake = mistakes::explains(task, [&whole, &fitted_part], &attempt, &names);
     let Attempt { estimate, set, .. } = &attempt;
     let Estimate { arm, joints, nominal, known, fit, found, .. } = estimate;
     let pasted = set.joints;
@@ -100,6 +108,14 @@ fn of_size<const V: usize>(
         Err(IdentificationError::TooShort { .. }) if other.is_none() => None,
         validated => Some(validated.map_err(|source| task.failed(source))?),
     };
+    let mistake = mistake.or_else(|| {
+        let parts = [Some(&own_part), validated.as_ref()].into_iter().flatten();
+        let shares = parts
+            .flat_map(|of| (0..V).map(|j| (j, part(of, j).residuals[1].rms / attempt.largest[j])));
+        let worst =
+            shares.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, share)| *share > UNEXPLAINED);
+        worst.map(|(j, share)| Mistake::NotExplained { joint: names[j].clone(), share })
+    });
     let kinds = match (&mistake, &validated) {
         (None, Some(held)) => kinds::carried(options, [&own_part, held], &names),
         _ => Vec::new(),
@@ -164,7 +180,7 @@ fn of_size<const V: usize>(
     let curve = |j: usize, qd: f64| {
         let [viscous, coulomb, _, _, excess, asymmetry] = pasted[j];
         let s = smooth_sign(qd / options.width);
-        let excess = excess * attempt.stribeck.map_or(0.0, |speed| bell(s, qd, speed));
+        let excess = excess * arm.friction.stribeck.map_or(0.0, |speed| bell(s, qd, speed));
         viscous * qd + s * (coulomb + asymmetry * s) + excess
     };
     Ok(Findings {
@@ -172,16 +188,18 @@ fn of_size<const V: usize>(
         ticks: whole.ticks(),
         tick,
         sampling: recorded.sampling,
+        look,
         held: recorded.held,
         cutoff: fit.cutoff,
         fitted_seconds: tick * fitted_part.ticks() as f64,
         held_out_seconds: tick * held.ticks() as f64,
         other_path: other.is_some(),
         width: options.width,
-        stribeck_speed: attempt.stribeck,
+        stribeck_speed: arm.friction.stribeck,
         condition: found.condition,
         misfit: set.misfit,
         delay: fit.delay,
+        delay_end: estimate.delay_end,
         mistake,
         kinds,
         parameters: (0..arm.len()).map(of_parameter).chain(numbers).collect(),

@@ -20,9 +20,13 @@ const SHIFTED: f64 = 0.3;
 const KNOWN: f64 = 1e-9;
 
 impl<const V: usize> Attempt<V> {
-    /// By how much the positions of each joint are too small, if its zero is the only one that is
-    /// shifted, rad or m.
-    pub fn shifts(&self, part: &TickRecording<V>) -> Result<[f64; V], IdentificationError> {
+    /// By how much the positions are too small, rad or m, and the joint whose zero alone is
+    /// shifted, or none if those of all may be: of these choices the one that leaves the least.
+    pub fn shifts(
+        &self,
+        part: &TickRecording<V>,
+        among: &[Option<usize>],
+    ) -> Result<(Option<usize>, [f64; V]), IdentificationError> {
         let Estimate { arm, fit, found, .. } = &self.estimate;
         let (p, mut model) = (arm.len(), arm.robot);
         for (link, phi) in model.links.iter_mut().zip(self.set.bodies) {
@@ -46,10 +50,16 @@ impl<const V: usize> Attempt<V> {
             }
         }
         let equations = Equations::of(&reduced, &vec![0.0; p + V]);
-        Ok(std::array::from_fn(|joint| {
-            let own = (0..V).map(|j| if j == joint { SHIFTED } else { KNOWN });
+        let tried = among.iter().map(|&only| {
+            let is_free = |j: usize| only.is_none_or(|only| only == j);
+            let own = (0..V).map(|j| if is_free(j) { SHIFTED } else { KNOWN });
             let prior: Vec<f64> = found.prior.iter().copied().chain(own).collect();
-            equations.solve(&found.noise, &prior).estimate[p + joint]
-        }))
+            let estimate = equations.solve(&found.noise, &prior).estimate;
+            let left = (0..V).map(|j| equations.square(&estimate, j) / self.largest[j].powi(2));
+            let step = std::array::from_fn(|j| if is_free(j) { estimate[p + j] } else { 0.0 });
+            (left.sum::<f64>(), (only, step))
+        });
+        let best = tried.min_by(|a, b| a.0.total_cmp(&b.0));
+        Ok(best.map_or((None, [0.0; V]), |(_, step)| step))
     }
 }

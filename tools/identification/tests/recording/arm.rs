@@ -12,7 +12,6 @@ use identification::files::report::Findings;
 use identification::files::robot::Robot;
 use identification::files::run::{self, JointEffect, Options};
 use robot_import::import::Options as Selection;
-use robot_import::model;
 
 pub type At = State<f64, 2, 2>;
 
@@ -56,7 +55,7 @@ pub fn off() -> Robot {
 
 /// The torques of a robot at a state.
 pub fn torques(robot: &Robot, at: &At) -> [f64; 2] {
-    let arm = model::arm::<2>(&robot.imported.tree).expect("an arm");
+    let (arm, ..) = robot.model::<2>(robot.gravity).expect("an arm");
     let of = |of: fn(&robot_import::tree::Body) -> f64| {
         std::array::from_fn(|j| of(&robot.imported.tree.bodies[j]))
     };

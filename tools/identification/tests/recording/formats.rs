@@ -1,6 +1,8 @@
 //! Logs in the formats of public projects give the parameters that the same samples give in the
 //! project's own format, and each mistake in them is named.
 
+use std::collections::BTreeMap;
+
 use identification::files::map::Map;
 use identification::files::mistakes::Mistake;
 use identification::files::report::Findings;
@@ -111,39 +113,31 @@ fn five_formats_give_what_the_converted_file_gives() {
 }
 
 #[test]
-fn each_mistake_in_each_format_is_named() {
-    for format in formats() {
-        let named = |wrong: Wrong| format.found(wrong);
-        let joint = "elbow_flex".to_owned();
-        let reversed = named(Wrong { reversed: true, ..RIGHT });
-        let sign = Mistake::TorqueSign { joints: vec![joint] };
-        assert_eq!(reversed.mistake, Some(sign), "{}", format.name);
-        match named(Wrong { shift: 0.2, ..RIGHT }).mistake {
-            Some(Mistake::Zero { joint, shift }) => {
-                assert!(joint == "shoulder_lift" && (shift + 0.2).abs() < 0.06, "{joint} {shift}");
-            }
-            other => panic!("{}: {other:?}", format.name),
+fn each_mistake_is_named_in_a_format() {
+    let [lerobot, rosbag, rtde, franka, bus] = formats();
+    let reversed = franka.found(Wrong { reversed: true, ..RIGHT });
+    let sign = Mistake::TorqueSign { joints: vec!["elbow_flex".to_owned()] };
+    assert_eq!(reversed.mistake, Some(sign));
+    match bus.found(Wrong { shift: 0.2, ..RIGHT }).mistake {
+        Some(Mistake::Zero { shifts }) => {
+            let [(joint, shift)] = &shifts[..] else { panic!("{shifts:?}") };
+            assert!(joint == "shoulder_lift" && (shift + 0.2).abs() < 0.06, "{joint} {shift}");
         }
-        match named(Wrong { factor: 1e3, ..RIGHT }).mistake {
-            Some(Mistake::Unit { factor }) => assert!((factor / 1e3).ln().abs() < 0.5, "{factor}"),
-            other => panic!("{}: {other:?}", format.name),
-        }
-        let late = named(Wrong { late: 0.02, ..RIGHT });
-        assert!(
-            (late.delay + 0.02).abs() < f64::max(4e-3, 0.2 / format.rate),
-            "{}: {}",
-            format.name,
-            late.delay
-        );
-        assert!(late.text().contains("the torques lag behind the positions by"), "{}", late.text());
-        // Degrees that a map takes as radians.
-        let map = format.map.clone().unwrap_or_default();
-        if map.contains("\"deg\"") {
-            let text = (format.text)(&samples((format.times)().into_iter(), RIGHT));
-            let recorded = read(&text, Some(&map.replace("\"deg\"", "\"rad\""))).expect("a log");
-            let error = tried(&recorded).expect_err("degrees").to_string();
-            assert!(error.contains("are the positions in degrees?"), "{error}");
-        }
+        other => panic!("{other:?}"),
+    }
+    match rosbag.found(Wrong { factor: 1e3, ..RIGHT }).mistake {
+        Some(Mistake::Unit { factor }) => assert!((factor / 1e3).ln().abs() < 0.5, "{factor}"),
+        other => panic!("{other:?}"),
+    }
+    let late = rtde.found(Wrong { late: 0.02, ..RIGHT });
+    assert!((late.delay + 0.02).abs() < 4e-3, "{}", late.delay);
+    assert!(late.text().contains("the torques lag behind the positions by"), "{}", late.text());
+    // Degrees that a map takes as radians.
+    for format in [lerobot, bus] {
+        let text = (format.text)(&samples((format.times)().into_iter(), RIGHT));
+        let map = format.map.unwrap_or_default().replace("\"deg\"", "\"rad\"");
+        let error = tried(&read(&text, Some(&map)).expect("a log")).expect_err("degrees");
+        assert!(error.to_string().contains("are the positions in degrees?"), "{error}");
     }
 }
 
@@ -282,4 +276,68 @@ fn jitter_changes_torques_by_less_than_is_stated() {
         let [own, other] = [own, other].map(|joint| joint.fitted.residuals[1].rms);
         assert!((own / other - 1.0).abs() < 0.1, "{own} {other}");
     }
+}
+
+#[test]
+fn decimal_commas_units_and_comments_are_read() {
+    let map = formats()[4].map.clone().expect("a map");
+    let plain = bus(&samples(even(250.0, 1.0), RIGHT));
+    let (titles, rows) = plain.split_once('\n').expect("titles");
+    let commas = rows.replace('.', ",");
+    let units = titles.split(';').map(|_| "unit").collect::<Vec<_>>().join(";");
+    let expected = read(plain.as_bytes(), Some(&map)).expect("a log");
+    for text in [
+        format!("{titles}\n{commas}"),
+        format!("{titles}\n{units}\n{rows}"),
+        format!("\u{feff}# it was, recorded\r\n# 2026-11-30\n{titles}\n{units}\n# here\n{commas}"),
+        format!("# recorded\n# {titles}\n{rows}# the end\n"),
+    ] {
+        let found = read(text.as_bytes(), Some(&map)).expect(&text[..60]);
+        assert!(found == expected, "{}", &text[..60]);
+    }
+    let latin: Vec<u8> = units.bytes().map(|byte| if byte == b'u' { 0xb5 } else { byte }).collect();
+    let latin = [titles.as_bytes(), b"\n", &latin, b"\n", rows.as_bytes()].concat();
+    assert!(read(&latin, Some(&map)).expect("Latin-1") == expected);
+    let text = format!("# recorded\n{titles}\n\n{units}\n{}", rows.replacen(';', ";x", 1));
+    let error = read(text.as_bytes(), Some(&map)).expect_err("no number").to_string();
+    assert!(error.starts_with("log, line 5: column `shoulder_pan.pos`: `x"), "{error}");
+}
+
+/// A file of MCAP with one record.
+fn with_record(op: u8, body: &[u8]) -> Vec<u8> {
+    let header = [&8_u64.to_le_bytes()[..], &[0; 8]].concat();
+    let record = [&[op][..], &(body.len() as u64).to_le_bytes(), body].concat();
+    [mcap::MAGIC, &[1], &header, &record, mcap::MAGIC].concat()
+}
+
+/// The body of a chunk that is said to have so many bytes.
+fn chunk(size: u64, records: &[u8]) -> Vec<u8> {
+    let size = size.to_le_bytes();
+    [&[0; 16], &size[..], &[0; 8], &(records.len() as u64).to_le_bytes(), records].concat()
+}
+
+#[test]
+fn a_file_of_mcap_cannot_ask_for_more_memory_than_it_has() {
+    let inner = chunk(0, &[]);
+    let inner = [&[6][..], &(inner.len() as u64).to_le_bytes(), &inner].concat();
+    for (body, words) in [
+        (chunk(inner.len() as u64, &inner), "a chunk in a chunk"),
+        (chunk(1 << 27, &[0; 8]), "a chunk of 134217728 bytes"),
+    ] {
+        let error = read(&with_record(6, &body), None).expect_err(words).to_string();
+        assert!(error.contains(words), "{words}: {error}");
+    }
+    let mut writer = mcap::Writer::new(std::io::Cursor::new(Vec::new())).expect("a file");
+    let channel = writer.add_channel(0, "/j", "json", &BTreeMap::new()).expect("a channel");
+    let header = mcap::records::MessageHeader {
+        channel_id: channel,
+        sequence: 0,
+        log_time: 1,
+        publish_time: 1,
+    };
+    let data = format!("{{\"{}\": [1, 2]}}", "k".repeat(2000));
+    writer.write_to_known_channel(&header, data.as_bytes()).expect("a message");
+    writer.finish().expect("an end");
+    let error = read(&writer.into_inner().into_inner(), None).expect_err("a name").to_string();
+    assert!(error.contains("a name of more than 1024 bytes"), "{error}");
 }

@@ -7,3 +7,4 @@ mod hostile;
 mod logs;
 mod mistakes;
 mod presliding;
+mod spoilt;

@@ -95,7 +95,8 @@ fn torques_in_another_unit_are_named() {
 fn a_shifted_zero_is_named() {
     let found = found(&changed(|j, q| if j == 0 { q - 0.15 } else { q }, same));
     match &found.mistake {
-        Some(Mistake::Zero { joint, shift }) => {
+        Some(Mistake::Zero { shifts }) => {
+            let [(joint, shift)] = &shifts[..] else { panic!("{shifts:?}") };
             assert_eq!(joint, "shoulder");
             assert!((shift - 0.15).abs() < 0.01, "{shift}");
         }

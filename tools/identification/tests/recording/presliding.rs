@@ -79,7 +79,7 @@ fn fitted(text: &str, gears: Gears<2>, scene: impl Effect<f64, 2, 2>) -> Fitted<
         acceleration: [3.0; 2],
         torque: [10.0, 3.0],
     };
-    let (model, bodies, joints) = off().model::<2>().expect("a model");
+    let (model, bodies, joints) = off().model::<2>(off().gravity).expect("a model");
     let arm = BaseModel::new(model, scene, Width::new(0.02), limits);
     let nominal = arm.of_all(&bodies, &joints.map(|[viscous, ..]| [viscous, 0.0, 0.0, 0.0]));
     let is_known = |name: String| name.contains("Coulomb") || name.contains("offset");

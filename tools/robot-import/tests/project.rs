@@ -133,7 +133,7 @@ impl Trial {
         assert!((10_000..128 * 1024).contains(&bytes), "{name} takes {bytes} B");
         // No board but this one has the code of drives on CAN.
         let symbols = self.run("arm-none-eabi-nm", &["--demangle", &elf]);
-        for of_can in ["joint_drivers::can_joints", "joint_drivers::mit", "::can::CHIP"] {
+        for of_can in ["joint_drivers::can::joints", "joint_drivers::can::mit", "::can::CHIP"] {
             let has_it = symbols.contains(of_can);
             assert_eq!(has_it, board.name == "nucleo-g474re-can", "{of_can} in {name}");
         }

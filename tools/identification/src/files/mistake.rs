@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::report::percent;
+use super::percent;
 
 /// A mistake in a recording.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -44,3 +44,12 @@ mod zeros;
 /// The most joints that a robot may have: its size is known to the compiler, which takes seconds for
 /// each. Without files, as in a wheel, they are those of an arm with a gripper.
 pub const MOST_JOINTS: usize = if cfg!(feature = "files") { 12 } else { 8 };
+
+/// A share in per cent; of nothing, none.
+fn percent(part: f64, of: f64) -> String {
+    match 100.0 * part / of {
+        share if share < 1000.0 => format!("{share:.1} %"),
+        share if share.is_nan() => "–".to_owned(),
+        _ => "> 999 %".to_owned(),
+    }
+}

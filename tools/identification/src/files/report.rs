@@ -11,6 +11,7 @@ use crate::OF_JOINT;
 use super::attempt::{JointEffect, OfOneJoint};
 use super::kinds::FrictionKind;
 use super::mistakes::{IMPOSSIBLE, Mistake};
+use super::percent;
 use super::resample::Sampling;
 
 /// The digits of numbers to paste.
@@ -163,14 +164,6 @@ impl Numbers {
 /// A number of six digits.
 pub fn rounded(x: f64) -> f64 {
     format!("{x:.*e}", DIGITS - 1).parse().unwrap_or(x)
-}
-
-/// A share in per cent; of nothing, none.
-pub(super) fn percent(part: f64, of: f64) -> String {
-    match 100.0 * part / of {
-        share if share < 1000.0 => format!("{share:.1} %"),
-        _ => "> 999 %".to_owned(),
-    }
 }
 
 /// A number of four digits.

@@ -17,14 +17,6 @@ pub enum IdentificationError {
         /// Torques.
         torques: usize,
     },
-    /// The samples are not those of whole periods.
-    #[error("{samples} samples are not whole periods of {each}")]
-    NotWholePeriods {
-        /// All samples.
-        samples: usize,
-        /// Those of a period.
-        each: usize,
-    },
     /// The interval between samples is not a positive time.
     #[error("the interval between samples is not a positive time")]
     Interval,
@@ -35,30 +27,6 @@ pub enum IdentificationError {
         sample: usize,
         /// The joint.
         joint: usize,
-    },
-    /// The harmonics are fewer than the parameters need, or a period has too few samples for them.
-    #[error(
-        "{harmonics} harmonics: at least {least} for the parameters, at most {most} for the \
-         samples of a period"
-    )]
-    Harmonics {
-        /// Those that were given.
-        harmonics: usize,
-        /// The fewest.
-        least: usize,
-        /// The most.
-        most: usize,
-    },
-    /// The motion does not show all base parameters: the condition number exceeds the greatest one
-    /// that is allowed.
-    #[error("the motion shows {rank} independent directions only; undetermined: {}", parameters.join("; "))]
-    RankDeficient {
-        /// The number of directions that the motion shows.
-        rank: usize,
-        /// The places of the base parameters that have a part in the others.
-        undetermined: Vec<usize>,
-        /// Their names.
-        parameters: Vec<String>,
     },
     /// The frequency up to which torques are compared is not positive, or too high for the ticks.
     #[error(

@@ -75,7 +75,8 @@ const DETERMINED: f64 = 0.1;
 pub struct Fit {
     /// The frequency up to which torques are compared, Hz: above that of the motion.
     pub cutoff: f64,
-    /// As [`Batch::delay`](crate::Batch::delay), s.
+    /// The time by which a torque is later than the position of the same sample, s: half a tick for
+    /// a torque that was commanded at the sample and is held for a tick.
     pub delay: f64,
     /// The standard deviation of each base parameter before the recording is known, by the torque
     /// that it makes: the root mean square over motions within the limits, as a share of the
@@ -429,6 +430,13 @@ fn residuals<const V: usize>(
 }
 
 impl<const V: usize> Fitted<V> {
+    /// The covariance of the base parameters, row by row.
+    #[must_use]
+    pub fn covariance(&self) -> Vec<Vec<f64>> {
+        let covariance = self.root.tr_mul(&self.root);
+        covariance.row_iter().map(|row| row.iter().copied().collect()).collect()
+    }
+
     /// Whether the recording determines a base parameter.
     #[must_use]
     pub fn is_determined(&self, base: usize) -> bool {
@@ -447,7 +455,13 @@ impl<const V: usize> Fitted<V> {
         })
     }
 
-    /// As [`Identified::physical`](crate::Identified::physical).
+    /// The possible parameters that agree best with the estimate and with nominal ones, if each
+    /// nominal number has this relative standard deviation: the most probable set.
+    ///
+    /// Parameters that the motion does not distinguish remain as near to the nominal numbers as the
+    /// estimate allows. A body without mass and a viscous friction, a Coulomb friction or an
+    /// armature of zero remains so; an offset is free. Each joint has the first N of
+    /// [`OfJoint`](crate::OfJoint).
     ///
     /// # Errors
     /// [`IdentificationError::ImpossibleBody`] names a nominal body without a positive definite

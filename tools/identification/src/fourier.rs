@@ -12,8 +12,7 @@ use motion_control::reference::Reference;
 /// q_j(t) = c_j + Σ_{h=1..H} (a_jh sin(h ω t) + b_jh cos(h ω t))      ω = 2π / T
 /// ```
 ///
-/// Its velocity and acceleration are derivatives of the same coefficients, so that a series that is
-/// fitted to measured positions gives both without a difference of measurements.
+/// Its velocity and acceleration are derivatives of the same coefficients.
 ///
 /// # Source
 /// Swevers, Ganseman, Tükel, de Schutter & Van Brussel, "Optimal robot excitation and
@@ -65,43 +64,6 @@ impl<const V: usize> FourierMotion<V> {
             (s, c) = (s * cosine + c * sine, c * cosine - s * sine);
         }
         state
-    }
-
-    /// The series of `harmonics` harmonics that is nearest to positions at equal intervals of one
-    /// period: least squares.
-    ///
-    /// With n positions the noise of each coefficient is √(2/n) times that of a position.
-    ///
-    /// ```
-    /// use identification::FourierMotion;
-    /// let swing = FourierMotion { period: 2.0, centre: [0.5], sines: vec![[0.1]], cosines: vec![[-0.2]] };
-    /// let measured: Vec<_> = (0..20).map(|k| swing.at(0.1 * f64::from(k)).q).collect();
-    /// let found = FourierMotion::fit(&measured, 2.0, 3);
-    /// assert!((found.at(0.77).qdd[0] - swing.at(0.77).qdd[0]).abs() < 1e-10);
-    /// ```
-    ///
-    /// # Panics
-    /// If there are no more than 2 `harmonics` positions, of which no such series is the nearest.
-    #[must_use]
-    pub fn fit(positions: &[[f64; V]], period: f64, harmonics: usize) -> Self {
-        let n = positions.len();
-        assert!(n > 2 * harmonics, "{n} positions, {harmonics} harmonics");
-        let sum = |weight: &dyn Fn(usize) -> f64| -> [f64; V] {
-            let mut sum = [0.0; V];
-            for (k, q) in positions.iter().enumerate() {
-                let weight = weight(k) / n as f64;
-                sum.iter_mut().zip(q).for_each(|(sum, q)| *sum += weight * q);
-            }
-            sum
-        };
-        let angle = |h: usize, k: usize| TAU * ((h * k) % n) as f64 / n as f64;
-        let all = 1..=harmonics;
-        Self {
-            period,
-            centre: sum(&|_| 1.0),
-            sines: (all.clone().map(|h| sum(&|k| 2.0 * angle(h, k).sin()))).collect(),
-            cosines: all.map(|h| sum(&|k| 2.0 * angle(h, k).cos())).collect(),
-        }
     }
 
     /// The same motion as a reference of a controller: this many periods in ticks of this length,

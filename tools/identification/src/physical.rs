@@ -13,8 +13,8 @@ use dynamics_core::effects::Effect;
 use dynamics_core::model::RobotModel;
 use nalgebra::{DMatrix, DVector, Matrix4};
 
-use crate::columns::{OF_JOINT, padded};
-use crate::{BaseModel, IdentificationError, Identified};
+use crate::columns::OF_JOINT;
+use crate::{BaseModel, IdentificationError};
 
 /// The share of the nominal pseudo-inertia and friction that remains in all directions: more than
 /// that of [`PhysicalParameters`](motion_control::estimate::PhysicalParameters), so that rounding
@@ -45,34 +45,7 @@ pub struct PhysicalSet<const B: usize, const V: usize> {
     pub misfit: f64,
 }
 
-impl<const V: usize> Identified<V> {
-    /// The possible parameters that agree best with the estimate and with nominal ones, if each
-    /// nominal number has this relative standard deviation: the most probable set.
-    ///
-    /// Parameters that the motion does not distinguish remain as near to the nominal numbers as the
-    /// estimate allows. A body without mass and a viscous friction, a Coulomb friction or an
-    /// armature of zero remains so; an offset is free. Each joint has the first N of
-    /// [`OfJoint`](crate::OfJoint).
-    ///
-    /// # Errors
-    /// [`IdentificationError::ImpossibleBody`] names a nominal body without a positive definite
-    /// pseudo-inertia.
-    pub fn physical<D, E, const B: usize, const N: usize>(
-        &self,
-        arm: &BaseModel<D, E, B, V>,
-        bodies: &[[f64; 10]; B],
-        joints: &[[f64; N]; V],
-        share: f64,
-    ) -> Result<PhysicalSet<B, V>, IdentificationError>
-    where
-        D: RobotModel<f64, B, V, V>,
-        E: Effect<f64, B, V>,
-    {
-        most_probable(&self.base, &self.root, arm, bodies, &padded(joints), share, STEPS)
-    }
-}
-
-/// [`Identified::physical`] of base parameters with the covariance SᵀS, in so many steps at most.
+/// [`Fitted::physical`](crate::Fitted::physical) of base parameters with the covariance SᵀS, in so many steps at most.
 pub(crate) fn most_probable<D, E, const B: usize, const V: usize>(
     base: &[f64],
     deviations: &DMatrix<f64>,

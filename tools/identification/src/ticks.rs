@@ -3,10 +3,7 @@
 use crate::IdentificationError;
 
 /// Positions and torques of V joints in consecutive ticks, of one or several uninterrupted
-/// stretches of any motion.
-///
-/// The motion need not repeat; that of a [`Recording`](crate::Recording) does, whose evaluation is
-/// the more exact one.
+/// stretches of any motion, which need not repeat.
 ///
 /// ```
 /// use identification::{IdentificationError, TickRecording};

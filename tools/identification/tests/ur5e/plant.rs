@@ -6,7 +6,7 @@ use dynamics_core::model::{ArmModel, Robot};
 use dynamics_core::robots::Ur5e;
 use dynamics_core::spatial::SpatialInertia;
 use dynamics_core::state::State;
-use identification::{FourierMotion, Recording};
+use identification::{FourierMotion, TickRecording};
 
 use crate::setup::*;
 
@@ -50,12 +50,12 @@ impl Run {
     }
 
     /// With white noise of the torques, N·m, of which the plant is free.
-    pub fn recorded(&self, noise: [f64; 6], seed: u64) -> Recording<6> {
+    pub fn recorded(&self, noise: [f64; 6], seed: u64) -> TickRecording<6> {
         self.coloured(noise, 0.0, seed)
     }
 
     /// With noise of which this share is that of the sample before.
-    pub fn coloured(&self, noise: [f64; 6], kept: f64, seed: u64) -> Recording<6> {
+    pub fn coloured(&self, noise: [f64; 6], kept: f64, seed: u64) -> TickRecording<6> {
         let mut rng = fastrand::Rng::with_seed(seed);
         let (mut now, fresh) = ([0.0; 6], (1.0 - kept * kept).sqrt());
         let torques = self.torques.iter().map(|tau| {
@@ -63,7 +63,7 @@ impl Run {
             std::array::from_fn(|j| tau[j] + noise[j] * now[j])
         });
         let torques = torques.collect();
-        Recording::try_new(self.positions.clone(), torques, EACH, TICK).expect("whole periods")
+        TickRecording::try_new(vec![(self.positions.clone(), torques)], TICK).expect("finite")
     }
 }
 

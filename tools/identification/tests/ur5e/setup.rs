@@ -8,7 +8,9 @@ use dynamics_core::model::{ArmModel, BodyInertia, Robot};
 use dynamics_core::robots::Ur5e;
 use dynamics_core::spatial::SpatialInertia;
 use dynamics_core::state::State;
-use identification::{BaseModel, ExcitationLimits, FourierMotion, Search};
+use identification::{
+    BaseModel, ExcitationLimits, Fit, Fitted, FourierMotion, Search, TickRecording,
+};
 use motion_control::reference::{Reference, Trajectory};
 
 use crate::generated;
@@ -128,8 +130,11 @@ impl Parameters {
     }
 }
 
-/// Harmonics of the evaluation, up to 15 Hz.
-pub const HARMONICS: usize = 75;
+/// The fit of a recording with the nominal model as the prior.
+pub fn fitted(arm: &Arm, recording: &TickRecording<6>, fit: Fit) -> Fitted<6> {
+    let nominal = Parameters::nominal().base();
+    fit.identify(arm, recording, &nominal, &vec![false; arm.len()], None).expect("a good motion")
+}
 
 /// A number of a normal distribution: Box & Muller.
 pub fn normal(rng: &mut fastrand::Rng) -> f64 {

@@ -135,7 +135,8 @@ fn identified_torques_are_within_1_percent_of_full_scale() {
     println!("within 2 deviations: {:.4}; of the worst arm:", coverage(&ALL, 2.0));
     for (k, of) in ["nominal model", "estimate", "physical set"].into_iter().enumerate() {
         let most = |of: fn(&Errors) -> f64| most(&ALL, |outcome| of(&outcome.torques[k][0]));
-        let [rms, largest, rated] = [|e: &Errors| e.rms, |e| e.largest, |e| e.rated].map(most);
+        let [rms, largest, rated] =
+            [|e: &Errors| e.rms, |e: &Errors| e.largest, |e: &Errors| e.rated].map(most);
         println!("{of}: RMS {rms:.4}, largest {largest:.4}, of the rated torque {rated:.4}");
     }
     for k in ESTIMATES {

@@ -163,7 +163,7 @@ impl Trial {
             "[package]\nname = \"on-host\"\nedition = \"2024\"\n[workspace]\n[dependencies]\n";
         put("Cargo.toml", &format!("{package}{}\n", lines.join("\n")));
         put("src/main.rs", include_str!("project/host.rs"));
-        for file in ["lib.rs", "board.rs", "control.rs", "robot.rs", "scene.rs"] {
+        for file in ["lib.rs", "board.rs", "control.rs", "robot.rs", "say.rs", "scene.rs"] {
             let text = fs::read_to_string(self.folder.join("src").join(file)).expect("a source");
             put(&format!("src/{file}"), &text);
         }

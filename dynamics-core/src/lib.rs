@@ -70,7 +70,7 @@ pub mod trig;
 
 mod textbook;
 pub use algorithms::{Ltdl, MassMatrix};
-pub use engine::Engine;
+pub use engine::{Engine, TreeLtdl, TreeMatrix};
 pub use textbook::Core;
 
 /// The vectors and matrices of the public API. Depend on them through this re-export: another minor

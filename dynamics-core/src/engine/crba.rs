@@ -13,6 +13,7 @@ use super::compile::{Compiled, CompiledJoint, JointMotion, JointPair};
 use super::folding::Folded;
 use super::joint_rates::Twist;
 use super::parallel_axes::Felt;
+use super::tree_matrix::{TreeMatrix, place};
 use super::{Engine, only_if};
 use crate::algorithms::MassMatrix;
 use crate::effects::{Declared, Effect, add_inertia};
@@ -58,15 +59,46 @@ impl<T, K> Engine<T, K> {
         scene_is_taken!();
         let trig = q.trig_or(Self::trig_source());
         let mut m = MassMatrix::ZERO;
-        Self::call(trig.borrow(), effects).mass_matrix(&mut m);
+        Self::call(trig.borrow(), effects).mass_matrix::<true>(&mut m.rows);
         m
+    }
+
+    /// The entries of M(q) that are not zero by the tree, up to the diagonal, into `m`: what
+    /// [`Engine::tree_ltdl`] needs. The bits are those of [`Engine::crba`].
+    ///
+    /// # Cost
+    /// The same without the stores of zeros and of the other triangle: 144 less 36 on a quadruped.
+    ///
+    /// # Source
+    /// As [`Engine::crba`].
+    ///
+    /// # Example
+    /// ```
+    /// use dynamics_core::{Engine, TreeMatrix, effects::RIGID_BODY, robots::A1};
+    /// let mut m = TreeMatrix::ZERO; // once, before the loop
+    /// Engine::<A1>::tree_crba(&[0.3_f32; 12], &RIGID_BODY, &mut m);
+    /// assert_eq!(m.square(), Engine::<A1>::crba(&[0.3; 12], &RIGID_BODY));
+    /// ```
+    #[inline(never)]
+    pub fn tree_crba<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+        q: &impl Configuration<R, Q>,
+        effects: &E,
+        m: &mut TreeMatrix<T, R, V>,
+    ) where
+        T: Robot<B, Q, V>,
+        K: Kernel<R>,
+        E: Effect<R, B, V>,
+    {
+        scene_is_taken!();
+        let trig = q.trig_or(Self::trig_source());
+        Self::call(trig.borrow(), effects).mass_matrix::<false>(&mut m.entries);
     }
 }
 
-/// The data that all bodies share.
-struct Task<'a, R: Real, T, E, const B: usize, const Q: usize, const V: usize> {
+/// The data that all bodies share; whether M is written as a square.
+struct Task<'a, R: Real, T, E, const B: usize, const Q: usize, const V: usize, const SQUARE: bool> {
     call: Call<'a, R, T, E, B, Q, V>,
-    m: &'a mut MassMatrix<R, V>,
+    rows: &'a mut [[R; V]; V],
     /// Zero, for joints on two branches.
     zero: R,
 }
@@ -77,16 +109,17 @@ where
     T: Compiled,
     E: Effect<R, B, V>,
 {
-    /// Writes M(q), both triangles, and what is zero by the tree's branches.
+    /// Writes M(q): as a square by rows, or the entries of the tree up to the diagonal, one behind
+    /// the other.
     #[cfg_attr(optimised, inline(always))]
-    pub(crate) fn mass_matrix(self, m: &mut MassMatrix<R, V>) {
+    pub(crate) fn mass_matrix<const SQUARE: bool>(self, rows: &mut [[R; V]; V]) {
         let mut zero = R::ZERO;
-        if !const { is_chain(T::SUPPORT) } {
+        if SQUARE && !const { is_chain(T::SUPPORT) } {
             // The compiler makes fills of zeros that it knows. On some processors these are calls,
             // which take longer than the rest of the algorithm.
             zero = black_box(zero);
         }
-        let mut task = Task { call: self, m, zero };
+        let mut task = Task::<_, _, _, B, Q, V, SQUARE> { call: self, rows, zero };
         for_each_joint!(
             J,
             CompiledJoint::<T, J>::IS_ON_BASE,
@@ -98,18 +131,22 @@ where
     }
 }
 
-impl<R, T, E, const B: usize, const Q: usize, const V: usize> Task<'_, R, T, E, B, Q, V>
+impl<R, T, E, const B: usize, const Q: usize, const V: usize, const SQUARE: bool>
+    Task<'_, R, T, E, B, Q, V, SQUARE>
 where
     R: Real,
     T: Compiled,
     E: Effect<R, B, V>,
 {
-    /// Writes the entry of joint I and the joint on the base.
+    /// Writes the entry of joint I and an ancestor.
     #[cfg_attr(optimised, inline(always))]
-    fn both<const I: usize>(&mut self, entry: Folded<R>) {
-        let (root, entry) = (CompiledJoint::<T, I>::ROOT, entry.get());
-        self.m.rows[I][root] = entry;
-        self.m.rows[root][I] = entry;
+    fn write<const I: usize>(&mut self, ancestor: usize, entry: R) {
+        if SQUARE {
+            self.rows[I][ancestor] = entry;
+            self.rows[ancestor][I] = entry;
+        } else {
+            self.rows.as_flattened_mut()[place::<T, I>(ancestor)] = entry;
+        }
     }
 
     /// Writes the columns of joint I and of its descendants; returns their inertia in the parent's
@@ -148,7 +185,7 @@ where
         );
         if CompiledJoint::<T, I>::IS_PARALLEL {
             let felt = Felt::of(&body, Self::own_spin::<I>(spin), &own) + beyond;
-            self.both::<I>(felt.between);
+            self.write::<I>(CompiledJoint::<T, I>::ROOT, felt.between.get());
             self.column::<I>(felt.about, &felt.wrench(&at), root);
             let left = felt.to_parent(&at, root);
             if CompiledJoint::<T, I>::PARENT.parent == BASE {
@@ -181,14 +218,13 @@ where
         let (mut diagonal, mut wrench) = (diagonal.get(), *wrench);
         let length_inv = Folded::constant(T::LENGTH_INV);
         add_inertia(self.call.effects, I, &mut diagonal);
-        self.m.rows[I][I] = diagonal;
+        self.write::<I>(I, diagonal);
         let couple = along_z(self.call.coupling::<I>());
         wrench = self.call.borne(wrench, couple);
         // From joint I to the base: parents come before their children.
         for_each_joint_reversed!(K, {
-            if K < I && !JointPair::<T, K, I>::SUPPORTS {
-                self.m.rows[I][K] = self.zero;
-                self.m.rows[K][I] = self.zero;
+            if SQUARE && K < I && !JointPair::<T, K, I>::SUPPORTS {
+                self.write::<I>(K, self.zero);
             }
             if JointPair::<T, K, I>::SUPPORTS {
                 let joint = CompiledJoint::<T, K>::JOINT;
@@ -202,13 +238,11 @@ where
                     let parent = CompiledJoint::<T, K>::PARENT;
                     if !(CompiledJoint::<T, I>::MEETS_ROOT && CompiledJoint::<T, K>::PARENT_ON_BASE)
                     {
-                        let entry = wrench.along(parent, length_inv).get();
-                        self.m.rows[I][joint.parent] = entry;
-                        self.m.rows[joint.parent][I] = entry;
+                        self.write::<I>(joint.parent, wrench.along(parent, length_inv).get());
                     }
                     if JointPair::<T, K, I>::IS_MEETING {
                         let power = root.ang.dot(wrench.n) + root.lin.dot(wrench.f);
-                        self.both::<I>(-power);
+                        self.write::<I>(CompiledJoint::<T, I>::ROOT, (-power).get());
                     }
                 }
             }

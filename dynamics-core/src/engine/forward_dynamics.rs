@@ -167,14 +167,14 @@ where
         let mut rest = self.remaining(state, tau);
         black_box(&mut rest);
         let mut m = MassMatrix::ZERO;
-        self.mass_matrix(&mut m);
+        self.mass_matrix::<true>(&mut m.rows);
         let noise = self.noise();
         let certain = self.certain();
-        let d_inv = decompose::<R, T, V>(&mut m.rows, &noise, &certain)?;
+        let d_inv = decompose::<R, T, V, false>(&mut m.rows, &noise, &certain)?;
         // A copy, since the array that the compiler cannot see through would stay in memory to the
         // end.
         let mut x = rest;
-        substitute::<R, T, V>(&m.rows, &d_inv, &mut x);
+        substitute::<R, T, V, false>(&m.rows, &d_inv, &mut x);
         Ok(x)
     }
 }

@@ -87,7 +87,7 @@ where
         let mut bias = self.bias(state);
         black_box(&mut bias);
         let mut m = MassMatrix::ZERO;
-        self.mass_matrix(&mut m);
+        self.mass_matrix::<true>(&mut m.rows);
         black_box(&mut m);
 
         let (mut free, mut tau, mut qdd) = ([true; V], [R::ZERO; V], [R::ZERO; V]);
@@ -115,8 +115,8 @@ where
                 }
             }
         });
-        let d_inv = decompose::<R, T, V>(&mut rows, &pivots, &[false; V])?;
-        substitute::<R, T, V>(&rows, &d_inv, &mut qdd);
+        let d_inv = decompose::<R, T, V, false>(&mut rows, &pivots, &[false; V])?;
+        substitute::<R, T, V, false>(&rows, &d_inv, &mut qdd);
 
         let moved = times::<R, T, V>(&m, &qdd);
         for_each_joint!(J, {

@@ -5,6 +5,7 @@
 
 use super::compile::{Compiled, CompiledRobot, JointPair};
 use super::pivot_noise::Singular;
+use super::tree_matrix::{TreeLtdl, TreeMatrix, place};
 use super::{Engine, Index, only_if};
 use crate::algorithms::{Ltdl, MassMatrix};
 use crate::algorithms::{MATRIX_ROUNDINGS, NotPositiveDefinite};
@@ -44,14 +45,9 @@ impl<T, K> Engine<T, K> {
         T: Robot<B, Q, V>,
     {
         let mut rows = m.rows;
-        let mut noise = [R::ZERO; V];
-        for_each_joint!(J, {
-            if Index::<J, V>::IS_BELOW {
-                noise[J] =
-                    rows[J][J] * (R::EPSILON * R::from_f64(MATRIX_ROUNDINGS)) + R::MIN_POSITIVE;
-            }
-        });
-        let d_inv = decompose::<R, CompiledRobot<T, B, Q, V>, V>(&mut rows, &noise, &[false; V])?;
+        let noise = noise::<R, CompiledRobot<T, B, Q, V>, V, false>(&rows);
+        let d_inv =
+            decompose::<R, CompiledRobot<T, B, Q, V>, V, false>(&mut rows, &noise, &[false; V])?;
         Ok(Ltdl { rows, d_inv })
     }
 
@@ -72,16 +68,110 @@ impl<T, K> Engine<T, K> {
         T: Robot<B, Q, V>,
     {
         let mut x = *tau;
-        substitute::<R, CompiledRobot<T, B, Q, V>, V>(&factor.rows, &factor.d_inv, &mut x);
+        substitute::<R, CompiledRobot<T, B, Q, V>, V, false>(&factor.rows, &factor.d_inv, &mut x);
         x
     }
+
+    /// The factors of M = Lᵀ D L in the place of M: the same bits as [`Engine::ltdl`] without a
+    /// copy of the matrix. M is gone then; the next [`Engine::tree_crba`] writes it again.
+    ///
+    /// # Cost
+    /// As [`Engine::ltdl`].
+    ///
+    /// # Source
+    /// Featherstone, RBDA (2008), table 6.3.
+    ///
+    /// # Example
+    /// That of [`TreeLtdl`].
+    ///
+    /// # Errors
+    /// As [`Engine::ltdl`].
+    #[cfg_attr(optimised, inline(always))]
+    pub fn tree_ltdl<R: Real, const B: usize, const Q: usize, const V: usize>(
+        m: &mut TreeMatrix<T, R, V>,
+    ) -> Result<TreeLtdl<'_, T, R, V>, NotPositiveDefinite>
+    where
+        T: Robot<B, Q, V>,
+    {
+        let noise = noise::<R, CompiledRobot<T, B, Q, V>, V, true>(&m.entries);
+        let d_inv = decompose::<R, CompiledRobot<T, B, Q, V>, V, true>(
+            &mut m.entries,
+            &noise,
+            &[false; V],
+        )?;
+        Ok(TreeLtdl { m, d_inv })
+    }
+
+    /// The solution x of M x = τ by these factors: accelerations of torques, rad/s² or m/s² of N·m
+    /// or N.
+    ///
+    /// # Cost
+    /// As [`Engine::solve`].
+    ///
+    /// # Source
+    /// RBDA (2008), table 6.4.
+    ///
+    /// # Example
+    /// That of [`TreeLtdl`].
+    #[cfg_attr(optimised, inline(always))]
+    #[must_use]
+    pub fn tree_solve<R: Real, const B: usize, const Q: usize, const V: usize>(
+        factor: &TreeLtdl<'_, T, R, V>,
+        tau: &[R; V],
+    ) -> [R; V]
+    where
+        T: Robot<B, Q, V>,
+    {
+        let mut x = *tau;
+        let TreeLtdl { m, d_inv } = factor;
+        substitute::<R, CompiledRobot<T, B, Q, V>, V, true>(&m.entries, d_inv, &mut x);
+        x
+    }
+}
+
+/// A function of a matrix and a column.
+type Entry<R, const V: usize> = fn(&[[R; V]; V], usize) -> R;
+
+/// Entry (I, j) of a triangle by rows of V, or of one whose entries of the tree stand one behind
+/// the other.
+#[cfg_attr(optimised, inline(always))]
+fn entry<R: Copy, T: Compiled, const V: usize, const PACKED: bool, const I: usize>(
+    m: &[[R; V]; V],
+    j: usize,
+) -> R {
+    if PACKED { m.as_flattened()[place::<T, I>(j)] } else { m[I][j] }
+}
+
+/// [`entry`] to write.
+#[cfg_attr(optimised, inline(always))]
+fn entry_mut<R, T: Compiled, const V: usize, const PACKED: bool, const I: usize>(
+    m: &mut [[R; V]; V],
+    j: usize,
+) -> &mut R {
+    if PACKED { &mut m.as_flattened_mut()[place::<T, I>(j)] } else { &mut m[I][j] }
+}
+
+/// The number that each pivot of M must exceed.
+#[cfg_attr(optimised, inline(always))]
+fn noise<R: Real, T: Compiled, const V: usize, const PACKED: bool>(m: &[[R; V]; V]) -> [R; V] {
+    let mut noise = [R::ZERO; V];
+    for_each_joint!(J, {
+        if Index::<J, V>::IS_BELOW
+            && let Some(diagonal) =
+                const { only_if(J < V, entry::<R, T, V, PACKED, J> as Entry<R, V>) }
+        {
+            noise[J] =
+                diagonal(m, J) * (R::EPSILON * R::from_f64(MATRIX_ROUNDINGS)) + R::MIN_POSITIVE;
+        }
+    });
+    noise
 }
 
 /// M's lower triangle becomes L; returns the reciprocals of D, whose pivots must exceed `noise`.
 /// Those that are certain to, in any state of numbers, are looked at only if that of a joint on the
 /// base does not, to which a NaN spreads.
 #[cfg_attr(optimised, inline(always))]
-pub(crate) fn decompose<R: Real, T, const V: usize>(
+pub(crate) fn decompose<R: Real, T, const V: usize, const PACKED: bool>(
     m: &mut [[R; V]; V],
     noise: &[R; V],
     certain: &[bool; V],
@@ -92,13 +182,16 @@ where
     let (mut d_inv, mut singular) = ([R::ZERO; V], Singular::default());
     for_each_joint_reversed!(K, {
         if Index::<K, V>::IS_BELOW
+            && let Some(pivot) =
+                const { only_if(K < V, entry::<R, T, V, PACKED, K> as Entry<R, V>) }
             && let Some(eliminate) =
-                const { only_if(K < V, eliminate::<R, T, V, K> as fn(&mut [[R; V]; V], R)) }
+                const { only_if(K < V, eliminate::<R, T, V, PACKED, K> as fn(&mut [[R; V]; V], R)) }
         {
+            let pivot = pivot(m, K);
             if !certain[K] {
-                singular.note::<R, K>(m[K][K], noise[K]);
+                singular.note::<R, K>(pivot, noise[K]);
             }
-            d_inv[K] = R::ONE / m[K][K];
+            d_inv[K] = R::ONE / pivot;
             eliminate(m, d_inv[K]);
         }
     });
@@ -115,8 +208,10 @@ where
 
 /// Row K of L, and its share of the rows of its ancestors.
 #[cfg_attr(optimised, inline(always))]
-fn eliminate<R: Real, T, const V: usize, const K: usize>(m: &mut [[R; V]; V], d_inv: R)
-where
+fn eliminate<R: Real, T, const V: usize, const PACKED: bool, const K: usize>(
+    m: &mut [[R; V]; V],
+    d_inv: R,
+) where
     T: Compiled,
 {
     for_each_joint_reversed!(I, {
@@ -124,26 +219,29 @@ where
             && let Some(subtract) = const {
                 only_if(
                     JointPair::<T, I, K>::IS_ANCESTOR,
-                    subtract::<R, T, V, K, I> as fn(&mut [[R; V]; V], R),
+                    subtract::<R, T, V, PACKED, K, I> as fn(&mut [[R; V]; V], R),
                 )
             }
         {
-            let l = m[K][I] * d_inv;
+            let l = entry::<R, T, V, PACKED, K>(m, I) * d_inv;
             subtract(m, l);
-            m[K][I] = l;
+            *entry_mut::<R, T, V, PACKED, K>(m, I) = l;
         }
     });
 }
 
 /// Row I less `l` times row K.
 #[cfg_attr(optimised, inline(always))]
-fn subtract<R: Real, T, const V: usize, const K: usize, const I: usize>(m: &mut [[R; V]; V], l: R)
-where
+fn subtract<R: Real, T, const V: usize, const PACKED: bool, const K: usize, const I: usize>(
+    m: &mut [[R; V]; V],
+    l: R,
+) where
     T: Compiled,
 {
     for_each_joint!(J, {
         if JointPair::<T, J, I>::SUPPORTS {
-            m[I][J] -= l * m[K][J];
+            let product = l * entry::<R, T, V, PACKED, K>(m, J);
+            *entry_mut::<R, T, V, PACKED, I>(m, J) -= product;
         }
     });
 }
@@ -153,7 +251,7 @@ type Row<R, const V: usize> = fn(&[[R; V]; V], &mut [R; V]);
 
 /// Lᵀ y = τ, D z = y, L x = z, in place.
 #[cfg_attr(optimised, inline(always))]
-pub(crate) fn substitute<R: Real, T, const V: usize>(
+pub(crate) fn substitute<R: Real, T, const V: usize, const PACKED: bool>(
     l: &[[R; V]; V],
     d_inv: &[R; V],
     x: &mut [R; V],
@@ -162,14 +260,16 @@ pub(crate) fn substitute<R: Real, T, const V: usize>(
 {
     for_each_joint_reversed!(I, {
         if Index::<I, V>::IS_BELOW
-            && let Some(scatter) = const { only_if(I < V, scatter::<R, T, V, I> as Row<R, V>) }
+            && let Some(scatter) =
+                const { only_if(I < V, scatter::<R, T, V, PACKED, I> as Row<R, V>) }
         {
             scatter(l, x);
         }
     });
     for_each_joint!(I, {
         if Index::<I, V>::IS_BELOW
-            && let Some(gather) = const { only_if(I < V, gather::<R, T, V, I> as Row<R, V>) }
+            && let Some(gather) =
+                const { only_if(I < V, gather::<R, T, V, PACKED, I> as Row<R, V>) }
         {
             x[I] *= d_inv[I];
             gather(l, x);
@@ -179,26 +279,30 @@ pub(crate) fn substitute<R: Real, T, const V: usize>(
 
 /// Subtracts from x_I the products with the entries of its ancestors.
 #[cfg_attr(optimised, inline(always))]
-fn scatter<R: Real, T, const V: usize, const I: usize>(l: &[[R; V]; V], x: &mut [R; V])
-where
+fn scatter<R: Real, T, const V: usize, const PACKED: bool, const I: usize>(
+    l: &[[R; V]; V],
+    x: &mut [R; V],
+) where
     T: Compiled,
 {
     for_each_joint!(J, {
         if JointPair::<T, J, I>::IS_ANCESTOR {
-            x[J] -= l[I][J] * x[I];
+            x[J] -= entry::<R, T, V, PACKED, I>(l, J) * x[I];
         }
     });
 }
 
 /// Subtracts the products with x_I from the entries of its ancestors.
 #[cfg_attr(optimised, inline(always))]
-fn gather<R: Real, T, const V: usize, const I: usize>(l: &[[R; V]; V], x: &mut [R; V])
-where
+fn gather<R: Real, T, const V: usize, const PACKED: bool, const I: usize>(
+    l: &[[R; V]; V],
+    x: &mut [R; V],
+) where
     T: Compiled,
 {
     for_each_joint!(J, {
         if JointPair::<T, J, I>::IS_ANCESTOR {
-            x[I] -= l[I][J] * x[J];
+            x[I] -= entry::<R, T, V, PACKED, I>(l, J) * x[J];
         }
     });
 }

@@ -124,6 +124,7 @@ mod rotors;
 mod subtree;
 mod torque_rates;
 mod totals;
+mod tree_matrix;
 mod wrenches;
 
 use core::borrow::Borrow;
@@ -141,6 +142,7 @@ pub(crate) use compile::{
     BendingTree, BodyPlacement, Compiled, CompiledJoint, CompiledRobot, Joint, JointMotion,
     compile_bending, has_subtree_functions, mat_add, outer, support,
 };
+pub use tree_matrix::{TreeLtdl, TreeMatrix};
 
 /// The algorithms specialised at compile time for the robot `T`; sines and cosines by the kernel
 /// `K`.

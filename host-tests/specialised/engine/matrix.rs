@@ -7,7 +7,7 @@ use dynamics_core::model::{BASE, Body, BodyInertia, Joint, Model, OnBody, Robot}
 use dynamics_core::robots::Ur5e;
 use dynamics_core::scalar::{Real, Vector};
 use dynamics_core::state::State;
-use dynamics_core::{Core, Engine};
+use dynamics_core::{Core, Engine, TreeMatrix};
 use host_tests::measured::largest;
 use host_tests::stress_robot::StressRobot;
 use host_tests::tolerances;
@@ -55,9 +55,16 @@ where
     E: Effect<f64, B, N>,
 {
     let (mut random, mut worst, mut scale) = (Random::new(), 0.0_f64, 0.0_f64);
+    let mut tree = TreeMatrix::ZERO;
     for _ in 0..200 {
         let q = random.array(3.0);
         let m = Engine::<T>::crba(&q, scene);
+        Engine::<T>::tree_crba(&q, scene, &mut tree);
+        assert_eq!(tree.square(), m);
+        let full = Engine::<T>::ltdl(&m).expect("M is positive");
+        let factors = Engine::<T>::tree_ltdl(&mut tree).expect("M is positive");
+        let found = Engine::<T>::tree_solve(&factors, &[1.0; N]);
+        assert_eq!(found, Engine::<T>::solve(&full, &[1.0; N]));
         for j in 0..N {
             let mut state = State::at(q);
             state.qdd[j] = 1.0;

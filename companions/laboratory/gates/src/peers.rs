@@ -14,11 +14,11 @@ mod start;
 
 use core::hint::black_box;
 
-use dynamics_core::Engine;
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::model::Robot;
 use dynamics_core::robots::*;
 use dynamics_core::state::State;
+use dynamics_core::{Engine, TreeMatrix};
 use firmware_demo::digest::Digest;
 use firmware_demo::scene::larger;
 use semihosting::println;
@@ -56,7 +56,8 @@ fn rnea<T: Robot<B, N, N>, const B: usize, const N: usize, const V: usize>(peers
 
 fn crba<T: Robot<B, N, N>, const B: usize, const N: usize, const V: usize>(peers: &[Peer]) {
     compare::<T, B, N>("crba", peers, |ask, triangle| {
-        let m = Engine::<T>::crba(&ask.trig, &RIGID_BODY);
+        let mut m = TreeMatrix::<T, f32, N>::ZERO;
+        Engine::<T>::tree_crba(&ask.trig, &RIGID_BODY, &mut m);
         let entries = (0..N).flat_map(|i| (i..N).map(move |j| (i, j)));
         for (entry, (i, j)) in triangle.iter_mut().zip(entries) {
             *entry = m.get(i, j);

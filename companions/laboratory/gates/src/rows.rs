@@ -5,7 +5,7 @@ use core::hint::black_box;
 use dynamics_core::effects::{Gravity, RIGID_BODY};
 use dynamics_core::model::Robot;
 use dynamics_core::state::{JointTrig, State};
-use dynamics_core::{Core, Engine};
+use dynamics_core::{Core, Engine, MassMatrix, TreeMatrix};
 use firmware_demo::digest::Digest;
 
 #[cfg(target_os = "none")]
@@ -45,19 +45,19 @@ pub fn asks<T: Robot<B, N, N>, const B: usize, const N: usize>() -> [Ask<N>; STA
 /// is not inlined.
 fn row<A, O>(
     [robot, algorithm, form, sines]: [&str; 4],
-    asks: &[A],
-    run: fn(&A) -> O,
-    bits: impl Fn(&O, &mut Digest),
+    asks: &mut [A],
+    run: fn(&mut A) -> O,
+    bits: impl Fn(&A, &O, &mut Digest),
 ) {
     let (mut digest, mut cycles, mut instructions) = (Digest::EMPTY, 0, 0);
     // Before the first call the core has not read the robot's constants; here that costs nothing,
     // since no memory has a cache.
-    for ask in &asks[..COUNTED] {
+    for ask in &mut asks[..COUNTED] {
         let begin = counters::read();
         // The function writes it here: a copy would be counted.
-        let result = black_box(run)(black_box(ask));
+        let result = black_box(run)(black_box(&mut *ask));
         let count = counters::between(begin, counters::read());
-        bits(&result, &mut digest);
+        bits(ask, &result, &mut digest);
         (cycles, instructions) = (count.cycles.max(cycles), count.instructions.max(instructions));
     }
     println!("row {robot} {algorithm} {form} {sines} {cycles} {instructions} {:016x}", digest.0);
@@ -103,35 +103,59 @@ impl<const N: usize> core::fmt::Display for Bits<N> {
 /// All rows of a robot.
 #[inline(never)]
 pub fn of<T: Robot<B, N, N>, const B: usize, const N: usize>() {
-    let asks = &asks::<T, B, N>();
+    let asks = &mut asks::<T, B, N>();
     macro_rules! rows {
-        ($($form:literal: $Form:ident, $forward:ident;)*) => {$(
+        ($form:literal: $Form:ident, $forward:ident) => {
             let name = |algorithm, sines| [T::MODEL.name, algorithm, $form, sines];
-            let torque = |tau: &[f32; N], digest: &mut Digest| digest.add(*tau);
-            row(name("rnea", "outside"), asks,
-                |ask: &Ask<N>| $Form::<T>::rnea(ask.trig.with(&ask.state), &RIGID_BODY), torque);
-            row(name("rnea", "inside"), asks,
-                |ask: &Ask<N>| $Form::<T>::rnea(&ask.state, &RIGID_BODY), torque);
-            row(name("gravity", "outside"), asks,
-                |ask: &Ask<N>| $Form::<T>::rnea(ask.trig.with(&ask.state), &(Gravity::EARTH,)),
-                torque);
-            row(name("crba", "outside"), asks,
-                |ask: &Ask<N>| $Form::<T>::crba(&ask.trig, &RIGID_BODY),
-                |m, digest| (0..N).for_each(|i| digest.add([(); N].map({
-                    let mut j = 0;
-                    move |()| { j += 1; m.get(i, j - 1) }
-                }))));
-            row(name("forward_dynamics", "outside"), asks,
-                |ask: &Ask<N>| {
-                    $Form::<T>::$forward(ask.trig.with(&ask.state), &ask.state.qdd, &RIGID_BODY)
-                },
-                |qdd, digest| digest.add(qdd.unwrap_or([f32::NAN; N])));
-            torques::<T, B, N>($form, asks,
-                |ask| $Form::<T>::rnea(ask.trig.with(&ask.state), &RIGID_BODY));
-        )*};
+            let numbers = |_: &Ask<N>, tau: &[f32; N], digest: &mut Digest| digest.add(*tau);
+            row(
+                name("rnea", "outside"),
+                asks,
+                |ask| $Form::<T>::rnea(ask.trig.with(&ask.state), &RIGID_BODY),
+                numbers,
+            );
+            row(
+                name("rnea", "inside"),
+                asks,
+                |ask| $Form::<T>::rnea(&ask.state, &RIGID_BODY),
+                numbers,
+            );
+            row(
+                name("gravity", "outside"),
+                asks,
+                |ask| $Form::<T>::rnea(ask.trig.with(&ask.state), &(Gravity::EARTH,)),
+                numbers,
+            );
+            row(
+                name("forward_dynamics", "outside"),
+                asks,
+                |ask| $Form::<T>::$forward(ask.trig.with(&ask.state), &ask.state.qdd, &RIGID_BODY),
+                |_, qdd, digest| digest.add(qdd.unwrap_or([f32::NAN; N])),
+            );
+            torques::<T, B, N>($form, asks, |ask| {
+                $Form::<T>::rnea(ask.trig.with(&ask.state), &RIGID_BODY)
+            });
+        };
     }
-    rows! { "core": Core, aba; }
-    rows! { "engine": Engine, forward_dynamics; }
+    rows! { "core": Core, aba }
+    rows! { "engine": Engine, forward_dynamics }
+    let add = |m: &MassMatrix<f32, N>, digest: &mut Digest| {
+        (0..N).filter_map(|i| m.row(i)).for_each(|row| digest.add(*row));
+    };
+    row(
+        [T::MODEL.name, "crba", "core", "outside"],
+        asks,
+        |ask| Core::<T>::crba(&ask.trig, &RIGID_BODY),
+        |_, m, digest| add(m, digest),
+    );
+    // The entries of the tree alone, as in a loop, whose matrix has its zeros from the start.
+    let mut with_matrix = asks.each_ref().map(|ask| (&ask.trig, TreeMatrix::ZERO));
+    row(
+        [T::MODEL.name, "crba", "engine", "outside"],
+        &mut with_matrix,
+        |(trig, m)| Engine::<T>::tree_crba(*trig, &RIGID_BODY, m),
+        |(_, m), (), digest| add(&m.square(), digest),
+    );
     #[cfg(not(target_os = "none"))]
     exact::<T, B, N>(asks);
 }
@@ -141,8 +165,8 @@ pub fn of<T: Robot<B, N, N>, const B: usize, const N: usize>() {
 pub fn derivatives<T: Robot<B, N, N>, const B: usize, const N: usize>() {
     row(
         [T::MODEL.name, "rnea_derivatives", "engine", "outside"],
-        &asks::<T, B, N>(),
+        &mut asks::<T, B, N>(),
         |ask| Engine::<T>::rnea_derivatives(ask.trig.with(&ask.state), &RIGID_BODY),
-        |by, digest| by.dq.iter().chain(&by.dqd).for_each(|row| digest.add(*row)),
+        |_, by, digest| by.dq.iter().chain(&by.dqd).for_each(|row| digest.add(*row)),
     );
 }

@@ -326,6 +326,15 @@ impl<T: Compiled, const I: usize> CompiledJoint<T, I> {
     /// Whether its parent is the joint on the base.
     pub(crate) const PARENT_ON_BASE: bool =
         Self::JOINT.parent != BASE && Self::PARENT.parent == BASE;
+    /// The number of entries in the rows of M before its own, up to their diagonals.
+    pub(crate) const ROW: usize = {
+        let (mut entries, mut i) = (0, 0);
+        while i < I && i < T::SUPPORT.len() {
+            entries += T::SUPPORT[i].count_ones() as usize;
+            i += 1;
+        }
+        entries
+    };
     /// The joint on the base that supports it.
     pub(crate) const ROOT: usize = root::<T>(I);
 }

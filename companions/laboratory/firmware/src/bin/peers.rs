@@ -11,6 +11,7 @@
 #[path = "../../../../../lab/firmware/src/bin/costs/row.rs"]
 mod row;
 
+use core::cell::UnsafeCell;
 use core::hint::black_box;
 
 use cortex_m_rt::entry;
@@ -23,7 +24,7 @@ use dynamics_core::robots::*;
 use dynamics_core::scalar::Vector;
 use dynamics_core::spatial::Force;
 use dynamics_core::state::{JointTrig, State, StateWithTrig};
-use dynamics_core::{Core, Engine, MassMatrix};
+use dynamics_core::{Core, Engine, TreeMatrix};
 use firmware_demo::scene::larger;
 use firmware_demo::target;
 use heapless::Vec;
@@ -36,7 +37,6 @@ type C = unsafe extern "C" fn(*const f32, *const f32, *const f32, *const f32, *m
 type Scene = (Gravity, Inertia, Coriolis);
 type Inverse<'a, E, const Q: usize, const V: usize> =
     fn(StateWithTrig<'a, f32, Q, V>, &E) -> [f32; V];
-type Matrix<const Q: usize, const V: usize> = fn(&JointTrig<f32, Q>, &Scene) -> MassMatrix<f32, V>;
 type Forward<'a, const Q: usize, const V: usize> =
     fn(StateWithTrig<'a, f32, Q, V>, &[f32; V], &Scene) -> Result<[f32; V], NotPositiveDefinite>;
 type Tip<const Q: usize, const BODY: usize> = fn(
@@ -128,15 +128,22 @@ fn under<T, E, const B: usize, const Q: usize, const V: usize>(
 
 fn crba<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>(peers: &[Peer]) {
     let asks = &asks::<T, B, Q, V>();
-    let forms: [Matrix<Q, V>; 2] = [Core::<T>::crba, Engine::<T>::crba];
-    compare(
+    let core: fn(&JointTrig<f32, Q>, &Scene) -> _ = Core::<T>::crba;
+    let engine: fn(&JointTrig<f32, Q>, &Scene, &mut _) = Engine::<T>::tree_crba;
+    // As in a loop, whose matrix has its zeros from the start.
+    let entries = UnsafeCell::new(TreeMatrix::<T, f32, V>::ZERO);
+    let triangle = |get: &dyn Fn(usize, usize) -> f32| {
+        (0..V).flat_map(|i| (i..V).map(move |j| (i, j))).map(|(i, j)| get(i, j)).collect()
+    };
+    compare_forms(
         (Of::robot::<T, B, Q, V>("crba"), asks, peers),
-        forms.map(|run| (run, run as usize)),
-        |run, ask| run(&ask.trig, &RIGID_BODY),
-        |m| {
-            let entries = (0..V).flat_map(|i| (i..V).map(move |j| (i, j)));
-            entries.map(|(i, j)| m.get(i, j)).collect()
-        },
+        (core as usize, |ask| core(&ask.trig, &RIGID_BODY), |m| triangle(&|i, j| m.get(i, j))),
+        // SAFETY: no other reference exists while the function runs, and none while it is read.
+        (
+            engine as usize,
+            |ask| engine(&ask.trig, &RIGID_BODY, unsafe { &mut *entries.get() }),
+            |()| triangle(&|i, j| unsafe { &*entries.get() }.get(i, j)),
+        ),
     );
 }
 
@@ -196,20 +203,33 @@ impl Of {
     }
 }
 
-/// An algorithm: ours by the core, which is the reference, and by the engine, each with its
-/// address, then each build of the C. The last entry of each row is the largest error, relative to
-/// full scale.
+/// An algorithm of which both of our forms have the same type.
 fn compare<'a, F: Copy, O, const Q: usize, const V: usize>(
-    (of, asks, peers): (Of, &'a [Ask<Q, V>; STATES], &[Peer]),
+    task: (Of, &'a [Ask<Q, V>; STATES], &[Peer]),
     [core, engine]: [(F, usize); 2],
     call: impl Fn(F, &'a Ask<Q, V>) -> O,
     flat: impl Fn(O) -> Vec<f32, MOST>,
+) {
+    compare_forms(
+        task,
+        (core.1, |ask| call(core.0, ask), &flat),
+        (engine.1, |ask| call(engine.0, ask), &flat),
+    );
+}
+
+/// An algorithm: ours by the core, which is the reference, and by the engine, each with its
+/// address and its numbers, then each build of the C. The last entry of each row is the largest error, relative to
+/// full scale.
+fn compare_forms<'a, O, P, const Q: usize, const V: usize>(
+    (of, asks, peers): (Of, &'a [Ask<Q, V>; STATES], &[Peer]),
+    core: (usize, impl Fn(&'a Ask<Q, V>) -> O, impl Fn(O) -> Vec<f32, MOST>),
+    engine: (usize, impl Fn(&'a Ask<Q, V>) -> P, impl Fn(P) -> Vec<f32, MOST>),
 ) {
     // Another firmware has the C of this function.
     if peers.is_empty() {
         return;
     }
-    let expected = |ask| flat(call(core.0, ask));
+    let expected = |ask| core.2(core.1(ask));
     let size = |numbers: Vec<f32, MOST>| numbers.iter().fold(0.0, |size, x| larger(size, x.abs()));
     let scale = asks.iter().fold(0.0, |scale, ask| larger(scale, size(expected(ask))));
     let report = |found: &mut dyn FnMut(&'a Ask<Q, V>) -> Vec<f32, MOST>| {
@@ -231,10 +251,10 @@ fn compare<'a, F: Copy, O, const Q: usize, const V: usize>(
         trig: false,
         joints: of.joints,
     };
-    for (form, (run, address)) in [("core", core), ("engine", engine)] {
-        row(form).measure(address, asks, |ask| call(run, ask));
-        report(&mut |ask| flat(call(run, ask)));
-    }
+    row("core").measure(core.0, asks, &core.1);
+    report(&mut |ask| core.2(core.1(ask)));
+    row("engine").measure(engine.0, asks, &engine.1);
+    report(&mut |ask| engine.2(engine.1(ask)));
     for &Peer { build, run } in peers {
         let call = |ask: &Ask<Q, V>, out: &mut [f32; MOST]| {
             let (qd, qdd) = (ask.state.qd.as_ptr(), ask.state.qdd.as_ptr());

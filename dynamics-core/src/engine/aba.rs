@@ -30,8 +30,8 @@ impl<T, K> Engine<T, K> {
     /// `state.qdd` is not read.
     ///
     /// # Cost
-    /// O(V), but more than that of `forward_dynamics` on short chains: `docs/costs.md` in the
-    /// repository.
+    /// O(V), but more than that of M and its factors on short chains: `docs/costs.md` in the
+    /// repository. [`Engine::forward_dynamics`] takes the cheaper one.
     ///
     /// # Source
     /// Featherstone (1983); RBDA (2008), table 7.1.
@@ -86,7 +86,7 @@ where
     E: Effect<R, B, V>,
 {
     #[cfg_attr(optimised, inline(always))]
-    fn accelerations_by_bodies(
+    pub(super) fn accelerations_by_bodies(
         self,
         state: &State<R, Q, V>,
         tau: &[R; V],

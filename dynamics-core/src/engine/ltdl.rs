@@ -129,9 +129,6 @@ impl<T, K> Engine<T, K> {
     }
 }
 
-/// A function of a matrix and a column.
-type Entry<R, const V: usize> = fn(&[[R; V]; V], usize) -> R;
-
 /// Entry (I, j) of a triangle by rows of V, or of one whose entries of the tree stand one behind
 /// the other.
 #[cfg_attr(optimised, inline(always))]
@@ -156,12 +153,9 @@ fn entry_mut<R, T: Compiled, const V: usize, const PACKED: bool, const I: usize>
 fn noise<R: Real, T: Compiled, const V: usize, const PACKED: bool>(m: &[[R; V]; V]) -> [R; V] {
     let mut noise = [R::ZERO; V];
     for_each_joint!(J, {
-        if Index::<J, V>::IS_BELOW
-            && let Some(diagonal) =
-                const { only_if(J < V, entry::<R, T, V, PACKED, J> as Entry<R, V>) }
-        {
-            noise[J] =
-                diagonal(m, J) * (R::EPSILON * R::from_f64(MATRIX_ROUNDINGS)) + R::MIN_POSITIVE;
+        if Index::<J, V>::IS_BELOW {
+            let diagonal = entry::<R, T, V, PACKED, J>(m, J);
+            noise[J] = diagonal * (R::EPSILON * R::from_f64(MATRIX_ROUNDINGS)) + R::MIN_POSITIVE;
         }
     });
     noise
@@ -182,12 +176,10 @@ where
     let (mut d_inv, mut singular) = ([R::ZERO; V], Singular::default());
     for_each_joint_reversed!(K, {
         if Index::<K, V>::IS_BELOW
-            && let Some(pivot) =
-                const { only_if(K < V, entry::<R, T, V, PACKED, K> as Entry<R, V>) }
             && let Some(eliminate) =
                 const { only_if(K < V, eliminate::<R, T, V, PACKED, K> as fn(&mut [[R; V]; V], R)) }
         {
-            let pivot = pivot(m, K);
+            let pivot = entry::<R, T, V, PACKED, K>(m, K);
             if !certain[K] {
                 singular.note::<R, K>(pivot, noise[K]);
             }

@@ -58,6 +58,7 @@ fn crba<T: Robot<B, N, N>, const B: usize, const N: usize, const V: usize>(peers
     compare::<T, B, N>("crba", peers, |ask, triangle| {
         let mut m = TreeMatrix::<T, f32, N>::ZERO;
         Engine::<T>::tree_crba(&ask.trig, &RIGID_BODY, &mut m);
+        let m = m.square();
         let entries = (0..N).flat_map(|i| (i..N).map(move |j| (i, j)));
         for (entry, (i, j)) in triangle.iter_mut().zip(entries) {
             *entry = m.get(i, j);

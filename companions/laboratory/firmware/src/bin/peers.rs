@@ -138,11 +138,15 @@ fn crba<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>(peers
     compare_forms(
         (Of::robot::<T, B, Q, V>("crba"), asks, peers),
         (core as usize, |ask| core(&ask.trig, &RIGID_BODY), |m| triangle(&|i, j| m.get(i, j))),
-        // SAFETY: no other reference exists while the function runs, and none while it is read.
         (
             engine as usize,
+            // SAFETY: no other reference exists while the function runs.
             |ask| engine(&ask.trig, &RIGID_BODY, unsafe { &mut *entries.get() }),
-            |()| triangle(&|i, j| unsafe { &*entries.get() }.get(i, j)),
+            |()| {
+                // SAFETY: the function has returned.
+                let m = unsafe { &*entries.get() }.square();
+                triangle(&|i, j| m.get(i, j))
+            },
         ),
     );
 }

@@ -123,6 +123,43 @@ fn forward_dynamics_inverts_rnea_on_an_odd_tree() {
     });
 }
 
+/// A chain of twelve joints.
+struct Long;
+
+impl Robot<12, 12, 12> for Long {
+    const MODEL: Model<f64, 12, 12, 12> = {
+        let joint = Joint::revolute([0.0, 0.6, 0.8]);
+        let mut bodies = [Body::new("link", BASE, joint); 12];
+        let mut i = 0;
+        while i < 12 {
+            bodies[i] = Body::new("link", if i == 0 { BASE } else { i - 1 }, joint)
+                .xyz([0.1, -0.05, 0.2])
+                .rpy([1.1, 0.0, 0.4 * i as f64])
+                .mass(1.5)
+                .com([0.02, 0.01, 0.1])
+                .inertia([0.02, 0.001, -0.002, 0.03, 0.003, 0.015]);
+            i += 1;
+        }
+        Model::new("long", bodies)
+    };
+}
+
+// The bits say which way it was: those of an arm differ from those of articulated bodies.
+#[test]
+fn the_compiler_takes_articulated_bodies_for_long_branches_alone() {
+    let mut random = Random::new();
+    let state = random.state::<f64, 12>();
+    let tau = Core::<Long>::rnea(&state, &RIGID_BODY);
+    let found = Engine::<Long>::forward_dynamics(&state, &tau, &RIGID_BODY);
+    assert_eq!(found, Engine::<Long>::aba(&state, &tau, &RIGID_BODY));
+    for (found, want) in found.expect("M is positive").iter().zip(state.qdd) {
+        assert!((found - want).abs() < 1e-8, "{found} {want}");
+    }
+    let (state, tau) = (random.state::<f64, 6>(), random.array(100.0));
+    let short = Engine::<Ur5e>::forward_dynamics(&state, &tau, &RIGID_BODY);
+    assert_ne!(short, Engine::<Ur5e>::aba(&state, &tau, &RIGID_BODY));
+}
+
 /// A smaller odd tree, since articulated bodies take the compiler long.
 pub(super) struct Fork;
 
